@@ -1,0 +1,34 @@
+# Language level, warnings, optimisation, sanitizers, fast linker and compiler cache.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
+set(CMAKE_CXX_FLAGS_SANITIZE
+    "-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined")
+set(CMAKE_EXE_LINKER_FLAGS_SANITIZE "-fsanitize=address,undefined")
+
+add_compile_options(-Wall -Wextra)
+if(VIBRISSA_WERROR)
+  add_compile_options(-Werror)
+endif()
+if(VIBRISSA_NATIVE)
+  add_compile_options(-march=native)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # GCC 12 warns inside its own AVX-512 intrinsics (GCC bug 105593). The debug and sanitize presets
+    # build without -march=native and keep both warnings.
+    add_compile_options(-Wno-maybe-uninitialized -Wno-uninitialized)
+  endif()
+endif()
+
+find_program(VIBRISSA_CCACHE ccache)
+if(VIBRISSA_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${VIBRISSA_CCACHE})
+endif()
+find_program(VIBRISSA_LLD ld.lld)
+if(VIBRISSA_LLD)
+  add_link_options(-fuse-ld=lld)
+endif()

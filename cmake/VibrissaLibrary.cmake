@@ -1,0 +1,24 @@
+get_filename_component(VIBRISSA_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
+
+# vibrissa_library(ROOM SOURCES ... LINK ...): the static library of one room (folder), vibrissa::ROOM.
+function(vibrissa_library room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(vibrissa_${room} STATIC ${ARG_SOURCES})
+  add_library(vibrissa::${room} ALIAS vibrissa_${room})
+  target_include_directories(vibrissa_${room} PUBLIC ${VIBRISSA_ROOT})
+  target_link_libraries(vibrissa_${room} PUBLIC ${ARG_LINK})
+endfunction()
+
+# vibrissa_tests(ROOM SOURCES ... LINK ...): the GoogleTest program of one room, one CTest test a case.
+function(vibrissa_tests room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(test_${room} ${ARG_SOURCES})
+  target_link_libraries(test_${room} PRIVATE ${ARG_LINK} GTest::gmock_main)
+  target_include_directories(test_${room} PRIVATE ${VIBRISSA_ROOT})
+  target_compile_definitions(test_${room} PRIVATE
+    VIBRISSA_SOURCE_DIR="${VIBRISSA_ROOT}"
+    VIBRISSA_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  include(GoogleTest)
+  gtest_discover_tests(test_${room} TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60
+                       PROPERTIES LABELS ${room})
+endfunction()

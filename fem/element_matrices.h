@@ -1,0 +1,46 @@
+#pragma once
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/tria.h>
+
+#include <Eigen/Dense>
+
+#include "fem/solid_space.h"
+#include "materials/material.h"
+
+namespace vibrissa::fem {
+
+/// Stiffness and mass of one cell at rest. Unknowns are ordered node by node (3 node + component).
+/// Stiffness: K = int B^T C_iso B + kappa D^T P^-1 D, the isochoric tangent of the law at rest and the
+/// volumetric part with div u projected to discontinuous linear functions psi of the cell
+/// (D = int psi div, P = int psi psi): Q2/DGP1 condensed. Mass: consistent, int rho N^T N.
+/// Proven by tests/fem/element_matrices_test.cc.
+class ElementMatrices {
+ public:
+  using CellMatrix = Eigen::Matrix<double, SolidSpace::dofs_per_cell, SolidSpace::dofs_per_cell,
+                                   Eigen::RowMajor>;
+
+  explicit ElementMatrices(const SolidSpace& space);
+  void reinit(const dealii::Triangulation<3>::cell_iterator& cell);
+  void stiffness(const materials::Material& material, CellMatrix& matrix);
+  void mass(double density, CellMatrix& matrix);
+
+ private:
+  static constexpr int n_nodes = SolidSpace::nodes_per_cell;
+  static constexpr int n_unknowns = SolidSpace::dofs_per_cell;
+  static constexpr int n_points = 27;
+  static constexpr int n_strains = 6;
+
+  void fill_strain_operator();
+  void fill_projection();
+
+  dealii::FEValues<3> values_;
+  // Row-major, so that each quadrature point's rows lie together.
+  using TallMatrix = Eigen::Matrix<double, Eigen::Dynamic, n_unknowns, Eigen::RowMajor>;
+  TallMatrix strain_, stress_;                             // [6 q + component][unknown]
+  Eigen::Matrix<double, 4, n_unknowns, Eigen::RowMajor> divergence_;  // D
+  Eigen::Matrix4d projection_mass_;                        // P
+};
+
+}  // namespace vibrissa::fem

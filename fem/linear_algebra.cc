@@ -1,0 +1,109 @@
+#include "fem/linear_algebra.h"
+
+#include <petscksp.h>
+
+#include <string>
+#include <vector>
+
+#include "fem/cholesky_settings.h"
+#include "signals/error.h"
+
+namespace vibrissa::fem {
+
+void check_petsc(const int error_code, const char* call) {
+  if (error_code != 0) {
+    throw std::runtime_error(std::string(call) + " failed with PETSc error " +
+                             std::to_string(error_code));
+  }
+}
+
+std::unique_ptr<Matrix> with_clamped_rows(const Matrix& matrix, const dealii::IndexSet& clamped,
+                                          const double diagonal) {
+  auto copy = std::make_unique<Matrix>();
+  copy->copy_from(matrix);
+  std::vector<PetscInt> rows;
+  for (const auto row : clamped) rows.push_back(static_cast<PetscInt>(row));
+  const Mat raw = *copy;
+  check_petsc(MatSetOption(raw, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE), "MatSetOption");
+  check_petsc(MatZeroRowsColumns(raw, static_cast<PetscInt>(rows.size()), rows.data(), diagonal,
+                                 nullptr, nullptr),
+              "MatZeroRowsColumns");
+  return copy;
+}
+
+void zero_entries(Vector& vector, const dealii::IndexSet& entries) {
+  for (const auto i : entries) vector[i] = 0.;
+  vector.compress(dealii::VectorOperation::insert);
+}
+
+std::unique_ptr<Matrix> combine(const double a, const Matrix& x, const double b, const Matrix& y) {
+  auto sum = std::make_unique<Matrix>();
+  sum->copy_from(x);
+  const Mat raw = *sum;
+  check_petsc(MatScale(raw, a), "MatScale");
+  const Mat raw_y = y;
+  check_petsc(MatAXPY(raw, b, raw_y, SAME_NONZERO_PATTERN), "MatAXPY");
+  return sum;
+}
+
+void use_mumps_cholesky(KSP solver) {
+  PC preconditioner = nullptr;
+  check_petsc(KSPSetType(solver, KSPPREONLY), "KSPSetType");
+  check_petsc(KSPGetPC(solver, &preconditioner), "KSPGetPC");
+  check_petsc(PCSetType(preconditioner, PCCHOLESKY), "PCSetType");
+  check_petsc(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
+}
+
+void order_with_metis(KSP solver) {
+  PC preconditioner = nullptr;
+  Mat factors = nullptr;
+  check_petsc(KSPGetPC(solver, &preconditioner), "KSPGetPC");
+  check_petsc(PCFactorSetUpMatSolverType(preconditioner), "PCFactorSetUpMatSolverType");
+  check_petsc(PCFactorGetMatrix(preconditioner, &factors), "PCFactorGetMatrix");
+  constexpr PetscInt ordering_control = 7, metis = 5;
+  check_petsc(MatMumpsSetIcntl(factors, ordering_control, metis), "MatMumpsSetIcntl");
+}
+
+void check_factors(KSP solver) {
+  PC preconditioner = nullptr;
+  Mat factors = nullptr;
+  MatFactorError error = MAT_FACTOR_NOERROR;
+  check_petsc(KSPGetPC(solver, &preconditioner), "KSPGetPC");
+  check_petsc(PCFactorGetMatrix(preconditioner, &factors), "PCFactorGetMatrix");
+  check_petsc(MatFactorGetError(factors, &error), "MatFactorGetError");
+  if (error == MAT_FACTOR_OUTMEMORY) {
+    throw signals::UserError(
+        "the sparse factorisation ran out of memory; lower the mesh resolution");
+  }
+  if (error != MAT_FACTOR_NOERROR) {
+    throw signals::UserError(
+        "the stiffness matrix is not positive definite: a part of the mesh is not held by the clamp "
+        "or a material is unstable; check regions, boundaries and moduli");
+  }
+}
+
+struct CholeskySolver::Factors {
+  KSP solver = nullptr;
+  ~Factors() { KSPDestroy(&solver); }
+};
+
+CholeskySolver::CholeskySolver(const Matrix& matrix) : factors_(std::make_unique<Factors>()) {
+  const Mat raw = matrix;
+  check_petsc(MatSetOption(raw, MAT_SPD, PETSC_TRUE), "MatSetOption");
+  check_petsc(KSPCreate(matrix.get_mpi_communicator(), &factors_->solver), "KSPCreate");
+  check_petsc(KSPSetOperators(factors_->solver, raw, raw), "KSPSetOperators");
+  use_mumps_cholesky(factors_->solver);
+  order_with_metis(factors_->solver);
+  check_petsc(KSPSetUp(factors_->solver), "KSPSetUp");
+  check_factors(factors_->solver);
+}
+
+CholeskySolver::~CholeskySolver() = default;
+
+void CholeskySolver::solve(const Vector& right_hand_side, Vector& solution) const {
+  const Vec b = right_hand_side;
+  const Vec x = solution;
+  check_petsc(KSPSolve(factors_->solver, b, x), "KSPSolve");
+}
+
+}  // namespace vibrissa::fem

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/lac/petsc_sparse_matrix.h>
+#include <deal.II/lac/petsc_vector.h>
+
+#include <memory>
+
+namespace vibrissa::fem {
+
+/// One back-end for one and for many processes. Vectors are not ghosted unless stated.
+using Matrix = dealii::PETScWrappers::MPI::SparseMatrix;
+using Vector = dealii::PETScWrappers::MPI::Vector;
+
+/// Turns a PETSc or SLEPc error code into an exception that names the call.
+void check_petsc(int error_code, const char* call);
+
+/// A copy of a symmetric matrix in which the given (owned) rows and columns are zero and their
+/// diagonal is as stated.
+std::unique_ptr<Matrix> with_clamped_rows(const Matrix& matrix, const dealii::IndexSet& clamped,
+                                          double diagonal);
+
+/// Sets the given (owned) entries to zero.
+void zero_entries(Vector& vector, const dealii::IndexSet& entries);
+
+/// a x + b y of two matrices with the same pattern.
+std::unique_ptr<Matrix> combine(double a, const Matrix& x, double b, const Matrix& y);
+
+/// Sparse Cholesky factors of a symmetric positive definite matrix (MUMPS, METIS ordering), kept
+/// for any number of solves. Throws signals::UserError when the matrix is not positive definite or
+/// memory runs out. The matrix must outlive the factors.
+class CholeskySolver {
+ public:
+  explicit CholeskySolver(const Matrix& matrix);
+  ~CholeskySolver();
+  CholeskySolver(const CholeskySolver&) = delete;
+  CholeskySolver& operator=(const CholeskySolver&) = delete;
+  void solve(const Vector& right_hand_side, Vector& solution) const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+}  // namespace vibrissa::fem

@@ -1,0 +1,248 @@
+#include "fem/linear_transient.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "signals/error.h"
+
+namespace vibrissa::fem {
+
+GeneralizedAlpha::GeneralizedAlpha(const double spectral_radius) {
+  if (!(spectral_radius >= 0. && spectral_radius <= 1.)) {
+    throw signals::UserError("spectral radius " + std::to_string(spectral_radius) +
+                             " is outside [0, 1]");
+  }
+  alpha_m = (2. * spectral_radius - 1.) / (spectral_radius + 1.);
+  alpha_f = spectral_radius / (spectral_radius + 1.);
+  gamma = 0.5 - alpha_m + alpha_f;
+  beta = 0.25 * (1. - alpha_m + alpha_f) * (1. - alpha_m + alpha_f);
+}
+
+namespace {
+
+/// Solves (A + s D W D^T) x = b, D the damping's mode forces and W their coefficients, by the factors
+/// of A and the Woodbury identity: the modal damping is of low rank and need not be assembled.
+class DampedSolver {
+ public:
+  DampedSolver(const SolidSpace& space, const Matrix& undamped, const ModalDamping& damping,
+               const double scale)
+      : factors_(undamped), small_(Eigen::MatrixXd::Zero(0, 0)) {
+    const auto n = static_cast<Eigen::Index>(damping.n_modes());
+    Eigen::MatrixXd small = Eigen::MatrixXd::Zero(n, n);
+    for (std::size_t k = 0; k < damping.n_modes(); ++k) {
+      if (damping.coefficient(k) == 0.) continue;
+      free_forces_.emplace_back(damping.force(k));
+      zero_entries(free_forces_.back(), space.clamped());
+      solved_.push_back(space.make_vector());
+      factors_.solve(free_forces_.back(), solved_.back());
+      inverse_weights_.push_back(1. / (scale * damping.coefficient(k)));
+    }
+    const auto used = static_cast<Eigen::Index>(solved_.size());
+    small.resize(used, used);
+    for (Eigen::Index i = 0; i < used; ++i) {
+      for (Eigen::Index j = 0; j < used; ++j) {
+        small(i, j) = free_forces_[static_cast<std::size_t>(i)] *
+                          solved_[static_cast<std::size_t>(j)] +
+                      (i == j ? inverse_weights_[static_cast<std::size_t>(i)] : 0.);
+      }
+    }
+    small_.compute(small);
+  }
+
+  void solve(const Vector& right_hand_side, Vector& solution) const {
+    factors_.solve(right_hand_side, solution);
+    if (solved_.empty()) return;
+    Eigen::VectorXd work(static_cast<Eigen::Index>(solved_.size()));
+    for (std::size_t k = 0; k < solved_.size(); ++k) {
+      work[static_cast<Eigen::Index>(k)] = free_forces_[k] * solution;
+    }
+    const Eigen::VectorXd correction = small_.solve(work);
+    for (std::size_t k = 0; k < solved_.size(); ++k) {
+      solution.add(-correction[static_cast<Eigen::Index>(k)], solved_[k]);
+    }
+  }
+
+ private:
+  CholeskySolver factors_;
+  std::vector<Vector> free_forces_, solved_;
+  std::vector<double> inverse_weights_;
+  Eigen::LDLT<Eigen::MatrixXd> small_;
+};
+
+double sample_of(const std::span<const double> values, const std::size_t i) {
+  return values.empty() ? 0. : values[i];
+}
+
+class LinearStepper {
+ public:
+  LinearStepper(const Sensor& sensor, const TransientInput& input, const TransientOptions& options)
+      : sensor_(sensor),
+        space_(sensor.space()),
+        input_(input),
+        alpha_(options.spectral_radius),
+        dt_(1. / (input.sampling_rate_hz * options.substeps)),
+        damping_(space_, sensor.operators(), sensor.modes(), sensor.damping_ratios()),
+        system_(combine((1. - alpha_.alpha_f) * alpha_.beta * dt_ * dt_,
+                        *sensor.operators().clamped_stiffness, 1. - alpha_.alpha_m,
+                        *sensor.operators().clamped_mass)),
+        solver_(space_, *system_, damping_, (1. - alpha_.alpha_f) * alpha_.gamma * dt_),
+        axis_(sensor.parameters().model.axial_direction()) {
+    for (Vector* v : {&state_.displacement, &state_.velocity, &state_.acceleration, &algorithmic_,
+                      &scratch_, &load_.external_force, &load_.damping_force, &wind_before_,
+                      &wind_after_, &force_before_, &force_after_}) {
+      *v = space_.make_vector();
+    }
+    for (unsigned int d = 0; d < 3; ++d) {
+      inertia_.push_back(space_.make_vector());
+      sensor.operators().mass->vmult(inertia_[d], space_.translation(d));
+    }
+    enter_sample(0);
+    set_load(0.);
+    start();
+  }
+
+  /// Forces at the sample and the one after it.
+  void enter_sample(const std::size_t i) {
+    before_ = i;
+    after_ = std::min(i + 1, input_.n_samples - 1);
+    if (input_.wind_speed.empty()) return;
+    for (auto [force, at] : {std::pair{&wind_before_, before_}, {&wind_after_, after_}}) {
+      *force = 0.;
+      sensor_.wind_surface().add_force(input_.wind_speed[at], *force);
+    }
+  }
+
+  /// One step of the integrator to the given fraction of the current sample interval.
+  void step(const double fraction) {
+    std::swap(force_before_, force_after_);
+    set_load(fraction);
+    const double b = alpha_.beta, g = alpha_.gamma, f = alpha_.alpha_f, m = alpha_.alpha_m;
+    auto& u = state_.displacement;
+    auto& v = state_.velocity;
+    // Predictors with zero new acceleration; the alpha-level averages are folded into the load.
+    Vector old_u(u), old_v(v);
+    u.add(dt_, v, dt_ * dt_ * (0.5 - b), algorithmic_);
+    v.add(dt_ * (1. - g), algorithmic_);
+    Vector level_u(u), level_v(v);
+    level_u.sadd(1. - f, f, old_u);
+    level_v.sadd(1. - f, f, old_v);
+
+    Vector right(force_after_);
+    right.sadd(1. - f, f, force_before_);
+    sensor_.operators().stiffness->vmult(scratch_, level_u);
+    right -= scratch_;
+    scratch_ = 0.;
+    damping_.add_force(level_v, scratch_);
+    right -= scratch_;
+    sensor_.operators().mass->vmult(scratch_, algorithmic_);
+    right.add(-m, scratch_);
+    zero_entries(right, space_.clamped());
+
+    Vector next = space_.make_vector();
+    solver_.solve(right, next);
+    u.add(b * dt_ * dt_, next);
+    v.add(g * dt_, next);
+    balance_acceleration(next);
+    algorithmic_ = next;
+    load_.damping_force = 0.;
+    damping_.add_force(v, load_.damping_force);
+  }
+
+  const SolidState& state() const { return state_; }
+  const SolidLoad& load() const { return load_; }
+
+ private:
+  void start() {
+    force_before_ = force_after_;
+    Vector right(force_after_);
+    zero_entries(right, space_.clamped());
+    if (right.l2_norm() == 0.) return;
+    const auto regular = with_clamped_rows(*sensor_.operators().mass, space_.clamped(), 1.);
+    CholeskySolver(*regular).solve(right, state_.acceleration);
+    algorithmic_ = state_.acceleration;
+  }
+
+  void set_load(const double fraction) {
+    const auto between = [&](const std::span<const double> values) {
+      return (1. - fraction) * sample_of(values, before_) + fraction * sample_of(values, after_);
+    };
+    const double a = between(input_.base_acceleration), c = between(input_.cross_acceleration);
+    load_.base_acceleration = {a * axis_[0] - c * axis_[1], a * axis_[1] + c * axis_[0], 0.};
+    load_.external_force = 0.;
+    if (!input_.wind_speed.empty()) {
+      load_.external_force.add(1. - fraction, wind_before_, fraction, wind_after_);
+    }
+    force_after_ = load_.external_force;
+    for (unsigned int d = 0; d < 3; ++d) {
+      force_after_.add(-load_.base_acceleration[d], inertia_[d]);
+    }
+  }
+
+  void balance_acceleration(const Vector& next) {
+    const double f = alpha_.alpha_f, m = alpha_.alpha_m;
+    auto& a = state_.acceleration;
+    a *= -f / (1. - f);
+    a.add((1. - m) / (1. - f), next, m / (1. - f), algorithmic_);
+  }
+
+  const Sensor& sensor_;
+  const SolidSpace& space_;
+  const TransientInput& input_;
+  GeneralizedAlpha alpha_;
+  double dt_;
+  ModalDamping damping_;
+  std::unique_ptr<Matrix> system_;
+  DampedSolver solver_;
+  std::array<double, 3> axis_;
+  std::size_t before_ = 0, after_ = 0;
+  SolidState state_;
+  SolidLoad load_;
+  Vector algorithmic_, scratch_;
+  Vector wind_before_, wind_after_;    // at the samples around
+  Vector force_before_, force_after_;  // body and wind force at the step's ends, all rows
+  std::vector<Vector> inertia_;        // M r_d
+};
+
+double largest(const std::array<double, 3>& moment) {
+  return std::max({std::abs(moment[0]), std::abs(moment[1]), std::abs(moment[2])});
+}
+
+}  // namespace
+
+TransientOutput simulate_linear(const Sensor& sensor, const TransientInput& input,
+                                const TransientOptions& options,
+                                const TransientObserver& observer) {
+  LinearStepper stepper(sensor, input, options);
+  const BaseMoment base_moment(sensor.space(), sensor.operators());
+  const auto e = sensor.parameters().model.axial_direction();
+  TransientOutput output;
+  double peak = 0., difference = 0.;
+  const auto record = [&](const std::size_t i) {
+    const auto moment = base_moment.by_reactions(stepper.state(), stepper.load());
+    // About e_z x axial, and about -axial (reduced_model.h).
+    output.base_moment.push_back(-moment[0] * e[1] + moment[1] * e[0]);
+    output.cross_moment.push_back(-(moment[0] * e[0] + moment[1] * e[1]));
+    if (options.check_balance) {
+      auto other = base_moment.by_balance(stepper.state(), stepper.load());
+      for (unsigned int d = 0; d < 3; ++d) other[d] -= moment[d];
+      difference = std::max(difference, largest(other));
+      peak = std::max(peak, largest(moment));
+    }
+    if (observer) observer(i, stepper.state());
+  };
+  record(0);
+  for (std::size_t i = 0; i + 1 < input.n_samples; ++i) {
+    stepper.enter_sample(i);
+    for (unsigned int s = 1; s <= options.substeps; ++s) {
+      stepper.step(static_cast<double>(s) / options.substeps);
+    }
+    record(i + 1);
+  }
+  output.largest_route_difference = peak > 0. ? difference / peak : 0.;
+  return output;
+}
+
+}  // namespace vibrissa::fem

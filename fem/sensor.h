@@ -1,0 +1,56 @@
+#pragma once
+
+#include <deal.II/grid/tria.h>
+
+#include <memory>
+#include <vector>
+
+#include "fem/damping.h"
+#include "fem/model_parameters.h"
+#include "fem/modes.h"
+#include "fem/solid_operators.h"
+#include "fem/solid_space.h"
+#include "fem/wind_surface.h"
+#include "flow/wind.h"
+#include "materials/sensor_materials.h"
+#include "meshes/sensor_geometry.h"
+
+namespace vibrissa::fem {
+
+struct SensorParameters {
+  meshes::SensorGeometry geometry;
+  materials::SensorMaterials materials;
+  ModelParameters model;
+  flow::WindParameters wind;
+};
+
+/// The meshed sensor with its operators at rest and its damped modes: everything that the reduced and
+/// the full-order model are made of.
+class Sensor {
+ public:
+  /// Meshes (or reads), assembles and solves. Throws UserError for parameters that make no sensor.
+  explicit Sensor(const SensorParameters& parameters);
+
+  const SensorParameters& parameters() const { return parameters_; }
+  const dealii::Triangulation<3>& mesh() const { return *mesh_; }
+  const SolidSpace& space() const { return *space_; }
+  const SolidOperators& operators() const { return operators_; }
+  const std::vector<Mode>& modes() const { return modes_; }
+  const std::vector<double>& damping_ratios() const { return damping_ratios_; }
+  const WindSurface& wind_surface() const { return *wind_surface_; }
+  double mass_kg() const;
+
+ private:
+  SensorParameters parameters_;
+  std::unique_ptr<dealii::Triangulation<3>> mesh_;
+  std::unique_ptr<SolidSpace> space_;
+  SolidOperators operators_;
+  std::vector<Mode> modes_;
+  std::vector<double> damping_ratios_;
+  std::unique_ptr<WindSurface> wind_surface_;
+};
+
+/// Throws UserError when geometry, materials, model or wind contradict themselves.
+void check(const SensorParameters& parameters);
+
+}  // namespace vibrissa::fem

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace vibrissa::flow {
+
+/// Wind speed over height, relative to its reference: uniform (1) or parabolic, 2 s - s^2 with
+/// s = z/height (0 at the support, 1 at the tip).
+enum class WindProfile { uniform, parabolic };
+
+/// The factor at height z; s is held within [0, 1], so that a point that rounding or deflection
+/// puts outside has the value of the end. Proven by tests/flow/wind_profile_test.cc.
+double profile_factor(WindProfile profile, double z, double height);
+
+}  // namespace vibrissa::flow

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <array>
+#include <variant>
+
+namespace vibrissa::materials {
+
+using Strain = dealii::SymmetricTensor<2, 3>;   // Green-Lagrange E = (F^T F - I)/2
+using Stress = dealii::SymmetricTensor<2, 3>;   // second Piola-Kirchhoff S = dW/dE [Pa]
+using Tangent = dealii::SymmetricTensor<4, 3>;  // dS/dE [Pa]
+
+// Every function here is total: a strain that belongs to no deformation (C = I + 2E not positive
+// definite, beyond rounding) gives NaN in energy, stress and tangent, for a line search to look
+// for. C = F^T F cannot show that F turned inside out (det F < 0): whoever has F checks that.
+
+/// Isochoric Yeoh law, W = sum_i c_i (I1bar - 3)^i per reference volume [J/m^3],
+/// I1bar = J^(-2/3) tr C, C = I + 2E (Yeoh, Rubber Chem. Technol. 66, 1993, with I1bar for I1).
+/// Shear modulus at rest 2 c_1. Stress and tangent keep their digits down to E = 0.
+/// Proven by tests/materials/isochoric_law_test.cc: StressIsTheDerivativeOfEnergy,
+/// TangentIsTheDerivativeOfStress, NearRestFollowsTheLinearLaw, and the closed forms there.
+struct Yeoh {
+  std::array<double, 3> c{};  // Pa
+  double energy(const Strain& e) const;
+  Stress stress(const Strain& e) const;
+  Tangent tangent(const Strain& e) const;
+};
+
+/// Isochoric neo-Hookean law, W = mu/2 (I1bar - 3). Proven by the same tests.
+struct NeoHookean {
+  double shear_modulus = 0.;  // Pa
+  double energy(const Strain& e) const;
+  Stress stress(const Strain& e) const;
+  Tangent tangent(const Strain& e) const;
+};
+
+using IsochoricLaw = std::variant<Yeoh, NeoHookean>;
+
+/// I1bar - 3 without cancellation near rest: error below 1e-14 |E|^2 for moderate strain, where |E|
+/// is the norm of the whole strain. Proven by isochoric_law_test.cc, I1barMinus3.
+double i1bar_minus_3(const Strain& e);
+
+/// J - 1 = sqrt(det C) - 1 from E without cancellation near rest: error below 1e-15 |E|; NaN when
+/// det C < 0. Proven by isochoric_law_test.cc, JacobianMinus1.
+double jacobian_minus_1(const Strain& e);
+
+}  // namespace vibrissa::materials

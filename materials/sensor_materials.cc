@@ -1,0 +1,102 @@
+#include "materials/sensor_materials.h"
+
+#include <sstream>
+
+#include "signals/error.h"
+
+namespace vibrissa::materials {
+
+namespace {
+
+using dealii::ParameterHandler;
+using dealii::Patterns::Double;
+
+std::string text(const double value) {
+  std::ostringstream out;
+  out.precision(12);  // hides the last bits of moduli recomputed from one another
+  out << value;
+  return out.str();
+}
+
+void declare_body(ParameterHandler& prm, const Material& nominal) {
+  prm.declare_entry("Density", text(nominal.density), Double(1., 1e5),
+                    "Mass per undeformed volume [kg/m^3].");
+  prm.declare_entry("Loss factor", text(nominal.loss_factor), Double(0., 10.),
+                    "Loss factor of the stress [1], the same at any frequency; 0 means that this "
+                    "material adds no damping of its own.");
+}
+
+void declare_rubber(ParameterHandler& prm, const Material& nominal) {
+  const auto& c = std::get<Yeoh>(nominal.isochoric).c;
+  const std::string energy =
+      "Pa, in the strain energy W = c1 x + c2 x^2 + c3 x^3 per undeformed volume, x = I1bar - 3";
+  prm.declare_entry("c1", text(c[0]), Double(1., 1e12),
+                    "Yeoh coefficient [" + energy + "]; the shear modulus at rest is 2 c1.");
+  prm.declare_entry("c2", text(c[1]), Double(), "Yeoh coefficient [" + energy + "].");
+  prm.declare_entry("c3", text(c[2]), Double(), "Yeoh coefficient [" + energy + "].");
+  prm.declare_entry("Bulk modulus", text(nominal.volumetric.bulk_modulus), Double(10., 1e13),
+                    "Bulk modulus [Pa], at least twenty c1 (ten shear moduli).");
+  declare_body(prm, nominal);
+}
+
+void declare_elastic(ParameterHandler& prm, const Material& nominal) {
+  prm.declare_entry("Young modulus", text(nominal.youngs_modulus_at_rest()), Double(1., 1e13),
+                    "Young's modulus at small strain [Pa].");
+  prm.declare_entry("Poisson ratio", text(nominal.poisson_ratio_at_rest()), Double(-0.99, 0.4999),
+                    "Poisson's ratio at small strain [1].");
+  declare_body(prm, nominal);
+}
+
+Material parse_rubber(ParameterHandler& prm) {
+  return make_yeoh({prm.get_double("c1"), prm.get_double("c2"), prm.get_double("c3")},
+                   prm.get_double("Bulk modulus"), prm.get_double("Density"),
+                   prm.get_double("Loss factor"));
+}
+
+Material parse_elastic(ParameterHandler& prm) {
+  return make_elastic(prm.get_double("Young modulus"), prm.get_double("Poisson ratio"),
+                      prm.get_double("Density"), prm.get_double("Loss factor"));
+}
+
+Material parse_subsection(ParameterHandler& prm, const std::string& name,
+                          Material (*const parse_entries)(ParameterHandler&)) {
+  prm.enter_subsection(name);
+  try {
+    const Material material = parse_entries(prm);
+    prm.leave_subsection();
+    return material;
+  } catch (const signals::UserError& error) {
+    throw signals::UserError("subsection Materials/" + name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+void SensorMaterials::declare(ParameterHandler& prm) {
+  const SensorMaterials nominal;
+  prm.enter_subsection("Materials");
+  prm.enter_subsection("Silicone");
+  declare_rubber(prm, nominal.silicone);
+  prm.leave_subsection();
+  prm.enter_subsection("Wire");
+  declare_elastic(prm, nominal.wire);
+  prm.leave_subsection();
+  prm.enter_subsection("Fin");
+  declare_elastic(prm, nominal.fin);
+  prm.leave_subsection();
+  prm.leave_subsection();
+}
+
+void SensorMaterials::parse(ParameterHandler& prm) {
+  prm.enter_subsection("Materials");
+  silicone = parse_subsection(prm, "Silicone", parse_rubber);
+  wire = parse_subsection(prm, "Wire", parse_elastic);
+  fin = parse_subsection(prm, "Fin", parse_elastic);
+  prm.leave_subsection();
+}
+
+std::map<std::string, Material> SensorMaterials::by_region() const {
+  return {{"silicone", silicone}, {"wire", wire}, {"fin", fin}};
+}
+
+}  // namespace vibrissa::materials

@@ -1,0 +1,204 @@
+#include "meshes/mesh_audit.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include "meshes/regions.h"
+#include "signals/error.h"
+
+namespace vibrissa::meshes {
+
+namespace {
+
+using Cell = dealii::Triangulation<3>::active_cell_iterator;
+
+constexpr unsigned int n_gauss = 4;
+constexpr double coordinate_step_m = 1e-12;
+
+/// Smallest admissible det J, relative to the largest of the cell and to a cube of the same
+/// diameter.
+constexpr double least_jacobian_ratio = 1e-6, least_cube_ratio = 1e-12;
+
+std::string place_of(const dealii::Point<3>& p) {
+  std::ostringstream text;
+  text << "at (" << p[0] << ", " << p[1] << ", " << p[2] << ") m";
+  return text.str();
+}
+
+/// Runs a look-up of a name and adds the place to its complaint.
+template <class Lookup>
+std::string name_at(const dealii::Point<3>& place, const std::string& what, const Lookup& lookup) {
+  try {
+    return lookup();
+  } catch (const signals::UserError& error) {
+    throw signals::UserError("mesh: " + what + " " + place_of(place) + ": " + error.what());
+  }
+}
+
+std::string region_of(const Cell& cell) {
+  return name_at(cell->center(), "cell", [&] { return region_name(cell->material_id()); });
+}
+
+/// Gauss points for integrals and, without weight, the corners, where a distorted cell fails first.
+dealii::Quadrature<3> gauss_points_and_corners() {
+  const dealii::QGauss<3> gauss(n_gauss);
+  std::vector<dealii::Point<3>> points = gauss.get_points();
+  std::vector<double> weights = gauss.get_weights();
+  for (const unsigned int v : dealii::GeometryInfo<3>::vertex_indices()) {
+    points.push_back(dealii::GeometryInfo<3>::unit_cell_vertex(v));
+    weights.push_back(0.);
+  }
+  return dealii::Quadrature<3>(points, weights);
+}
+
+struct CellMeasure {
+  double volume_m3 = 0.;
+  double jacobian_ratio = 0.;
+};
+
+/// det J is taken from the Jacobian: deal.II's own volume element asserts on inverted cells.
+CellMeasure measure(const Cell& cell, const dealii::FEValues<3>& values) {
+  CellMeasure result;
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0.;
+  for (const unsigned int q : values.quadrature_point_indices()) {
+    const double det = dealii::determinant(dealii::Tensor<2, 3>(values.jacobian(q)));
+    result.volume_m3 += det * values.get_quadrature().weight(q);
+    smallest = std::min(smallest, det);
+    largest = std::max(largest, std::abs(det));
+  }
+  result.jacobian_ratio = smallest / largest;
+  const double cube = std::pow(cell->diameter() / std::sqrt(3.), 3);
+  if (!(smallest > least_jacobian_ratio * largest && smallest > least_cube_ratio * cube)) {
+    std::ostringstream text;
+    text << "mesh: inverted or degenerate cell " << place_of(cell->center())
+         << ": its Jacobian determinant falls to " << smallest << " m^3";
+    throw signals::UserError(text.str());
+  }
+  return result;
+}
+
+bool counts_interface(const Cell& cell, const unsigned int face) {
+  if (cell->face(face)->has_children()) return false;
+  if (cell->neighbor_is_coarser(face)) return true;
+  return cell->id() < cell->neighbor(face)->id();
+}
+
+double face_area(const Cell& cell, const unsigned int face, dealii::FEFaceValues<3>& values) {
+  values.reinit(cell, face);
+  double area = 0.;
+  for (const double weight : values.get_JxW_values()) area += weight;
+  return area;
+}
+
+void add_faces(const Cell& cell, const std::string& region, dealii::FEFaceValues<3>& values,
+               MeshAudit& audit) {
+  for (const unsigned int f : cell->face_indices()) {
+    const auto face = cell->face(f);
+    if (face->at_boundary()) {
+      const std::string name =
+          name_at(face->center(), "outer face", [&] { return boundary_name(face->boundary_id()); });
+      audit.boundary_area_m2[name] += face_area(cell, f, values);
+    } else if (cell->material_id() != cell->neighbor(f)->material_id() &&
+               counts_interface(cell, f)) {
+      const std::string other = region_of(cell->neighbor(f));
+      audit.interface_area_m2[std::minmax(region, other)] += face_area(cell, f, values);
+    }
+  }
+}
+
+void add_masses(const std::map<std::string, double>& density_kg_m3, MeshAudit& audit) {
+  if (density_kg_m3.empty()) return;
+  for (const auto& [region, volume] : audit.region_volume_m3) {
+    const auto density = density_kg_m3.find(region);
+    if (density == density_kg_m3.end())
+      throw signals::UserError("mesh: region '" + region + "' has no density");
+    audit.region_mass_kg[region] = density->second * volume;
+  }
+}
+
+/// SHA-256 of integers, written as eight bytes, low byte first.
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new()) {
+    check(EVP_DigestInit_ex(context_, EVP_sha256(), nullptr));
+  }
+  ~Sha256() { EVP_MD_CTX_free(context_); }
+  Sha256(const Sha256&) = delete;
+  Sha256& operator=(const Sha256&) = delete;
+
+  void add(const std::int64_t value) {
+    std::array<unsigned char, 8> bytes;
+    for (unsigned int i = 0; i < bytes.size(); ++i)
+      bytes[i] = (static_cast<std::uint64_t>(value) >> (8 * i)) & 0xff;
+    check(EVP_DigestUpdate(context_, bytes.data(), bytes.size()));
+  }
+
+  std::string hex() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+    unsigned int size = 0;
+    check(EVP_DigestFinal_ex(context_, digest.data(), &size));
+    std::string text;
+    for (unsigned int i = 0; i < size; ++i)
+      for (const unsigned int nibble : {digest[i] >> 4, digest[i] & 0xf})
+        text += "0123456789abcdef"[nibble];
+    return text;
+  }
+
+ private:
+  static void check(const int status) {
+    if (status != 1) throw std::runtime_error("OpenSSL cannot compute SHA-256");
+  }
+  EVP_MD_CTX* context_;
+};
+
+}  // namespace
+
+MeshAudit audit_mesh(const dealii::Triangulation<3>& mesh, const dealii::Mapping<3>& mapping,
+                     const std::map<std::string, double>& density_kg_m3) {
+  const dealii::FE_Nothing<3> no_field;
+  dealii::FEValues<3> cell_values(mapping, no_field, gauss_points_and_corners(),
+                                  dealii::update_jacobians);
+  dealii::FEFaceValues<3> face_values(mapping, no_field, dealii::QGauss<2>(n_gauss),
+                                      dealii::update_JxW_values);
+  MeshAudit audit;
+  audit.n_cells = mesh.n_active_cells();
+  audit.smallest_jacobian_ratio = 1.;
+  for (const Cell& cell : mesh.active_cell_iterators()) {
+    const std::string region = region_of(cell);
+    cell_values.reinit(cell);
+    const CellMeasure cell_measure = measure(cell, cell_values);
+    audit.region_volume_m3[region] += cell_measure.volume_m3;
+    audit.smallest_jacobian_ratio =
+        std::min(audit.smallest_jacobian_ratio, cell_measure.jacobian_ratio);
+    add_faces(cell, region, face_values, audit);
+  }
+  if (!audit.boundary_area_m2.contains("clamp"))
+    throw signals::UserError("mesh: no outer face belongs to the boundary 'clamp'");
+  add_masses(density_kg_m3, audit);
+  audit.sha256 = mesh_sha256(mesh);
+  return audit;
+}
+
+std::string mesh_sha256(const dealii::Triangulation<3>& mesh) {
+  Sha256 sha;
+  for (const dealii::Point<3>& vertex : mesh.get_vertices())
+    for (unsigned int d = 0; d < 3; ++d) sha.add(std::llround(vertex[d] / coordinate_step_m));
+  for (const Cell& cell : mesh.active_cell_iterators()) {
+    sha.add(cell->material_id());
+    for (const unsigned int v : cell->vertex_indices()) sha.add(cell->vertex_index(v));
+    for (const auto& face : cell->face_iterators()) sha.add(face->boundary_id());
+  }
+  return sha.hex();
+}
+
+}  // namespace vibrissa::meshes

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "signals/error.h"
+
+namespace vibrissa::report {
+
+/// Throws UserError with the file and, for text that is no JSON, the line and column.
+nlohmann::json read_json(const std::filesystem::path& file);
+
+/// Two-space indented, lists of numbers on one line each; the file is whole or not there at all.
+void write_json(const std::filesystem::path& file, const nlohmann::json& json);
+
+/// json[key] as a T. Throws UserError that names the key when it is missing or of another type.
+template <typename T>
+T required(const nlohmann::json& json, const std::string& key) {
+  const auto entry = json.is_object() ? json.find(key) : json.end();
+  if (entry == json.end()) throw signals::UserError("'" + key + "' is missing");
+  try {
+    return entry->template get<T>();
+  } catch (const nlohmann::json::exception&) {
+    throw signals::UserError("'" + key + "' has the wrong type: " + entry->dump().substr(0, 40));
+  }
+}
+
+/// As required(), with a default for a missing key.
+template <typename T>
+T given_or(const nlohmann::json& json, const std::string& key, const T& otherwise) {
+  return json.is_object() && json.contains(key) ? required<T>(json, key) : otherwise;
+}
+
+}  // namespace vibrissa::report

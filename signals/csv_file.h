@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vibrissa::signals {
+
+/// A comma-separated text file: column names in its first line, then one row a line. Takes Unix and
+/// Windows line ends, a UTF-8 byte order mark, blank lines at the end, spaces around fields and
+/// fields in quotes (which may hold commas, not line breaks). What the fields mean is not its
+/// affair, so text in a column that nobody reads does no harm.
+/// Proven by tests/signals/csv_file_test.cc.
+class CsvFile {
+ public:
+  /// One row: its line in the file, counted from 1, and one field a column; valid during the call.
+  using RowReader = std::function<void(std::size_t line, std::span<const std::string_view> fields)>;
+
+  /// Throws UserError for a file that cannot be read or is empty, a first line that holds numbers
+  /// or other separators, a name that is repeated.
+  explicit CsvFile(const std::filesystem::path& file);
+
+  const std::vector<std::string>& columns() const { return columns_; }
+  std::size_t n_rows() const { return n_rows_; }
+  bool has(const std::string& column) const;
+  /// Throws UserError that lists the columns there are.
+  std::size_t index_of(const std::string& column) const;
+
+  /// Visits rows first ... first + count - 1, counted from 1; others are not looked at. Throws
+  /// UserError with file and line for a row whose number of fields is not the number of columns.
+  void for_each_row(std::size_t first, std::size_t count, const RowReader& read) const;
+
+  /// "<file>:<line>: ", the start of a message about that line; the first line is line 1.
+  std::string place(std::size_t line) const;
+
+ private:
+  void read_header(std::string_view line);
+  [[noreturn]] void refuse_row(std::size_t line, std::size_t n_fields) const;
+
+  std::string name_;
+  std::string text_;
+  std::size_t first_row_at_ = 0, n_rows_ = 0;
+  std::vector<std::string> columns_;
+};
+
+}  // namespace vibrissa::signals

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace vibrissa::signals {
+
+/// A mistake in what the user gave. The message says what is wrong, where (file, line, parameter)
+/// and what to do. Programs print it and end with exit status 2.
+class UserError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// "unknown <kind> '<given>'; did you mean '<nearest>'? Known: a, b, c" for messages about names.
+std::string unknown_name(const std::string& kind, const std::string& given,
+                         const std::vector<std::string>& known);
+
+}  // namespace vibrissa::signals

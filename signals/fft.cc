@@ -1,0 +1,98 @@
+#include "signals/fft.h"
+
+#include <fftw3.h>
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <mutex>
+#include <new>
+#include <string>
+
+#include "signals/error.h"
+
+namespace vibrissa::signals {
+
+namespace {
+
+// FFTW plans may be executed by any thread, but its planner is shared by all of them.
+std::mutex& planner_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+struct FreeFftw {
+  void operator()(void* memory) const { fftw_free(memory); }
+};
+
+std::size_t checked_length(std::size_t n) {
+  if (n == 0 || n > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw UserError("a Fourier transform needs between 1 and " +
+                    std::to_string(std::numeric_limits<int>::max()) + " samples, not " +
+                    std::to_string(n));
+  return n;
+}
+
+}  // namespace
+
+// The planner only estimates: measured plans vary from run to run in their last digits, and equal
+// input must give equal output.
+struct RealFft::Plans {
+  explicit Plans(std::size_t n)
+      : time(fftw_alloc_real(n)), spectrum(fftw_alloc_complex(n / 2 + 1)) {
+    if (!time || !spectrum) throw std::bad_alloc();
+    const std::lock_guard lock(planner_mutex());
+    const int length = static_cast<int>(n);
+    forward = fftw_plan_dft_r2c_1d(length, time.get(), spectrum.get(), FFTW_ESTIMATE);
+    inverse = fftw_plan_dft_c2r_1d(length, spectrum.get(), time.get(), FFTW_ESTIMATE);
+    assert(forward && inverse);
+  }
+  ~Plans() {
+    const std::lock_guard lock(planner_mutex());
+    fftw_destroy_plan(forward);
+    fftw_destroy_plan(inverse);
+  }
+  Plans(const Plans&) = delete;
+  Plans& operator=(const Plans&) = delete;
+
+  std::unique_ptr<double, FreeFftw> time;
+  std::unique_ptr<fftw_complex, FreeFftw> spectrum;
+  fftw_plan forward = nullptr, inverse = nullptr;
+};
+
+RealFft::RealFft(std::size_t n) : n_(checked_length(n)), plans_(std::make_unique<Plans>(n)) {
+  std::ranges::fill(time(), 0.);
+  std::ranges::fill(spectrum(), 0.);
+}
+
+RealFft::~RealFft() = default;
+RealFft::RealFft(RealFft&&) noexcept = default;
+RealFft& RealFft::operator=(RealFft&&) noexcept = default;
+
+std::span<double> RealFft::time() {
+  return {plans_->time.get(), n_};
+}
+
+// FFTW documents fftw_complex as bit-compatible with std::complex<double>.
+std::span<std::complex<double>> RealFft::spectrum() {
+  return {reinterpret_cast<std::complex<double>*>(plans_->spectrum.get()), n_bins()};
+}
+
+void RealFft::forward() {
+  fftw_execute(plans_->forward);
+}
+
+void RealFft::inverse() {
+  fftw_execute(plans_->inverse);
+  const double scale = 1. / static_cast<double>(n_);
+  for (double& x : time()) x *= scale;
+}
+
+std::vector<std::complex<double>> real_fft(std::span<const double> x) {
+  RealFft fft(x.size());
+  std::ranges::copy(x, fft.time().begin());
+  fft.forward();
+  return {fft.spectrum().begin(), fft.spectrum().end()};
+}
+
+}  // namespace vibrissa::signals

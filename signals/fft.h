@@ -1,0 +1,39 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace vibrissa::signals {
+
+/// Real discrete Fourier transform of a fixed length n with its own aligned buffers (FFTW).
+/// Forward: X[k] = sum_i x[i] exp(-2 pi j k i / n), k = 0 .. n/2, unscaled.
+/// Inverse: x[i] = (1/n) sum ..., so inverse(forward(x)) = x.
+/// No allocation after construction; one object serves one thread.
+class RealFft {
+ public:
+  explicit RealFft(std::size_t n);
+  ~RealFft();
+  RealFft(RealFft&&) noexcept;
+  RealFft& operator=(RealFft&&) noexcept;
+
+  std::size_t size() const { return n_; }
+  std::size_t n_bins() const { return n_ / 2 + 1; }
+  /// The buffers: fill one, transform, read the other. inverse() destroys spectrum().
+  std::span<double> time();
+  std::span<std::complex<double>> spectrum();
+  void forward();
+  void inverse();
+
+ private:
+  struct Plans;
+  std::size_t n_;
+  std::unique_ptr<Plans> plans_;
+};
+
+/// One-off forward transform of any length, scaled as RealFft.
+std::vector<std::complex<double>> real_fft(std::span<const double> x);
+
+}  // namespace vibrissa::signals

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace vibrissa::signals {
+
+/// Resamples a finite record to another rate by a polyphase windowed-sinc filter (rates in a ratio
+/// of small whole numbers): pass band flat within 0.1 % up to 0.8 of the lower Nyquist frequency,
+/// images and aliases below -80 dB from its 1.0 on, no delay; edges are extended by point
+/// reflection. Throws UserError when the ratio is not a ratio of whole numbers up to 1000.
+std::vector<double> resample(std::span<const double> x, double from_hz, double to_hz);
+
+/// Subtracts the mean; adding it back is the caller's affair.
+std::vector<double> remove_mean(std::span<const double> x);
+
+/// Maps the smallest value to low and the largest to high, linearly. Throws UserError for a
+/// constant.
+std::vector<double> scale_to_range(std::span<const double> x, double low, double high);
+
+}  // namespace vibrissa::signals
