@@ -130,8 +130,10 @@ void declare_separation(ParameterHandler& prm) {
                     "New samples in one block of the adaptive filter [samples].");
   prm.declare_entry("Filter length", "512", Patterns::Integer(1, 1048576),
                     "Taps of the adaptive filter [samples].");
-  prm.declare_entry("Step", "0.1", Patterns::Double(0., 2.),
+  prm.declare_entry("Step", "0.1", Patterns::Double(1e-9, 2.),
                     "Step size mu of the adaptive filter, normalised by the input's power [1].");
+  prm.declare_entry("Settling time", "2", Patterns::Double(0., 1e4),
+                    "Start of the record that the scores leave out, for every method [s].");
   prm.leave_subsection();
 }
 
@@ -141,7 +143,8 @@ SeparationParameters parse_separation(ParameterHandler& prm) {
   separation.largest_order = static_cast<unsigned int>(prm.get_integer("Largest order"));
   separation.fdaf.block_length = static_cast<std::size_t>(prm.get_integer("Block length"));
   separation.fdaf.filter_length = static_cast<std::size_t>(prm.get_integer("Filter length"));
-  separation.fdaf.step = prm.get_double("Step");
+  separation.fdaf.step.step = prm.get_double("Step");
+  separation.settling_s = prm.get_double("Settling time");
   prm.leave_subsection();
   return separation;
 }
@@ -181,6 +184,9 @@ void check(const Case& all) {
                         std::to_string(nyquist) + " Hz); drop the line or raise the rate");
       }
     }
+  }
+  if (all.separation.settling_s >= 0.5 * all.records.duration_s) {
+    throw UserError("Separation/Settling time must be less than half of Records/Duration");
   }
   if (all.base.kind == BaseMotionKind::none && all.sensor.wind.kind == flow::WindKind::none) {
     throw UserError("Base motion/Kind and Wind/Kind are both none: nothing moves the sensor");

@@ -124,10 +124,23 @@ CaseFile::CaseFile(const std::filesystem::path& file)
 }
 
 CaseFile::~CaseFile() = default;
+CaseFile::CaseFile(CaseFile&&) noexcept = default;
 
 void CaseFile::set(const std::string& section, const std::string& entry, const std::string& value,
                    const std::string& option) {
-  const auto path = dealii::Utilities::split_string_list(section, '/');
+  std::vector<std::string> path;
+  const auto check = [&](const std::string& keyword, const std::string& name) {
+    const auto known = known_names(*prm_, path, keyword);
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    const std::string kind = keyword == "set" ? "entry" : "subsection";
+    const std::string where = path.empty() ? "" : " in subsection '" + join(path) + "'";
+    throw UserError("option " + option + ": " + signals::unknown_name(kind + where, name, known));
+  };
+  for (const auto& name : dealii::Utilities::split_string_list(section, '/')) {
+    check("subsection", name);
+    path.push_back(name);
+  }
+  check("set", entry);
   for (const auto& name : path) prm_->enter_subsection(name);
   try {
     prm_->set(entry, value);

@@ -43,6 +43,7 @@ struct RecordParameters {
 struct SeparationParameters {
   unsigned int largest_order = 6;
   separation::FdafOptions fdaf;
+  double settling_s = 2.;
 };
 
 /// Subsection "Output".
@@ -69,6 +70,7 @@ class CaseFile {
   /// Throws UserError when the file is missing or has such an entry.
   explicit CaseFile(const std::filesystem::path& file);
   ~CaseFile();
+  CaseFile(CaseFile&&) noexcept;
 
   /// Overrides one entry, as a command-line option does; option is named in the error.
   void set(const std::string& section, const std::string& entry, const std::string& value,

@@ -72,7 +72,8 @@ void write_calculix(const std::filesystem::path& file, const SolidSpace& space,
     used.insert(meshes::region_name(cell->material_id()));
   }
   signals::write_file(file, [&](std::ostream& out) {
-    out << std::setprecision(16) << "*NODE, NSET=all\n";
+    // CalculiX reads no more than 20 characters of a number.
+    out << std::setprecision(12) << "*NODE, NSET=all\n";
     for (const auto& [dof, number] : numbers) {
       const auto& x = positions.at(dof);
       out << number << ", " << x[0] << ", " << x[1] << ", " << x[2] << "\n";

@@ -98,17 +98,13 @@ void ElementMatrices::stiffness(const materials::Material& material, CellMatrix&
                       projection_mass_.llt().solve(divergence_);
 }
 
-void ElementMatrices::mass(const double density, CellMatrix& matrix) {
-  matrix.setZero();
-  for (int i = 0; i < n_nodes; ++i) {
-    for (int j = 0; j < n_nodes; ++j) {
-      double sum = 0.;
-      for (int q = 0; q < n_points; ++q) {
-        sum += values_.shape_value(i, q) * values_.shape_value(j, q) * values_.JxW(q);
-      }
-      for (int c = 0; c < 3; ++c) matrix(3 * i + c, 3 * j + c) = density * sum;
-    }
+void ElementMatrices::mass(const double density, NodeMatrix& matrix) {
+  Eigen::Matrix<double, n_points, n_nodes> weighted;
+  for (int q = 0; q < n_points; ++q) {
+    const double root = std::sqrt(density * values_.JxW(q));
+    for (int i = 0; i < n_nodes; ++i) weighted(q, i) = root * values_.shape_value(i, q);
   }
+  matrix.noalias() = weighted.transpose() * weighted;
 }
 
 }  // namespace vibrissa::fem

@@ -20,11 +20,14 @@ class ElementMatrices {
  public:
   using CellMatrix = Eigen::Matrix<double, SolidSpace::dofs_per_cell, SolidSpace::dofs_per_cell,
                                    Eigen::RowMajor>;
+  using NodeMatrix = Eigen::Matrix<double, SolidSpace::nodes_per_cell, SolidSpace::nodes_per_cell,
+                                   Eigen::RowMajor>;
 
   explicit ElementMatrices(const SolidSpace& space);
   void reinit(const dealii::Triangulation<3>::cell_iterator& cell);
   void stiffness(const materials::Material& material, CellMatrix& matrix);
-  void mass(double density, CellMatrix& matrix);
+  /// One component's block; components do not couple.
+  void mass(double density, NodeMatrix& matrix);
 
  private:
   static constexpr int n_nodes = SolidSpace::nodes_per_cell;

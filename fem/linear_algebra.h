@@ -23,11 +23,11 @@ std::unique_ptr<Matrix> with_clamped_rows(const Matrix& matrix, const dealii::In
 /// Sets the given (owned) entries to zero.
 void zero_entries(Vector& vector, const dealii::IndexSet& entries);
 
-/// a x + b y of two matrices with the same pattern.
+/// a x + b y; the pattern of y must lie within that of x.
 std::unique_ptr<Matrix> combine(double a, const Matrix& x, double b, const Matrix& y);
 
 /// Sparse Cholesky factors of a symmetric positive definite matrix (MUMPS, METIS ordering), kept
-/// for any number of solves. Throws signals::UserError when the matrix is not positive definite or
+/// for any number of solves, each with one step of iterative refinement. Throws signals::UserError when the matrix is not positive definite or
 /// memory runs out. The matrix must outlive the factors.
 class CholeskySolver {
  public:
@@ -38,7 +38,10 @@ class CholeskySolver {
   void solve(const Vector& right_hand_side, Vector& solution) const;
 
  private:
+  void back_substitute(const Vector& right_hand_side, Vector& solution) const;
+
   struct Factors;
+  const Matrix& matrix_;
   std::unique_ptr<Factors> factors_;
 };
 

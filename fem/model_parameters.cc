@@ -35,6 +35,9 @@ void ModelParameters::declare(dealii::ParameterHandler& prm) {
   prm.declare_entry("Sensitivities", "true", Patterns::Bool(),
                     "Whether the reduced model carries the change of its figures with moduli, "
                     "density and lengths (two more solutions for each).");
+  prm.declare_entry("Calibration note", "", Patterns::Anything(),
+                    "What was set so that a resonance comes out as measured or published; shown "
+                    "wherever a resonance is reported, because a calibration is no prediction.");
   prm.leave_subsection();
 }
 
@@ -51,6 +54,8 @@ void ModelParameters::parse(dealii::ParameterHandler& prm) {
   wind_on_wire = prm.get_bool("Wind on wire");
   wind_on_fin = prm.get_bool("Wind on fin");
   sensitivities = prm.get_bool("Sensitivities");
+  const std::string note = prm.get("Calibration note");
+  calibration_note = note.empty() ? std::nullopt : std::optional<std::string>(note);
   prm.leave_subsection();
 }
 

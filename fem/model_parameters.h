@@ -21,6 +21,7 @@ struct ModelParameters {
   double axial_angle_deg = 0.;  // of base motion and wind in the xy-plane, from x towards y
   bool wind_on_wire = true, wind_on_fin = true;
   bool sensitivities = true;
+  std::optional<std::string> calibration_note;  // shown wherever a resonance is reported
 
   static void declare(dealii::ParameterHandler& prm);
   void parse(dealii::ParameterHandler& prm);

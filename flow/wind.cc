@@ -9,17 +9,18 @@
 #include <complex>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <string>
 
 #include "signals/error.h"
 #include "signals/fft.h"
+#include "signals/number_text.h"
 
 namespace vibrissa::flow {
 
 namespace {
 
 using dealii::ParameterHandler;
+using signals::to_text;
 using signals::UserError;
 namespace Patterns = dealii::Patterns;
 namespace Utilities = dealii::Utilities;
@@ -47,16 +48,9 @@ std::string name_of(const Names& names, const Enum value) {
   return names[static_cast<std::size_t>(value)];
 }
 
-std::string text(const double value) {
-  std::ostringstream out;
-  out.precision(10);
-  out << value;
-  return out.str();
-}
-
 std::string text(const std::vector<double>& values) {
   std::string all;
-  for (const double value : values) all += (all.empty() ? "" : ", ") + text(value);
+  for (const double value : values) all += (all.empty() ? "" : ", ") + to_text(value);
   return all;
 }
 
@@ -71,7 +65,7 @@ std::vector<double> get_list(const ParameterHandler& prm, const std::string& ent
 void require(const bool holds, const std::string& entry, const double value,
              const std::string& unit, const std::string& condition) {
   if (!(std::isfinite(value) && holds))
-    refuse(entry + " is " + text(value) + unit + "; it must be " + condition);
+    refuse(entry + " is " + to_text(value) + unit + "; it must be " + condition);
 }
 
 void check_sines(const WindParameters& wind) {
@@ -99,7 +93,7 @@ void check_turbulence(const WindParameters& wind) {
   require(wind.mean_speed != 0., "Mean speed", wind.mean_speed, " m/s",
           "other than zero for turbulent wind, whose strength and time scale follow from it");
   require(std::abs(wind.mean_speed) < wind.maximum_speed, "Mean speed", wind.mean_speed, " m/s",
-          "below Maximum speed, " + text(wind.maximum_speed) +
+          "below Maximum speed, " + to_text(wind.maximum_speed) +
               " m/s, to which turbulent wind is clipped; raise that or lower the mean");
 }
 
@@ -109,8 +103,8 @@ std::vector<double> sines(const WindParameters& wind, const double sampling_rate
   for (std::size_t s = 0; s < wind.sine_frequency_hz.size(); ++s) {
     const double frequency_hz = wind.sine_frequency_hz[s];
     if (frequency_hz >= 0.5 * sampling_rate_hz)
-      refuse("Sine frequencies has " + text(frequency_hz) +
-             " Hz, at or above half the sampling rate of " + text(sampling_rate_hz) +
+      refuse("Sine frequencies has " + to_text(frequency_hz) +
+             " Hz, at or above half the sampling rate of " + to_text(sampling_rate_hz) +
              " Hz; lower the frequency or raise the sampling rate");
     const double step = 2. * std::numbers::pi * frequency_hz / sampling_rate_hz;
     const double phase = wind.sine_phase_deg[s] * std::numbers::pi / 180.;
@@ -164,7 +158,7 @@ void WindParameters::declare(ParameterHandler& prm) {
       "none: still air. steady: Mean speed. sines: Mean speed plus the sines. "
       "turbulent: von Karman turbulence about Mean speed. recorded: the wind column of "
       "the excitation record.");
-  prm.declare_entry("Mean speed", text(nominal.mean_speed), Double(-100., 100.),
+  prm.declare_entry("Mean speed", to_text(nominal.mean_speed), Double(-100., 100.),
                     "Mean wind speed along the axial direction [m/s].");
   prm.declare_entry("Sine frequencies", text(nominal.sine_frequency_hz), List(Double(0., 1e6)),
                     "Frequencies of the sines [Hz], above zero and below half the sampling rate.");
@@ -172,19 +166,19 @@ void WindParameters::declare(ParameterHandler& prm) {
                     "Amplitude of each sine [m/s].");
   prm.declare_entry("Sine phases", text(nominal.sine_phase_deg), List(Double(-1e4, 1e4)),
                     "Phase of each sine at time zero [degrees], of sin(2 pi f t + phase).");
-  prm.declare_entry("Turbulence intensity", text(nominal.turbulence_intensity), Double(0., 1.),
+  prm.declare_entry("Turbulence intensity", to_text(nominal.turbulence_intensity), Double(0., 1.),
                     "Standard deviation of the turbulent speed over the mean speed [1].");
-  prm.declare_entry("Length scale", text(nominal.length_scale), Double(1e-4, 1e4),
+  prm.declare_entry("Length scale", to_text(nominal.length_scale), Double(1e-4, 1e4),
                     "Longitudinal integral length scale of the turbulence [m].");
-  prm.declare_entry("Maximum speed", text(nominal.maximum_speed), Double(1e-3, 200.),
+  prm.declare_entry("Maximum speed", to_text(nominal.maximum_speed), Double(1e-3, 200.),
                     "Turbulent wind is clipped to plus or minus this speed [m/s].");
   prm.declare_entry("Profile", name_of(profile_names, nominal.profile),
                     Selection(selection(profile_names)),
                     "Speed over height: uniform, or parabolic from zero at the support to the full "
                     "speed at the tip.");
-  prm.declare_entry("Air density", text(nominal.air.density), Double(1e-3, 100.),
+  prm.declare_entry("Air density", to_text(nominal.air.density), Double(1e-3, 100.),
                     "Density of the air [kg/m^3]; 1.204 at 20 C and sea level.");
-  prm.declare_entry("Air kinematic viscosity", text(nominal.air.kinematic_viscosity),
+  prm.declare_entry("Air kinematic viscosity", to_text(nominal.air.kinematic_viscosity),
                     Double(1e-8, 1.), "Kinematic viscosity of the air [m^2/s]; 1.51e-5 at 20 C.");
   prm.leave_subsection();
 }

@@ -1,5 +1,6 @@
 #include "materials/isochoric_law.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -37,6 +38,11 @@ double invariant(const Distortion& d) {
   return -3. * d.det_minus_1 / (r * (1. + r * (1. + r)));
 }
 
+// deal.II's storage of a symmetric tensor: component m is the pair (row[m], column[m]), diagonal
+// first. The indexed access costs more than the arithmetic here.
+constexpr std::array<unsigned int, 6> row{0, 1, 2, 0, 0, 1};
+constexpr std::array<unsigned int, 6> column{0, 1, 2, 1, 2, 2};
+
 /// I - (I + a)^(-1); by Cayley-Hamilton (a - a^2 + det(a) I) / det(I + a), of first order in a.
 Strain one_minus_inverse(const Distortion& d) {
   Strain b;
@@ -58,17 +64,20 @@ Strain gradient(const Distortion& d, const Strain& b) {
 /// d2x/dE2 = 4 / (mean^2 r) [p o p + (b b - I I)/3], (p o p)_ijkl = (p_ik p_jl + p_il p_jk)/2.
 Tangent tangent_from(const Distortion& d, const double slope, const double curvature) {
   const Strain b = one_minus_inverse(d);
-  const Strain p = dealii::unit_symmetric_tensor<3>() - b;
+  const dealii::Tensor<2, 3> p(dealii::unit_symmetric_tensor<3>() - b);
   const double w = 4. * slope / (d.mean * d.mean * d.cube_root);
   const double gradient_per_b = 2. / (d.mean * d.cube_root);
   const double w_bb = w / 3. + curvature * gradient_per_b * gradient_per_b;
   Tangent t;
-  for (unsigned int i = 0; i < 3; ++i)
-    for (unsigned int j = i; j < 3; ++j)
-      for (unsigned int k = 0; k < 3; ++k)
-        for (unsigned int l = k; l < 3; ++l)
-          t[i][j][k][l] = 0.5 * w * (p[i][k] * p[j][l] + p[i][l] * p[j][k]) +
-                          w_bb * b[i][j] * b[k][l] - (i == j && k == l ? w / 3. : 0.);
+  for (unsigned int m = 0; m < 6; ++m)
+    for (unsigned int n = m; n < 6; ++n) {
+      const unsigned int i = row[m], j = column[m], k = row[n], l = column[n];
+      const double entry = 0.5 * w * (p[i][k] * p[j][l] + p[i][l] * p[j][k]) +
+                           w_bb * b.access_raw_entry(m) * b.access_raw_entry(n) -
+                           (n < 3 ? w / 3. : 0.);
+      t.access_raw_entry(6 * m + n) = entry;
+      t.access_raw_entry(6 * n + m) = entry;
+    }
   return t;
 }
 

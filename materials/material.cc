@@ -1,10 +1,10 @@
 #include "materials/material.h"
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "signals/error.h"
+#include "signals/number_text.h"
 
 namespace vibrissa::materials {
 
@@ -13,10 +13,7 @@ namespace {
 using signals::UserError;
 
 std::string text(const double value, const std::string& unit) {
-  std::ostringstream out;
-  out.precision(10);
-  out << value << unit;
-  return out.str();
+  return signals::to_text(value) + unit;
 }
 
 void require_positive(const double value, const std::string& name, const std::string& unit) {

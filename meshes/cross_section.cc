@@ -27,15 +27,19 @@ Vector turned(Vector v, const unsigned int quarter_turns) {
   return v;
 }
 
+/// -1 ... 1 for i = 0 ... n, odd about the middle to the last bit.
+double centred(const unsigned int i, const unsigned int n) {
+  return (2. * i - static_cast<double>(n)) / n;
+}
+
 /// Point k of 4n on a square of the given half side, equally spaced on each side, from its corner
 /// at -45 degrees.
 Point<2> on_square(const double half_side, const unsigned int k, const unsigned int n) {
-  const double along = 2. * (k % n) / n - 1.;
-  return turned(Point<2>(half_side, half_side * along), k / n);
+  return turned(Point<2>(half_side, half_side * centred(k % n, n)), k / n);
 }
 
 Point<2> on_circle(const double radius, const unsigned int k, const unsigned int n) {
-  const double angle = std::numbers::pi / 4. * (2. * (k % n) / n - 1.);
+  const double angle = std::numbers::pi / 4. * centred(k % n, n);
   return turned(Point<2>(radius * std::cos(angle), radius * std::sin(angle)), k / n);
 }
 
@@ -72,7 +76,7 @@ Loop add_rings(CrossSection& section, Loop loop, const unsigned int n_rings, con
 
 /// Returns the core's edge, counterclockwise from -45 degrees.
 Loop add_core(CrossSection& section, const double half_side, const unsigned int n) {
-  const auto coordinate = [&](const unsigned int i) { return half_side * (2. * i / n - 1.); };
+  const auto coordinate = [&](const unsigned int i) { return half_side * centred(i, n); };
   const auto index = [&](const unsigned int i, const unsigned int j) { return j * (n + 1) + i; };
   for (unsigned int j = 0; j <= n; ++j)
     for (unsigned int i = 0; i <= n; ++i)
@@ -97,7 +101,7 @@ void add_wing(CrossSection& section, const Loop& square, const double thickness,
     const double fraction = static_cast<double>(row) / n;
     Loop next(n + 1);
     for (unsigned int j = 0; j <= n; ++j) {
-      const double across = 0.5 * thickness * (2. * j / n - 1.);
+      const double across = 0.5 * thickness * centred(j, n);
       next[j] =
           add_vertex(section, {turned(Point<2>(0.5 * thickness * (1. - fraction), across), side),
                                turned(Tensor<1, 2>({0.5 * fraction, 0.}), side)});

@@ -14,6 +14,8 @@ namespace {
 
 constexpr dealii::types::manifold_id cylinder = 1;
 constexpr unsigned int z_axis = 2;
+/// No cylindrical cell touches the axis; deal.II's default takes thin, long cells for such.
+constexpr double axis_tolerance = 1e-20;
 
 /// Vertices and cells grow together: a section vertex exists only at heights where a cell needs it.
 class CellStack {
@@ -85,7 +87,7 @@ void set_manifolds(dealii::Triangulation<3>& mesh, const std::vector<bool>& vert
     for (const unsigned int l : cell->line_indices())
       if (is_on_circle(cell->line(l))) cell->line(l)->set_manifold_id(cylinder);
   }
-  mesh.set_manifold(cylinder, dealii::CylindricalManifold<3>(z_axis));
+  mesh.set_manifold(cylinder, dealii::CylindricalManifold<3>(z_axis, axis_tolerance));
 }
 
 dealii::types::boundary_id surface_of(const dealii::types::material_id region) {

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <numeric>
 #include <set>
-#include <sstream>
 
 #include "meshes/msh_text.h"
+#include "meshes/place_text.h"
 #include "meshes/regions.h"
 #include "signals/error.h"
+#include "signals/number_text.h"
 
 namespace vibrissa::meshes {
 
@@ -27,12 +28,6 @@ constexpr std::array<std::array<unsigned int, 4>, 6> hexahedron_faces = {
     {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 /// Gmsh's node at each of deal.II's lexicographic vertices.
 constexpr std::array<unsigned int, 8> lexicographic = {0, 1, 3, 2, 4, 5, 7, 6};
-
-std::string place_of(const dealii::Point<3>& p) {
-  std::ostringstream text;
-  text << "(" << p[0] << ", " << p[1] << ", " << p[2] << ")";
-  return text.str();
-}
 
 template <class Map>
 std::vector<std::string> names_of(const Map& ids) {
@@ -162,12 +157,10 @@ void GmshMesh::check_size() {
       highest[d] = std::max(highest[d], node[d]);
     }
   size_m_ = lowest.distance(highest);
-  if (size_m_ > largest_size_m) {
-    std::ostringstream text;
-    text << "the mesh is " << size_m_ << " m large; coordinates must be in metres "
-         << "(Mesh.ScalingFactor = 1e-3 turns millimetres into metres)";
-    refuse(text.str());
-  }
+  if (size_m_ > largest_size_m)
+    refuse("the mesh is " + signals::to_text(size_m_) +
+           " m large; coordinates must be in metres (Mesh.ScalingFactor = 1e-3 turns millimetres "
+           "into metres)");
 }
 
 void GmshMesh::mark_faces() {
@@ -189,7 +182,7 @@ void GmshMesh::mark_faces() {
       refuse(quadrangle.line,
              "physical surface '" + boundary_name(boundary->second) +
                  "' holds a face inside the sensor (an interface between bodies?) at " +
-                 place_of(centre(quadrangle.nodes)) + "; only outer faces may be in a group");
+                 place_text(centre(quadrangle.nodes)) + "; only outer faces may be in a group");
     if (face->second.boundary != dealii::numbers::internal_face_boundary_id)
       refuse(quadrangle.line, "this quadrangle is given twice (a surface in two physical groups?)");
     face->second.boundary = boundary->second;
@@ -204,7 +197,7 @@ void GmshMesh::check_outer_faces() const {
       if (n_unmarked++ == 0) first = centre(key);
   if (n_unmarked > 0)
     refuse(std::to_string(n_unmarked) + " outer faces are in no physical surface, the first at " +
-           place_of(first) +
+           place_text(first) +
            ". Put them into a group; if they lie between two bodies, join the bodies (Coherence, "
            "BooleanFragments). Known names: " +
            listed(boundary_ids()));
@@ -217,7 +210,8 @@ void GmshMesh::check_clamp() const {
     has_clamp = true;
     for (const unsigned int node : key)
       if (std::abs(msh_.nodes[node][2]) > clamp_tolerance * size_m_)
-        refuse("physical surface 'clamp' leaves the plane z = 0 at " + place_of(msh_.nodes[node]));
+        refuse("physical surface 'clamp' leaves the plane z = 0 at " +
+               place_text(msh_.nodes[node]));
   }
   if (!has_clamp) refuse("no outer face is in a physical surface 'clamp' (the plane z = 0)");
 }
@@ -234,7 +228,7 @@ void GmshMesh::check_connected() const {
   for (const Hexahedron& cell : msh_.hexahedra) {
     const unsigned int c = &cell - msh_.hexahedra.data();
     if (root(c) != root(0))
-      refuse(cell.line, "the hexahedron at " + place_of(centre(cell.nodes)) +
+      refuse(cell.line, "the hexahedron at " + place_text(centre(cell.nodes)) +
                             " shares no faces with the rest of the sensor; join the bodies "
                             "(Coherence, BooleanFragments)");
   }
@@ -259,7 +253,7 @@ void GmshMesh::create(dealii::Triangulation<3>& mesh) const {
     cell.material_id = region_of_tag_.at(hexahedron.physical_tag);
     cells.push_back(cell);
   }
-  dealii::GridTools::invert_all_negative_measure_cells(vertices, cells);
+  dealii::GridTools::invert_cells_with_negative_measure(vertices, cells);
   dealii::GridTools::consistently_order_cells(cells);
   mesh.clear();
   mesh.create_triangulation(vertices, cells, dealii::SubCellData());

@@ -10,11 +10,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <sstream>
+#include <stdexcept>
 #include <vector>
 
+#include "meshes/place_text.h"
 #include "meshes/regions.h"
 #include "signals/error.h"
+#include "signals/number_text.h"
 
 namespace vibrissa::meshes {
 
@@ -29,19 +31,13 @@ constexpr double coordinate_step_m = 1e-12;
 /// diameter.
 constexpr double least_jacobian_ratio = 1e-6, least_cube_ratio = 1e-12;
 
-std::string place_of(const dealii::Point<3>& p) {
-  std::ostringstream text;
-  text << "at (" << p[0] << ", " << p[1] << ", " << p[2] << ") m";
-  return text.str();
-}
-
 /// Runs a look-up of a name and adds the place to its complaint.
 template <class Lookup>
 std::string name_at(const dealii::Point<3>& place, const std::string& what, const Lookup& lookup) {
   try {
     return lookup();
   } catch (const signals::UserError& error) {
-    throw signals::UserError("mesh: " + what + " " + place_of(place) + ": " + error.what());
+    throw signals::UserError("mesh: " + what + " at " + place_text(place) + ": " + error.what());
   }
 }
 
@@ -78,12 +74,10 @@ CellMeasure measure(const Cell& cell, const dealii::FEValues<3>& values) {
   }
   result.jacobian_ratio = smallest / largest;
   const double cube = std::pow(cell->diameter() / std::sqrt(3.), 3);
-  if (!(smallest > least_jacobian_ratio * largest && smallest > least_cube_ratio * cube)) {
-    std::ostringstream text;
-    text << "mesh: inverted or degenerate cell " << place_of(cell->center())
-         << ": its Jacobian determinant falls to " << smallest << " m^3";
-    throw signals::UserError(text.str());
-  }
+  if (!(smallest > least_jacobian_ratio * largest && smallest > least_cube_ratio * cube))
+    throw signals::UserError("mesh: inverted or degenerate cell at " + place_text(cell->center()) +
+                             ": its Jacobian determinant falls to " + signals::to_text(smallest) +
+                             " m^3");
   return result;
 }
 

@@ -12,6 +12,8 @@ namespace vibrissa::meshes {
 namespace {
 
 constexpr double smallest_length = 1e-5, largest_length = 1.;  // m
+/// Below it the curved cells between wire and blades would overlap.
+constexpr double least_fin_to_wire = 1.1;
 constexpr const char* subsection = "Geometry";
 
 /// One entry of the case file. Name, meaning and default live only here and in the struct.
@@ -37,7 +39,7 @@ const std::vector<Length>& lengths() {
       {"Fin height", &G::fin_height, true,
        "Height of the blades; the wire ends flush with their top"},
       {"Fin thickness", &G::fin_thickness, true,
-       "Thickness of each blade; more than the wire diameter"},
+       "Thickness of each blade; at least 1.1 times the wire diameter"},
       {"Fin top width", &G::fin_top_width, true,
        "Full width of the fin, from blade end to opposite blade end, at its top"},
       {"Fin bottom width", &G::fin_bottom_width, true,
@@ -77,6 +79,14 @@ void check_wall(const SensorGeometry& geometry, double SensorGeometry::*larger,
   if (0.5 * (geometry.*larger - geometry.*smaller) < smallest_length * (1. - 1e-9))
     refuse(with_value(geometry, larger) + " must exceed " + with_value(geometry, smaller) +
            " by at least " + signals::to_text(2. * smallest_length) + " m, so that " + what);
+}
+
+void check_fin_thickness(const SensorGeometry& geometry) {
+  using G = SensorGeometry;
+  if (geometry.fin_thickness < least_fin_to_wire * (1. - 1e-9) * geometry.wire_diameter)
+    refuse(with_value(geometry, &G::fin_thickness) + " must be at least " +
+           signals::to_text(least_fin_to_wire) + " times " +
+           with_value(geometry, &G::wire_diameter) + ", so that the fin surrounds the wire");
 }
 
 void check_embedded_length(const SensorGeometry& geometry) {
@@ -125,7 +135,7 @@ void SensorGeometry::check() const {
   check_wall(*this, &G::base_diameter, &G::wire_diameter, "silicone surrounds the wire");
   check_embedded_length(*this);
   if (fin == FinShape::none) return;
-  check_wall(*this, &G::fin_thickness, &G::wire_diameter, "the fin surrounds the wire");
+  check_fin_thickness(*this);
   check_wall(*this, &G::fin_top_width, &G::fin_thickness, "the blades are wider than thick");
   check_wall(*this, &G::fin_bottom_width, &G::fin_thickness, "the blades are wider than thick");
 }

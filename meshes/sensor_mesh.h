@@ -12,11 +12,13 @@ inline constexpr unsigned int max_resolution = 16;
 /// All-hexahedral conforming mesh of the sensor: butterfly core and ring for the wire, geometric
 /// rings for the silicone, wings for the blades, extruded layer by layer; every cell count of the
 /// coarsest mesh is multiplied by resolution (1 ... max_resolution), so that the vertices of n are
-/// among those of 2n. Round edges carry cylindrical manifolds: use a MappingQ of degree 2 or more.
-/// Regions and boundaries are marked as in regions.h; an outer face belongs to the surface of its
-/// own body, so the wire's end in the fin's top is wire_surface. resolution 2 has 808 cells for the
-/// flow sensor. Throws UserError from geometry.check() and for a resolution out of range.
-/// tests/meshes/sensor_mesh_test.cc: closed forms of volumes and areas, nesting, no inverted cell.
+/// among those of 2n. Round edges carry cylindrical manifolds: use the isoparametric MappingQ(2)
+/// with quadratic elements (a higher degree cannot represent a rigid rotation in them and stiffens
+/// the sensor; degree 1 cuts the circles). Regions and boundaries are marked as in regions.h; an
+/// outer face belongs to the surface of its own body, so the wire's end in the fin's top is
+/// wire_surface. resolution 2 has 808 cells for the flow sensor. Throws UserError from
+/// geometry.check() and for a resolution out of range. tests/meshes/sensor_mesh_test.cc: closed
+/// forms of volumes and areas, nesting, no inverted cell.
 void make_sensor_mesh(const SensorGeometry& geometry, unsigned int resolution,
                       dealii::Triangulation<3>& mesh);
 

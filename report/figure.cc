@@ -11,6 +11,7 @@
 #include "report/json_file.h"
 #include "report/text.h"
 #include "signals/error.h"
+#include "signals/number_text.h"
 #include "signals/output_file.h"
 
 namespace vibrissa::report {
@@ -76,7 +77,10 @@ Curve curve_from(const json& object) {
   curve.y = numbers(object, "y");
   curve.y_low = numbers(object, "y_low");
   curve.y_high = numbers(object, "y_high");
-  if (object.contains("colour")) curve.colour = required<std::size_t>(object, "colour");
+  if (const auto colour = object.find("colour"); colour != object.end()) {
+    if (!colour->is_number_unsigned()) throw UserError("'colour' must be 0, 1, 2, ...");
+    curve.colour = colour->get<std::size_t>();
+  }
   return curve;
 }
 
@@ -132,10 +136,10 @@ void add_csv_lines(std::string& csv, const std::size_t number, const Panel& pane
       std::to_string(number) + ',' + csv_field(curve.label) + ',' + csv_field(panel.x_label) + ',';
   const std::string middle = ',' + csv_field(panel.y_label) + ',';
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
-    csv += head + shortest(curve.x[i]) + middle;
+    csv += head + signals::to_text(curve.x[i]) + middle;
     csv += curve.style == CurveStyle::band
-               ? ',' + shortest(curve.y_low[i]) + ',' + shortest(curve.y_high[i])
-               : shortest(curve.y[i]) + ",,";
+               ? ',' + signals::to_text(curve.y_low[i]) + ',' + signals::to_text(curve.y_high[i])
+               : signals::to_text(curve.y[i]) + ",,";
     csv += '\n';
   }
 }

@@ -15,12 +15,12 @@ enum class CurveStyle { line, points, dashed, band };
 
 /// One line, cloud of points or band of a panel. What is not finite is a gap.
 struct Curve {
-  std::string label;  // empty: not in the legend
+  std::string label{};  // empty: not in the legend
   CurveStyle style = CurveStyle::line;
-  std::vector<double> x;
-  std::vector<double> y;              // as long as x; empty for a band
-  std::vector<double> y_low, y_high;  // as long as x for a band; else empty
-  std::optional<std::size_t> colour;  // number in the palette; else the place in the panel
+  std::vector<double> x{};
+  std::vector<double> y{};                // as long as x; empty for a band
+  std::vector<double> y_low{}, y_high{};  // as long as x for a band; else empty
+  std::optional<std::size_t> colour{};    // number in the palette; else the place in the panel
 
   bool operator==(const Curve&) const = default;
 };
@@ -28,24 +28,30 @@ struct Curve {
 /// One pair of axes. Labels carry the unit: "Frequency [Hz]"; a y label with "°" gets ticks at
 /// divisions of a circle. On a logarithmic axis values that are not positive are gaps.
 struct Panel {
-  std::string title;
-  std::string x_label, y_label;
+  std::string title{};
+  std::string x_label{}, y_label{};
   bool log_x = false, log_y = false;
-  std::optional<Range> x_range, y_range;  // else what the curves need
-  std::vector<Curve> curves;
+  std::optional<Range> x_range{}, y_range{};  // else what the curves need
+  std::vector<Curve> curves{};
 
   bool operator==(const Panel&) const = default;
 };
 
-/// Panels from top to bottom. Neighbours with the same x label share their x axis.
+/// Panels from top to bottom. Neighbours with the same x label and nearly the same range of x share
+/// their x axis.
 struct Figure {
-  std::string name;  // of the files, without folder and extension
-  std::string title;
-  std::string caption;  // goes with the files and into reports, not into the picture
-  std::vector<Panel> panels;
+  std::string name{};  // of the files, without folder and extension
+  std::string title{};
+  std::string caption{};  // goes with the files and into reports, not into the picture
+  std::vector<Panel> panels{};
 
   bool operator==(const Figure&) const = default;
 };
+
+/// The curve's number in the palette.
+inline std::size_t colour_number(const Panel& panel, const std::size_t curve) {
+  return panel.curves[curve].colour.value_or(curve);
+}
 
 /// Throws UserError, naming panel and curve, for: a name that is no plain file name, no panels or
 /// more than max_panels, lists of unequal length, a range that is reversed or reaches 0 on a

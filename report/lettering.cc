@@ -55,8 +55,8 @@ std::string without_superscripts(const std::string& text) {
   bool raised = false;
   for (std::size_t i = 0; i < text.size();) {
     const auto* found = superscripts.begin();
-    while (found != superscripts.end() && text.compare(i, std::string(found->first).size(),
-                                                       found->first) != 0)
+    while (found != superscripts.end() &&
+           text.compare(i, std::string(found->first).size(), found->first) != 0)
       ++found;
     if (found == superscripts.end()) {
       raised = false;

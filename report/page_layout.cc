@@ -3,223 +3,238 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+
+#include "report/axis_range.h"
 
 namespace vibrissa::report {
 namespace {
 
-constexpr double margin = 14., right_margin = 32., row = 26., tick_gap = 12.;
-constexpr double gap_between_panels = 16., legend_entry_gap = 26., title_row = 32.;
-constexpr double heading_gap = 50., baseline_drop = 18., least_plot_height = 150.;
+constexpr int title_size = 20, heading_size = 17, label_size = 17, tick_size = 15, legend_size = 15;
+constexpr double margin = 14., right_margin = 36., row = 26., title_row = 32.;
+constexpr double tick_gap = 10.;  // between an axis and its numbers
+constexpr double gap_between_panels = 16., gap_in_legend = 26., gap_after_sample = 7.;
+constexpr double gap_after_heading = 50., least_plot_height = 150.;
 
-/// Plot heights need the legends' rows, these the left edge, and that the ticks of y, which hardly
-/// depend on the height: this guess serves for them.
+/// Heights of plots follow from the rows of the legends, these from the left edge, and that from
+/// the numbers on the y axes, which hardly depend on the height: this guess serves for them.
 constexpr double usual_plot_height = 0.7 * panel_height;
-
-/// Breaks at blanks so that each line is at most width wide, unless a single word is wider.
-std::vector<std::string> wrapped(const std::string& text, const double width,
-                                 const std::function<double(const std::string&)>& width_of) {
-  std::vector<std::string> lines;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (!lines.empty() && width_of(lines.back() + " " + word) <= width)
-      lines.back() += " " + word;
-    else
-      lines.push_back(word);
-  }
-  return lines;
-}
-
-/// Lowest and highest finite value on paper, over everything added.
-class Extent {
- public:
-  explicit Extent(const Axis& axis) : axis_(axis) {}
-  void add(const std::vector<double>& values) {
-    for (const double value : values) {
-      const double at = axis_.on_paper(value);
-      if (!std::isfinite(at)) continue;
-      low_ = std::min(low_, at);
-      high_ = std::max(high_, at);
-    }
-  }
-  /// With a margin on both sides as part of the length; 0 .. 1 without any value.
-  Range range(const double part) const {
-    if (low_ > high_) return {0., 1.};
-    const double length = high_ - low_;
-    if (length > 1e-9 * std::max(std::abs(low_), std::abs(high_)))
-      return {low_ - part * length, high_ + part * length};
-    const double half = axis_.logarithmic ? 0.5 : low_ == 0. ? 1. : 0.1 * std::abs(low_);
-    return {low_ - half, high_ + half};
-  }
-
- private:
-  const Axis& axis_;
-  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
-};
-
-Range on_paper(const Axis& axis, const Range& range) {
-  return {axis.on_paper(range.low), axis.on_paper(range.high)};
-}
-
-bool share_x(const Panel& a, const Panel& b) {
-  return a.x_label == b.x_label && a.log_x == b.log_x && !a.x_label.empty();
-}
-
-/// x ranges: the panel's own, else what all neighbours that share the axis need.
-void set_x_ranges(const Figure& figure, std::vector<PanelLayout>& panels) {
-  const std::size_t n = panels.size();
-  for (std::size_t first = 0, last = 0; first < n; first = last + 1) {
-    for (last = first; last + 1 < n && share_x(figure.panels[first], figure.panels[last + 1]);)
-      ++last;
-    Axis& axis = panels[first].x;
-    axis.logarithmic = figure.panels[first].log_x;
-    Extent extent(axis);
-    for (std::size_t p = first; p <= last; ++p)
-      for (const Curve& curve : figure.panels[p].curves) extent.add(curve.x);
-    for (std::size_t p = first; p <= last; ++p) {
-      panels[p].x.logarithmic = axis.logarithmic;
-      const auto& given = figure.panels[p].x_range;
-      panels[p].x.range = given ? on_paper(axis, *given) : extent.range(0.);
-    }
-    for (std::size_t p = first; p < last; ++p)
-      panels[p].x.labelled = !(panels[p].x.range == panels[p + 1].x.range);
-  }
-}
-
-void set_y_range(const Panel& panel, Axis& axis) {
-  axis.logarithmic = panel.log_y;
-  Extent extent(axis);
-  for (const Curve& curve : panel.curves)
-    for (const auto* values : {&curve.y, &curve.y_low, &curve.y_high}) extent.add(*values);
-  axis.range = panel.y_range ? on_paper(axis, *panel.y_range) : extent.range(0.05);
-}
 
 bool is_in_degrees(const std::string& label) {
   return label.find("\u00b0") != std::string::npos;
 }
 
-void set_ticks(Axis& axis, const std::string& label, const double length, const double spacing) {
-  const int n_most = std::max(2, static_cast<int>(length / spacing));
-  axis.ticks = axis.logarithmic ? logarithmic_ticks(axis.range, n_most)
-                                : linear_ticks(axis.range, n_most, is_in_degrees(label));
-}
-
-bool same_legend(const Panel& a, const Panel& b) {
-  if (a.curves.size() != b.curves.size()) return false;
-  for (std::size_t c = 0; c < a.curves.size(); ++c)
-    if (a.curves[c].label != b.curves[c].label || a.curves[c].style != b.curves[c].style ||
-        a.curves[c].colour != b.curves[c].colour)
-      return false;
+/// Whether all that the legend of b would say is said by that of a.
+bool covers(const Panel& a, const Panel& b) {
+  for (std::size_t c = 0; c < b.curves.size(); ++c) {
+    bool found = b.curves[c].label.empty();
+    for (std::size_t d = 0; d < a.curves.size(); ++d)
+      found |= a.curves[d].label == b.curves[c].label && a.curves[d].style == b.curves[c].style &&
+               colour_number(a, d) == colour_number(b, c);
+    if (!found) return false;
+  }
   return true;
 }
 
-/// Rows of legend entries, beside the heading as far as there is room, else below it. Baselines
-/// count from the top of the panel downward.
-class HeadingRows {
+/// Fills one page; the steps depend on each other in the order in which build() calls them.
+class PageBuilder {
  public:
-  HeadingRows(const Panel& panel, const PanelLayout& placed, const bool with_legend,
-              const TextWidth& width) {
-    if (placed.y.ticks.exponent != 0 || !panel.title.empty()) n_rows_ = 1;
-    if (with_legend) place_legend(panel, placed.plot, width);
+  PageBuilder(const Figure& figure, const TextWidth& width)
+      : figure_(figure), width_(width), n_(figure.panels.size()), heading_rows_(n_, 0) {
+    page_.width = page_width;
+    page_.height = panel_height * static_cast<int>(n_);
+    page_.panels.resize(n_);
   }
-  int n_rows() const { return n_rows_; }
-  const std::vector<LegendEntry>& entries() const { return entries_; }
+
+  PageLayout build() {
+    set_ranges(figure_, page_.panels);
+    set_left_edges();
+    for (std::size_t p = 0; p < n_; ++p)
+      set_ticks(panel(p).x, figure_.panels[p].x_label, panel(p).plot.width, 90.);
+    for (std::size_t p = 0; p < n_; ++p) place_heading(p);
+    stack();
+    for (std::size_t p = 0; p < n_; ++p) {
+      write_x_axis(p);
+      write_y_axis(p);
+    }
+    return std::move(page_);
+  }
 
  private:
-  void place_legend(const Panel& panel, const Box& plot, const TextWidth& width) {
+  PanelLayout& panel(const std::size_t p) { return page_.panels[p]; }
+
+  std::vector<std::string> y_label_lines(const std::size_t p) const {
+    return wrapped(figure_.panels[p].y_label, usual_plot_height, label_size, false, width_);
+  }
+  std::vector<std::string> x_label_lines(const std::size_t p) const {
+    return wrapped(figure_.panels[p].x_label, page_.panels[p].plot.width, label_size, false,
+                   width_);
+  }
+
+  static void set_ticks(Axis& axis, const std::string& label, const double length,
+                        const double spacing) {
+    const int n_most = std::max(2, static_cast<int>(length / spacing));
+    axis.ticks = axis.logarithmic ? logarithmic_ticks(axis.range, n_most)
+                                  : linear_ticks(axis.range, n_most, is_in_degrees(label));
+  }
+
+  double widest_number(const Axis& axis) const {
+    double widest = 0.;
+    for (const Tick& mark : axis.ticks.marks)
+      widest = std::max(widest, width_(mark.label, tick_size, false));
+    if (axis.ticks.exponent == 0) return widest;
+    return std::max(widest, width_(factor(axis), tick_size, false));
+  }
+
+  static std::string factor(const Axis& axis) {
+    return "\u00d7" + power_of_ten(axis.ticks.exponent);
+  }
+
+  void set_left_edges() {
+    double left = 0.;
+    for (std::size_t p = 0; p < n_; ++p) {
+      Axis& y = panel(p).y;
+      set_ticks(y, figure_.panels[p].y_label, usual_plot_height, 48.);
+      left = std::max(left, margin + static_cast<double>(y_label_lines(p).size()) * row + tick_gap +
+                                widest_number(y));
+    }
+    for (PanelLayout& placed : page_.panels) {
+      placed.plot.left = left;
+      placed.plot.width = page_.width - left - right_margin;
+    }
+  }
+
+  double legend_length(const std::string& label) const {
+    return label.empty() ? 0.
+                         : page_.strokes.sample_width + gap_after_sample +
+                               width_(label, legend_size, false) + gap_in_legend;
+  }
+
+  /// Heading and legend in rows above the axes; y counts downward from the panel's top for now. A
+  /// legend that fits stands beside the heading and ends where the axes do.
+  void place_heading(const std::size_t p) {
+    const Panel& given = figure_.panels[p];
+    int& n_rows = heading_rows_[p];
+    n_rows = panel(p).y.ticks.exponent != 0 || !given.title.empty();
+    if (p > 0 && covers(figure_.panels[p - 1], given)) return;
+    double total = -gap_in_legend;
+    for (const Curve& curve : given.curves) total += legend_length(curve.label);
+    if (total <= 0.) return;
+    const Box& plot = panel(p).plot;
     double left = plot.left;
-    if (!panel.title.empty()) left += width(panel.title, letter::heading, true) + heading_gap;
-    for (std::size_t c = 0; c < panel.curves.size(); ++c) {
-      if (panel.curves[c].label.empty()) continue;
-      const double length =
-          legend_sample_width + legend_gap + width(panel.curves[c].label, letter::legend, false);
-      if (n_rows_ == 0 || left + length > plot.right()) {
-        ++n_rows_;
+    if (!given.title.empty()) {
+      const bool beside =
+          left + width_(given.title, heading_size, true) + gap_after_heading + total <=
+          plot.right();
+      beside ? left = plot.right() - total : ++n_rows;
+    }
+    n_rows = std::max(n_rows, 1);
+    for (std::size_t c = 0; c < given.curves.size(); ++c) {
+      const double length = legend_length(given.curves[c].label);
+      if (length == 0.) continue;
+      if (left + length - gap_in_legend > plot.right() + 0.5 && left > plot.left) {
+        ++n_rows;
         left = plot.left;
       }
-      entries_.push_back({c, left, (n_rows_ - 1) * row + baseline_drop});
-      left += length + legend_entry_gap;
+      panel(p).legend.push_back({c, left, (n_rows - 0.5) * row});
+      left += length;
     }
-    // Beside a heading the entries end where the axes do.
-    if (n_rows_ == 1 && !panel.title.empty())
-      for (LegendEntry& entry : entries_) entry.left += plot.right() + legend_entry_gap - left;
   }
-  int n_rows_ = 0;
-  std::vector<LegendEntry> entries_;
+
+  bool is_x_labelled(const std::size_t p) {
+    return p + 1 == n_ ||
+           !share_x_axis(figure_.panels[p], panel(p), figure_.panels[p + 1], panel(p + 1));
+  }
+  double height_below(const std::size_t p) {
+    if (!is_x_labelled(p)) return 0.;
+    return tick_gap + row * (1. + static_cast<double>(x_label_lines(p).size()));
+  }
+
+  /// Gives all plots the same height, from the top of the page down.
+  void stack() {
+    const auto titles = wrapped(figure_.title, page_.width - 2. * margin, title_size, true, width_);
+    double used = 2. * margin + static_cast<double>(titles.size()) * title_row +
+                  gap_between_panels * static_cast<double>(n_ - 1);
+    for (std::size_t p = 0; p < n_; ++p) used += heading_rows_[p] * row + height_below(p);
+    const double least = used + static_cast<double>(n_) * least_plot_height;
+    page_.height = std::max(page_.height, static_cast<int>(std::ceil(least)));
+    const double plot_height = (page_.height - used) / static_cast<double>(n_);
+
+    double top = page_.height - margin;
+    for (const auto& line : titles) {
+      write(line, page_.width / 2., top - title_row / 2., title_size, Anchor::centre, true);
+      top -= title_row;
+    }
+    for (std::size_t p = 0; p < n_; ++p) {
+      write_heading(p, top);
+      panel(p).plot.height = plot_height;
+      panel(p).plot.bottom = top - heading_rows_[p] * row - plot_height;
+      top = panel(p).plot.bottom - height_below(p) - gap_between_panels;
+    }
+  }
+
+  void write_heading(const std::size_t p, const double top) {
+    write(figure_.panels[p].title, panel(p).plot.left, top - row / 2., heading_size, Anchor::left,
+          true);
+    for (LegendSample& sample : panel(p).legend) {
+      sample.y = top - sample.y;
+      write(figure_.panels[p].curves[sample.curve].label,
+            sample.left + page_.strokes.sample_width + gap_after_sample, sample.y, legend_size);
+    }
+  }
+
+  void write_x_axis(const std::size_t p) {
+    if (!is_x_labelled(p)) return;
+    const PanelLayout& placed = panel(p);
+    const Box& plot = placed.plot;
+    double y = plot.bottom - tick_gap - row / 2.;
+    double free_from = -std::numeric_limits<double>::infinity();
+    for (const Tick& mark : placed.x.ticks.marks) {
+      const double half = width_(mark.label, tick_size, false) / 2.;
+      const double x = std::min(plot.left + plot.width * placed.x.part(mark.at),
+                                page_.width - margin / 2. - half);
+      if (mark.label.empty() || x - half < free_from) continue;
+      write(mark.label, x, y, tick_size, Anchor::centre);
+      free_from = x + half + 4.;
+    }
+    for (const auto& line : x_label_lines(p))
+      write(line, plot.left + plot.width / 2., y -= row, label_size, Anchor::centre);
+    if (placed.x.ticks.exponent != 0)
+      write(factor(placed.x), plot.right(), plot.bottom - tick_gap - 1.5 * row, tick_size,
+            Anchor::right);
+  }
+
+  void write_y_axis(const std::size_t p) {
+    const PanelLayout& placed = panel(p);
+    const Box& plot = placed.plot;
+    double free_from = -std::numeric_limits<double>::infinity();
+    for (const Tick& mark : placed.y.ticks.marks) {
+      const double y = plot.bottom + plot.height * placed.y.part(mark.at);
+      if (mark.label.empty() || y < free_from) continue;
+      write(mark.label, plot.left - tick_gap, y, tick_size, Anchor::right);
+      free_from = y + tick_size;
+    }
+    double x = margin + row / 2.;
+    for (const auto& line : y_label_lines(p)) {
+      write(line, x, plot.bottom + plot.height / 2., label_size, Anchor::centre, false, true);
+      x += row;
+    }
+    if (placed.y.ticks.exponent != 0)
+      write(factor(placed.y), plot.left - tick_gap, plot.top() + row / 2., tick_size,
+            Anchor::right);
+  }
+
+  void write(const std::string& text, const double x, const double y, const int size,
+             const Anchor anchor = Anchor::left, const bool bold = false,
+             const bool upward = false) {
+    if (!text.empty()) page_.texts.push_back({text, x, y, size, anchor, bold, upward});
+  }
+
+  const Figure& figure_;
+  const TextWidth& width_;
+  std::size_t n_;
+  std::vector<int> heading_rows_;
+  PageLayout page_;
 };
-
-double widest_tick_label(const Axis& axis, const TextWidth& text_width) {
-  double widest = 0.;
-  for (const Tick& mark : axis.ticks.marks)
-    widest = std::max(widest, text_width(mark.label, letter::tick, false));
-  if (axis.ticks.exponent != 0)
-    widest = std::max(
-        widest, text_width("\u00d7" + power_of_ten(axis.ticks.exponent), letter::tick, false));
-  return widest;
-}
-
-double height_below(const Axis& x) {
-  return x.labelled ? tick_gap + row + static_cast<double>(x.label_lines.size()) * row : 0.;
-}
-
-/// Fills in the left edge of all plots from the widest y labels.
-void set_left_edges(const Figure& figure, PageLayout& page, const TextWidth& text_width) {
-  double left = 0.;
-  for (std::size_t p = 0; p < page.panels.size(); ++p) {
-    Axis& y = page.panels[p].y;
-    set_ticks(y, figure.panels[p].y_label, usual_plot_height, 48.);
-    y.label_lines =
-        wrapped(figure.panels[p].y_label, usual_plot_height,
-                [&](const std::string& text) { return text_width(text, letter::label, false); });
-    left = std::max(left, margin + static_cast<double>(y.label_lines.size()) * row + tick_gap +
-                              widest_tick_label(y, text_width));
-  }
-  for (PanelLayout& panel : page.panels) {
-    panel.plot.left = left;
-    panel.plot.width = page.width - left - right_margin;
-  }
-}
-
-std::vector<HeadingRows> place_headings(const Figure& figure, const PageLayout& page,
-                                        const TextWidth& text_width) {
-  std::vector<HeadingRows> headings;
-  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
-    const bool repeats = p > 0 && same_legend(figure.panels[p - 1], figure.panels[p]);
-    headings.emplace_back(figure.panels[p], page.panels[p], !repeats, text_width);
-  }
-  return headings;
-}
-
-void set_x_ticks(const Panel& panel, PanelLayout& placed, const TextWidth& text_width) {
-  set_ticks(placed.x, panel.x_label, placed.plot.width, 90.);
-  placed.x.label_lines = wrapped(panel.x_label, placed.plot.width, [&](const std::string& text) {
-    return text_width(text, letter::label, false);
-  });
-}
-
-/// Gives all plots the same height, from the top of the page down.
-void stack(PageLayout& page, const std::vector<HeadingRows>& headings) {
-  const auto n = static_cast<double>(page.panels.size());
-  const double title_height = static_cast<double>(page.title_lines.size()) * title_row;
-  double used = 2. * margin + title_height + gap_between_panels * (n - 1.);
-  for (std::size_t p = 0; p < page.panels.size(); ++p)
-    used += headings[p].n_rows() * row + height_below(page.panels[p].x);
-  page.height = std::max(page.height, static_cast<int>(std::ceil(used + n * least_plot_height)));
-  const double plot_height = (page.height - used) / n;
-
-  double top = page.height - margin - title_height;
-  for (std::size_t p = 0; p < page.panels.size(); ++p) {
-    PanelLayout& placed = page.panels[p];
-    placed.heading_baseline = top - baseline_drop;
-    for (LegendEntry entry : headings[p].entries()) {
-      entry.baseline = top - entry.baseline;
-      placed.legend.push_back(entry);
-    }
-    placed.plot.height = plot_height;
-    placed.plot.bottom = top - headings[p].n_rows() * row - plot_height;
-    top = placed.plot.bottom - height_below(placed.x) - gap_between_panels;
-  }
-}
 
 }  // namespace
 
@@ -230,16 +245,21 @@ double Axis::on_paper(const double value) const {
 }
 
 PageLayout lay_out(const Figure& figure, const TextWidth& text_width) {
-  const std::size_t n = figure.panels.size();
-  PageLayout page{page_width, panel_height * static_cast<int>(n), {}, std::vector<PanelLayout>(n)};
-  page.title_lines = wrapped(figure.title, page.width - 2. * margin, [&](const std::string& text) {
-    return text_width(text, letter::title, true);
-  });
-  set_x_ranges(figure, page.panels);
-  for (std::size_t p = 0; p < n; ++p) set_y_range(figure.panels[p], page.panels[p].y);
-  set_left_edges(figure, page, text_width);
-  for (std::size_t p = 0; p < n; ++p) set_x_ticks(figure.panels[p], page.panels[p], text_width);
-  stack(page, place_headings(figure, page, text_width));
+  return PageBuilder(figure, text_width).build();
+}
+
+PageLayout magnified(PageLayout page, const int factor) {
+  const auto magnify = [&](auto&... values) { ((values *= factor), ...); };
+  magnify(page.width, page.height);
+  auto& [line, fine_line, point, dash, dash_space, thin, long_tick, short_tick, sample_width,
+         sample_height] = page.strokes;
+  magnify(line, fine_line, point, dash, dash_space, thin, long_tick, short_tick, sample_width,
+          sample_height);
+  for (PlacedText& text : page.texts) magnify(text.x, text.y, text.size);
+  for (PanelLayout& panel : page.panels) {
+    magnify(panel.plot.left, panel.plot.bottom, panel.plot.width, panel.plot.height);
+    for (LegendSample& sample : panel.legend) magnify(sample.left, sample.y);
+  }
   return page;
 }
 

@@ -1,107 +1,121 @@
 #include "report/page_painter.h"
 
-#include <vtkBrush.h>
 #include <vtkContext2D.h>
 #include <vtkObjectFactory.h>
-#include <vtkPen.h>
-#include <vtkTextProperty.h>
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
-#include "report/curve_look.h"
-#include "report/lettering.h"
+#include "report/context_painting.h"
 
 namespace vibrissa::report {
 namespace {
 
-constexpr double title_row = 32., row = 26., tick_gap = 12.;
-constexpr Colour grid_colour = {221, 221, 221}, fine_grid_colour = {240, 240, 240},
-                 frame_colour = {110, 110, 110};
+constexpr Colour grid_colour = {221, 221, 221}, fine_grid_colour = {240, 240, 240};
+constexpr Colour frame_colour = {110, 110, 110};
 
-enum class At { left, centre, right };
-
-void write(vtkContext2D& painter, const std::string& text, const double x, const double y,
-           const int size, const At at, const bool bold = false, const bool upward = false) {
-  vtkNew<vtkTextProperty> property;
-  set_lettering(*property, size, bold);
-  property->SetJustification(at == At::left     ? VTK_TEXT_LEFT
-                             : at == At::centre ? VTK_TEXT_CENTERED
-                                                : VTK_TEXT_RIGHT);
-  property->SetVerticalJustificationToCentered();
-  property->SetOrientation(upward ? 90. : 0.);
-  painter.ApplyTextProp(property);
-  painter.DrawString(static_cast<float>(x), static_cast<float>(y), printable(text).c_str());
+/// The middle of a pixel: a thin line between two would be drawn wide and pale.
+double middle(const double pixel, const double width) {
+  return (std::floor(pixel / width) + 0.5) * width;
 }
 
-void set_pen(vtkContext2D& painter, const Colour& colour, const double width) {
-  painter.GetPen()->SetLineType(vtkPen::SOLID_LINE);
-  painter.GetPen()->SetColor(colour[0], colour[1], colour[2], 255);
-  painter.GetPen()->SetWidth(static_cast<float>(width));
-}
+/// Draws one panel but for its texts and curves.
+class PanelPainter {
+ public:
+  PanelPainter(vtkContext2D& painter, const Strokes& strokes, const PanelLayout& placed)
+      : painter_(painter),
+        strokes_(strokes),
+        placed_(placed),
+        left_(middle(placed.plot.left, strokes.thin)),
+        right_(middle(placed.plot.right(), strokes.thin)),
+        bottom_(middle(placed.plot.bottom, strokes.thin)),
+        top_(middle(placed.plot.top(), strokes.thin)) {}
 
-void draw_line(vtkContext2D& painter, const double x0, const double y0, const double x1,
-               const double y1) {
-  painter.DrawLine(static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
-                   static_cast<float>(y1));
-}
-
-double pixel(const Axis& axis, const double at, const double start, const double length) {
-  return start + length * (at - axis.range.low) / axis.range.length();
-}
-
-void paint_grid(vtkContext2D& painter, const PanelLayout& placed, const bool fine) {
-  set_pen(painter, fine ? fine_grid_colour : grid_colour, 1.);
-  const Box& plot = placed.plot;
-  for (const Tick& mark : placed.x.ticks.marks) {
-    const double x = pixel(placed.x, mark.at, plot.left, plot.width);
-    if (mark.label.empty() == fine) draw_line(painter, x, plot.bottom, x, plot.top());
+  void paint_grid(const bool fine) const {
+    set_pen(painter_, fine ? fine_grid_colour : grid_colour, strokes_.thin);
+    for (const Tick& mark : placed_.x.ticks.marks)
+      if (mark.label.empty() == fine) draw_line(painter_, x(mark), bottom_, x(mark), top_);
+    for (const Tick& mark : placed_.y.ticks.marks)
+      if (mark.label.empty() == fine) draw_line(painter_, left_, y(mark), right_, y(mark));
   }
-  for (const Tick& mark : placed.y.ticks.marks) {
-    const double y = pixel(placed.y, mark.at, plot.bottom, plot.height);
-    if (mark.label.empty() == fine) draw_line(painter, plot.left, y, plot.right(), y);
-  }
-}
 
-void paint_frame(vtkContext2D& painter, const Box& plot) {
-  set_pen(painter, frame_colour, 1.);
-  draw_line(painter, plot.left, plot.bottom, plot.right(), plot.bottom);
-  draw_line(painter, plot.left, plot.top(), plot.right(), plot.top());
-  draw_line(painter, plot.left, plot.bottom, plot.left, plot.top());
-  draw_line(painter, plot.right(), plot.bottom, plot.right(), plot.top());
-}
+  void paint_frame() const {
+    set_pen(painter_, frame_colour, strokes_.thin);
+    draw_line(painter_, left_, bottom_, right_, bottom_);
+    draw_line(painter_, left_, top_, right_, top_);
+    draw_line(painter_, left_, bottom_, left_, top_);
+    draw_line(painter_, right_, bottom_, right_, top_);
+    for (const Tick& mark : placed_.x.ticks.marks)
+      draw_line(painter_, x(mark), bottom_ - length(mark), x(mark), bottom_);
+    for (const Tick& mark : placed_.y.ticks.marks)
+      draw_line(painter_, left_ - length(mark), y(mark), left_, y(mark));
+  }
 
-void paint_ticks(vtkContext2D& painter, const PanelLayout& placed) {
-  constexpr double long_tick = 6., short_tick = 3.;
-  set_pen(painter, frame_colour, 1.);
-  const Box& plot = placed.plot;
-  for (const Tick& mark : placed.x.ticks.marks) {
-    const double x = pixel(placed.x, mark.at, plot.left, plot.width);
-    draw_line(painter, x, plot.bottom, x,
-              plot.bottom - (mark.label.empty() ? short_tick : long_tick));
+ private:
+  double x(const Tick& mark) const {
+    return middle(placed_.plot.left + placed_.plot.width * placed_.x.part(mark.at), strokes_.thin);
   }
-  for (const Tick& mark : placed.y.ticks.marks) {
-    const double y = pixel(placed.y, mark.at, plot.bottom, plot.height);
-    draw_line(painter, plot.left - (mark.label.empty() ? short_tick : long_tick), y, plot.left, y);
+  double y(const Tick& mark) const {
+    return middle(placed_.plot.bottom + placed_.plot.height * placed_.y.part(mark.at),
+                  strokes_.thin);
   }
-}
+  double length(const Tick& mark) const {
+    return mark.label.empty() ? strokes_.short_tick : strokes_.long_tick;
+  }
 
-void paint_labels(vtkContext2D& painter, const PanelLayout& placed) {
-  const Box& plot = placed.plot;
-  double y = plot.bottom - tick_gap - 1.5 * row;
-  if (placed.x.labelled)
-    for (const auto& line : placed.x.label_lines) {
-      write(painter, line, plot.left + plot.width / 2., y, letter::label, At::centre);
-      y -= row;
-    }
-  double x = row;
-  for (const auto& line : placed.y.label_lines) {
-    write(painter, line, x, plot.bottom + plot.height / 2., letter::label, At::centre, false, true);
-    x += row;
+  vtkContext2D& painter_;
+  const Strokes& strokes_;
+  const PanelLayout& placed_;
+  double left_, right_, bottom_, top_;
+};
+
+void paint_sample(vtkContext2D& painter, const Strokes& strokes, const Panel& panel,
+                  const LegendSample& sample) {
+  const double right = sample.left + strokes.sample_width;
+  const CurveStyle style = panel.curves[sample.curve].style;
+  Colour colour = palette_colour(colour_number(panel, sample.curve));
+  if (style == CurveStyle::line || style == CurveStyle::dashed) {
+    set_pen(painter, colour, strokes.line);
+    const double step = style == CurveStyle::line ? right : strokes.dash + strokes.dash_space;
+    const double dash = style == CurveStyle::line ? right - sample.left : strokes.dash;
+    for (double x = sample.left; x < right; x += step)
+      draw_line(painter, x, sample.y, std::min(x + dash, right), sample.y);
+    return;
   }
+  if (style == CurveStyle::band) colour = tint(colour, band_tint);
+  set_fill(painter, colour);
+  if (style == CurveStyle::band)
+    painter.DrawRect(
+        static_cast<float>(sample.left), static_cast<float>(sample.y - strokes.sample_height / 2.),
+        static_cast<float>(strokes.sample_width), static_cast<float>(strokes.sample_height));
+  else
+    painter.DrawEllipse(static_cast<float>((sample.left + right) / 2.),
+                        static_cast<float>(sample.y), static_cast<float>(strokes.point / 2.),
+                        static_cast<float>(strokes.point / 2.));
 }
 
 }  // namespace
 
 vtkStandardNewMacro(PagePainter);
+
+void PagePainter::show(const Figure& figure, const PageLayout& page) {
+  figure_ = &figure;
+  page_ = &page;
+}
+
+bool PagePainter::Paint(vtkContext2D* painter) {
+  assert(painter && figure_ && page_);
+  for (std::size_t p = 0; p < page_->panels.size(); ++p) {
+    const PanelPainter panel(*painter, page_->strokes, page_->panels[p]);
+    panel.paint_grid(true);
+    panel.paint_grid(false);
+    panel.paint_frame();
+    for (const LegendSample& sample : page_->panels[p].legend)
+      paint_sample(*painter, page_->strokes, figure_->panels[p], sample);
+  }
+  for (const PlacedText& text : page_->texts) paint_text(*painter, text);
+  return true;
+}
 
 }  // namespace vibrissa::report

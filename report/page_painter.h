@@ -4,11 +4,15 @@
 
 #include "report/figure.h"
 #include "report/page_layout.h"
+#include "report/palette.h"
 
 namespace vibrissa::report {
 
-/// Everything on a page but the curves and the axes' numbers: titles, axis labels, legends, grids,
-/// frames and small tick marks. Both pointers must outlive the painter.
+/// A band has the colour of its curve mixed with white.
+inline constexpr double band_tint = 0.3;
+
+/// Everything on a page but the curves: texts, legend samples, grids, frames and tick marks. Figure
+/// and page must outlive the painter.
 class PagePainter : public vtkContextItem {
  public:
   static PagePainter* New();
@@ -24,9 +28,6 @@ class PagePainter : public vtkContextItem {
   ~PagePainter() override = default;
 
  private:
-  void paint_titles(vtkContext2D& painter) const;
-  void paint_panel(vtkContext2D& painter, const Panel& panel, const PanelLayout& placed) const;
-
   const Figure* figure_ = nullptr;
   const PageLayout* page_ = nullptr;
 };

@@ -18,7 +18,9 @@ inline constexpr std::array<Colour, 8> palette = {{{0, 114, 178},
                                                    {0, 0, 0},
                                                    {240, 228, 66}}};
 
-inline constexpr Colour colour(const std::size_t number) { return palette[number % palette.size()]; }
+inline constexpr Colour palette_colour(const std::size_t number) {
+  return palette[number % palette.size()];
+}
 
 /// The colour mixed with white; part = 1 leaves it as it is.
 inline constexpr Colour tint(const Colour& colour, const double part) {

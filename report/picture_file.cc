@@ -1,40 +1,57 @@
 #include "report/picture_file.h"
 
-#include <vtkErrorCode.h>
+#include <vtkImageShrink3D.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkSVGExporter.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <functional>
+#include <fstream>
+#include <string>
 #include <system_error>
 
 #include "signals/error.h"
+#include "signals/output_file.h"
 
 namespace vibrissa::report {
 namespace {
 
-/// Lets write() make a file beside the wanted one and renames that.
-void write_whole(const std::filesystem::path& file,
-                 const std::function<void(const std::string&)>& write) {
-  const std::filesystem::path part = file.string() + ".part";
-  std::error_code error;
-  std::filesystem::remove(part, error);
-  write(part.string());
-  if (!std::filesystem::exists(part) || std::filesystem::file_size(part, error) == 0)
-    throw signals::UserError(file.string() + ": the picture cannot be written");
-  std::filesystem::rename(part, file, error);
-  if (error) throw signals::UserError(file.string() + ": " + error.message());
+/// The line without an attribute, which begins with a blank.
+std::string without(std::string line, const std::string& attribute) {
+  const std::size_t start = line.find(attribute);
+  if (start == std::string::npos) return line;
+  const std::size_t value = line.find('"', start), end = line.find('"', value + 1);
+  return line.erase(start, end - start + 1);
+}
+
+/// Mends what the exporter writes: its clip paths hide whole curves in some viewers, while all that
+/// is drawn is clipped already; and for no outline it asks for one of dashes without length.
+std::string mended(const std::string& line) {
+  const std::string no_outline = " stroke-dasharray=\"0,10\"";
+  const std::string unclipped = without(line, " clip-path=");
+  if (unclipped.find(no_outline) == std::string::npos) return unclipped;
+  std::string plain = unclipped;
+  for (const char* attribute :
+       {" stroke-dasharray=", " stroke-width=", " stroke-opacity=", " stroke="})
+    plain = without(plain, attribute);
+  return plain;
 }
 
 }  // namespace
 
+OpenDisplay::OpenDisplay() : window_(vtkSmartPointer<vtkRenderWindow>::New()) {
+  prepare_offscreen(*window_, 1, 1);
+  window_->Render();
+}
+
+OpenDisplay::~OpenDisplay() = default;
+
 void prepare_offscreen(vtkRenderWindow& window, const int width, const int height) {
-  constexpr int samples_per_pixel = 8;
   window.SetOffScreenRendering(1);
   window.SetDPI(72);
-  window.SetMultiSamples(samples_per_pixel);
+  window.SetMultiSamples(0);
   window.SetSize(width, height);
 }
 
@@ -44,27 +61,37 @@ void write_png(vtkRenderWindow& window, const std::filesystem::path& file) {
   image->SetInput(&window);
   image->ReadFrontBufferOff();
   image->SetInputBufferTypeToRGB();
-  write_whole(file, [&](const std::string& part) {
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputConnection(image->GetOutputPort());
-    writer->SetFileName(part.c_str());
-    writer->Write();
-    if (writer->GetErrorCode() != vtkErrorCode::NoError)
-      throw signals::UserError(file.string() + ": " +
-                               vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  vtkNew<vtkImageShrink3D> smaller;
+  smaller->SetInputConnection(image->GetOutputPort());
+  smaller->SetShrinkFactors(oversampling, oversampling, 1);
+  smaller->AveragingOn();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(smaller->GetOutputPort());
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  signals::write_file(file, [&](std::ostream& out) {
+    out.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
   });
 }
 
 void write_svg(vtkRenderWindow& window, const std::filesystem::path& file, const std::string& title,
                const std::string& caption) {
-  write_whole(file, [&](const std::string& part) {
-    vtkNew<vtkSVGExporter> exporter;
-    exporter->SetRenderWindow(&window);
-    exporter->SetFileName(part.c_str());
-    exporter->SetTitle(title.c_str());
-    exporter->SetDescription(caption.c_str());
-    exporter->Write();
+  // The exporter knows files only and is silent about failure: its copy is read and then removed.
+  const std::filesystem::path raw = file.string() + ".raw";
+  vtkNew<vtkSVGExporter> exporter;
+  exporter->SetRenderWindow(&window);
+  exporter->SetFileName(raw.c_str());
+  exporter->SetTitle(title.c_str());
+  exporter->SetDescription(caption.c_str());
+  exporter->Write();
+  std::ifstream in(raw);
+  if (!in) throw signals::UserError(file.string() + ": cannot be written");
+  signals::write_file(file, [&](std::ostream& out) {
+    for (std::string line; std::getline(in, line);) out << mended(line) << '\n';
   });
+  std::error_code ignored;
+  std::filesystem::remove(raw, ignored);
 }
 
 }  // namespace vibrissa::report

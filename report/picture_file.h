@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vtkSmartPointer.h>
+
 #include <filesystem>
 #include <string>
 
@@ -7,11 +9,28 @@ class vtkRenderWindow;
 
 namespace vibrissa::report {
 
-/// A window that never appears on the screen, white, with smooth edges. Making pictures in it
+/// Keeps the display open from one picture to the next: a virtual one starts anew whenever its last
+/// window closes, and may then miss the next.
+class OpenDisplay {
+ public:
+  OpenDisplay();
+  ~OpenDisplay();
+  OpenDisplay(const OpenDisplay&) = delete;
+  OpenDisplay& operator=(const OpenDisplay&) = delete;
+
+ private:
+  vtkSmartPointer<vtkRenderWindow> window_;
+};
+
+/// A window that never appears on the screen. Making pictures in it
 /// aborts the program when no display can be opened: see draw_pictures().
 void prepare_offscreen(vtkRenderWindow& window, int width, int height);
 
-/// Renders the window to a PNG file, which is whole or not there at all. Throws UserError with the
+/// Pixels of a window are this much finer than those of its PNG file, for smooth edges.
+inline constexpr int oversampling = 2;
+
+/// Renders the window and writes it, smaller by oversampling, to a PNG file, which is whole or not
+/// there at all. Throws UserError with the
 /// path when it cannot be written.
 void write_png(vtkRenderWindow& window, const std::filesystem::path& file);
 

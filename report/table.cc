@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "report/text.h"
+#include "signals/number_text.h"
 
 namespace vibrissa::report {
 namespace {
@@ -39,7 +40,7 @@ std::string Cell::rounded(const int n_digits) const {
 }
 
 std::string Cell::exact() const {
-  if (const auto* number = std::get_if<double>(&value_)) return shortest(*number);
+  if (const auto* number = std::get_if<double>(&value_)) return signals::to_text(*number);
   if (const auto* count = std::get_if<long long>(&value_)) return std::to_string(*count);
   if (const auto* text = std::get_if<std::string>(&value_)) return *text;
   return "";
@@ -58,7 +59,7 @@ std::string Table::to_csv() const {
   std::string csv;
   const auto add_line = [&](const auto& items, const auto& text_of) {
     for (std::size_t c = 0; c < items.size(); ++c)
-      csv += (c == 0 ? "" : ",") + csv_field(text_of(items[c]));
+      csv.append(c == 0 ? "" : ",").append(csv_field(text_of(items[c])));
     csv += '\n';
   };
   add_line(columns_, heading);
@@ -88,7 +89,8 @@ std::string Table::to_markdown() const {
   std::string markdown;
   for (std::size_t l = 0; l < text.lines.size(); ++l) {
     markdown += '|';
-    for (const auto& field : text.lines[l]) markdown += " " + markdown_field(field) + " |";
+    for (const auto& field : text.lines[l])
+      markdown.append(" ").append(markdown_field(field) + " |");
     markdown += '\n';
     if (l != 0) continue;
     markdown += '|';

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -20,13 +19,6 @@ std::string formatted(const char* format, const int precision, const double valu
 
 }  // namespace
 
-std::string shortest(const double value) {
-  if (std::isnan(value)) return "nan";
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end.ptr};
-}
-
 std::string significant(const double value, const int n_digits) {
   assert(n_digits >= 1 && n_digits <= 17);
   if (std::isnan(value)) return "-";
@@ -40,13 +32,12 @@ std::string significant(const double value, const int n_digits) {
 }
 
 std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
+  std::string quoted;
   for (const char c : text) {
     if (c == '"') quoted += '"';
-    quoted += c;
+    quoted += c == '\n' || c == '\r' ? ' ' : c;
   }
-  return quoted + '"';
+  return text.find_first_of(",\"") == std::string::npos ? quoted : '"' + quoted + '"';
 }
 
 std::size_t n_characters(const std::string& text) {

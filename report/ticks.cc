@@ -57,13 +57,17 @@ int n_inside(const Range& range, const std::vector<int>& digits) {
   return n;
 }
 
-/// Which multiples of the powers of ten get labels: as few as give three.
-std::vector<int> labelled_digits(const Range& range) {
-  const std::array<std::vector<int>, 4> choices = {
-      {{1}, {1, 3}, {1, 2, 5}, {1, 2, 3, 4, 5, 6, 7, 8, 9}}};
-  for (const auto& digits : choices)
-    if (n_inside(range, digits) >= 3) return digits;
-  return {};
+/// Which multiples of the powers of ten get labels: as many as there is room for, but three at
+/// least.
+std::vector<int> labelled_digits(const Range& range, const int n_most) {
+  std::vector<int> best;
+  for (const std::vector<int>& digits :
+       {std::vector<int>{1}, {1, 3}, {1, 2, 5}, {1, 2, 3, 4, 5, 6, 7, 8, 9}}) {
+    const int n = n_inside(range, digits);
+    const bool enough = n_inside(range, best) >= 3;
+    if (n >= 3 && (!enough || (n <= n_most && digits.size() <= 3))) best = digits;
+  }
+  return best;
 }
 
 Ticks linear_ticks_on_logarithmic_axis(const Range& range, const int n_most) {
@@ -108,7 +112,7 @@ Ticks logarithmic_ticks(const Range& given, const int n_most) {
   assert(given.length() > 0. && n_most >= 2);
   const double margin = tolerance * given.length();
   const Range range{given.low - margin, given.high + margin};
-  const auto digits = labelled_digits(range);
+  const auto digits = labelled_digits(range, n_most);
   if (digits.empty()) return linear_ticks_on_logarithmic_axis(given, n_most);
   const int lowest = static_cast<int>(std::floor(range.low));
   const int highest = static_cast<int>(std::floor(range.high));

@@ -14,6 +14,7 @@ class UserError : public std::runtime_error {
 };
 
 /// "unknown <kind> '<given>'; did you mean '<nearest>'? Known: a, b, c" for messages about names.
+/// The hint is left out when no known name is near. Proven by tests/signals/error_test.cc.
 std::string unknown_name(const std::string& kind, const std::string& given,
                          const std::vector<std::string>& known);
 

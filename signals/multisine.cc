@@ -105,10 +105,11 @@ std::vector<double> Multisine::sample(double sampling_rate_hz, std::size_t n_sam
   std::vector<double> result(n_samples, 0.);
   for (std::size_t line = 0; line < frequency_hz.size(); ++line)
     for (std::size_t i = 0; i < n_samples; ++i) {
-      // Whole cycles are taken off first, so that late samples are as exact as early ones.
-      const double cycles = frequency_hz[line] * static_cast<double>(i) / sampling_rate_hz;
+      // Whole cycles are taken off exactly, so that late samples are as exact as early ones.
+      const double within_cycle =
+          std::fmod(frequency_hz[line] * static_cast<double>(i), sampling_rate_hz);
       result[i] +=
-          amplitude[line] * std::cos(2. * pi * (cycles - std::floor(cycles)) + phase_rad[line]);
+          amplitude[line] * std::cos(2. * pi * within_cycle / sampling_rate_hz + phase_rad[line]);
     }
   return result;
 }

@@ -24,17 +24,20 @@ struct Multisine {
   std::vector<double> sample(double sampling_rate_hz, std::size_t n_samples) const;
 };
 
-/// Flat multisine at the given frequencies with the given peak amplitude of the *sum* (measured on
-/// 16 times oversampled time). Throws UserError for no line, or a frequency that is not positive.
+/// Flat multisine at the given frequencies with the given peak amplitude of the *sum* (measured
+/// over one period on 16 times oversampled time: the true peak is less than 0.5 % higher). Throws
+/// UserError for no line, a frequency that is not positive or given twice, frequencies without a
+/// common period, and a peak that is negative. Proven by tests/signals/multisine_test.cc.
 Multisine make_multisine(std::span<const double> frequency_hz, double peak_amplitude,
                          MultisinePhase phase, std::uint64_t seed = 0);
 
 /// n_lines frequencies in [low, high] spread logarithmically and rounded to multiples of the
-/// resolution 1/period, without repeats. Throws UserError when they do not fit.
+/// resolution 1/period, without repeats; one line stands in the logarithmic middle. Throws
+/// UserError when they do not fit.
 std::vector<double> multisine_lines(double low_hz, double high_hz, std::size_t n_lines,
                                     double resolution_hz);
 
-/// Peak over root mean square.
+/// Peak over root mean square. Throws UserError for a signal without power.
 double crest_factor(std::span<const double> x);
 
 }  // namespace vibrissa::signals

@@ -9,9 +9,10 @@ namespace vibrissa::signals {
 
 /// Exact step h of q'' + 2 zeta w q' + w^2 q = f with f linear over the step (first-order hold),
 /// for the scaled state Q = q / h^2, P = q' / h:
-///   Q1 = qq Q + qp P + q_old f0 + q_new f1,  P1 = pq Q + pp P + p_old f0 + p_new f1,
+///   Q1 = Q + (qq Q + qp P + q_old f0 + q_new f1),  P1 = P + (pq Q + pp P + p_old f0 + p_new f1),
 ///   w^2 q + 2 zeta w q' = stiffness Q + damping P.
-/// Any zeta >= 0 and w h > 0; proven by tests/signals/reduced_model_test.cc against closed forms.
+/// Changes instead of new values, so that steps much shorter than a period lose no digits.
+/// Any zeta >= 0 and w h > 0; proven by tests/signals/oscillator_step_test.cc against closed forms.
 struct OscillatorStep {
   double qq, qp, pq, pp;
   double q_old, q_new, p_old, p_new;
@@ -42,15 +43,15 @@ inline OscillatorStep make_oscillator_step(double angle, double damping_ratio) {
     impulse += k * (k - 1) * r[k];
   }
   for (int i = 0; i < n_doublings; ++i) {
-    const double qq = 1. - x * x * step, pq = -x * x * impulse, pp = qq - beta * impulse;
-    ramp = (qq * ramp + impulse * step + ramp + step) / 8.;
-    const double twice = (qq * step + impulse * impulse + step) / 4.;
-    impulse = (pq * step + pp * impulse + impulse) / 2.;
+    const double qq = -x * x * step, pq = -x * x * impulse, pp = qq - beta * impulse;
+    ramp = (qq * ramp + impulse * step + 2. * ramp + step) / 8.;
+    const double twice = (qq * step + impulse * impulse + 2. * step) / 4.;
+    impulse = (pq * step + pp * impulse + 2. * impulse) / 2.;
     step = twice;
     x *= 2.;
     beta *= 2.;
   }
-  const double qq = 1. - x * x * step;
+  const double qq = -x * x * step;
   return {.qq = qq,
           .qp = impulse,
           .pq = -x * x * impulse,

@@ -9,7 +9,9 @@ namespace vibrissa::signals {
 
 /// Writes a text file so that the name holds either the old or the complete new content: the writer
 /// fills a temporary file beside it, which is flushed, checked and renamed. Throws UserError with
-/// the path and the system's reason (no such folder, no permission, disk full).
+/// the path and the system's reason (no such folder, no permission, disk full); what the writer
+/// throws is passed on. A link stays a link, permissions are kept, and what is no regular file
+/// (a pipe, /dev/stdout) is written to in place. Proven by tests/signals/output_file_test.cc.
 void write_file(const std::filesystem::path& file,
                 const std::function<void(std::ostream&)>& writer);
 

@@ -21,6 +21,7 @@ inline const std::string cross_moment = "cross_moment_N_m";
 
 /// Uniformly sampled channels on one clock: sample i is at start + i / sampling_rate. SI units.
 /// A channel that is absent was not measured; it is never taken as zero.
+/// Proven by tests/signals/record_test.cc.
 class Record {
  public:
   /// Throws UserError unless the rate is positive and finite and n_samples > 0.
@@ -40,7 +41,8 @@ class Record {
   void set_channel(const std::string& name, std::vector<double> values);
   std::vector<std::string> channel_names() const;
 
-  /// Samples [first, first + count) of every channel; times are kept.
+  /// Samples [first, first + count) of every channel; times are kept. Throws UserError unless
+  /// there are that many, and at least one.
   Record slice(std::size_t first, std::size_t count) const;
 
  private:

@@ -43,11 +43,12 @@ const std::vector<std::string>& known_channels() {
 // Ends of column names that say "this is a measured quantity", not the text or counter of a logger.
 bool ends_with_unit(const std::string& name) {
   static constexpr auto units = std::to_array<std::string_view>(
-      {"s",    "ms",     "us",    "Hz",  "m",   "mm",  "um",   "m_s",   "mps",   "mm_s",
-       "m_s2", "mps2",   "mm_s2", "g",   "mg",  "rad", "mrad", "deg",   "rad_s", "deg_s",
-       "dps",  "rad_s2", "N",     "mN",  "uN",  "N_m", "mN_m", "uN_m",  "Nm",    "mNm",
-       "Nmm",  "uNm",    "Pa",    "hPa", "kPa", "bar", "A",    "mA",    "V",     "mV",
-       "uV",   "T",      "mT",    "uT",  "C",   "K",   "kg",   "kg_m3", "W",     "percent"});
+      {"s",     "ms",    "us",    "Hz",    "m",      "mm",     "um",  "m_s",  "mps",
+       "mm_s",  "m_s2",  "mps2",  "mm_s2", "g",      "mg",     "rad", "mrad", "deg",
+       "rad_s", "radps", "deg_s", "dps",   "rad_s2", "N",      "mN",  "uN",   "N_m",
+       "mN_m",  "uN_m",  "Nm",    "mNm",   "Nmm",    "uNm",    "Pa",  "hPa",  "kPa",
+       "bar",   "A",     "mA",    "V",     "mV",     "uV",     "T",   "mT",   "uT",
+       "C",     "K",     "kg",    "kg_m3", "W",      "percent"});
   return std::any_of(units.begin(), units.end(), [&](const std::string_view unit) {
     return name.size() > unit.size() + 1 && name.ends_with(unit) &&
            name[name.size() - unit.size() - 1] == '_';

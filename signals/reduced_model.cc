@@ -109,9 +109,6 @@ struct ModeBlock {
     damping[lane] = step.damping;
   }
 
-  Lanes force(double axial, double cross) const {
-    return -axial * axial_participation - cross * cross_participation;
-  }
   Lanes wind_force(const WindSample& wind) const {
     const Lanes& low = wind_coefficient[wind.row];
     const Lanes& high = wind_coefficient[wind.next_row];
@@ -119,25 +116,34 @@ struct ModeBlock {
   }
 };
 
-double sample_or_zero(std::span<const double> x, std::size_t i) {
-  return x.empty() ? 0. : x[i];
+/// Motion that has died away becomes zero: subnormal numbers would slow the processor a
+/// hundredfold.
+void clear_negligible(Lanes& state) {
+  constexpr double negligible = 1e-150;
+  state = (state.abs() < negligible).select(0., state);
 }
 
 /// Adds sum L (w^2 q + 2 zeta w q' - f) of the modes of one block.
 void add_modal_moment(const ModeBlock& modes, const ReducedInput& input,
                       std::span<const WindSample> wind, ReducedOutput& output) {
+  const auto axial = input.base_acceleration, cross = input.cross_acceleration;
   Lanes q = Lanes::Zero(), p = Lanes::Zero(), old_force = Lanes::Zero();
   for (std::size_t i = 0; i < input.n_samples; ++i) {
-    Lanes force = modes.force(sample_or_zero(input.base_acceleration, i),
-                              sample_or_zero(input.cross_acceleration, i));
+    Lanes force = Lanes::Zero();
+    if (!axial.empty()) force -= axial[i] * modes.axial_participation;
+    if (!cross.empty()) force -= cross[i] * modes.cross_participation;
     if (!wind.empty()) force += modes.wind_force(wind[i]);
+    if (i % 16 == 0) {
+      clear_negligible(q);
+      clear_negligible(p);
+    }
     if (i > 0) {
-      // The forces come first, so that only two products lie between one state and the next.
+      // The forces come first, so that little lies between one state and the next.
       const Lanes q_forced = modes.q_old * old_force + modes.q_new * force;
       const Lanes p_forced = modes.p_old * old_force + modes.p_new * force;
-      const Lanes q_next = modes.qq * q + (modes.qp * p + q_forced);
-      p = modes.pq * q + (modes.pp * p + p_forced);
-      q = q_next;
+      const Lanes q_change = modes.qq * q + (modes.qp * p + q_forced);
+      p += modes.pq * q + (modes.pp * p + p_forced);
+      q += q_change;
     }
     const Lanes excess = modes.stiffness * q + modes.damping * p - force;
     output.base_moment[i] += (modes.axial_moment * excess).sum();
@@ -151,11 +157,12 @@ void add_static_moment(const ReducedModel& model, const ReducedInput& input,
                        std::span<const WindSample> wind, ReducedOutput& output) {
   const Plane plane(model);
   const auto add = [&](const Vector& axis, std::vector<double>& moment) {
-    const double axial = rigid_moment(model, axis, plane.axial);
-    const double cross = rigid_moment(model, axis, plane.cross);
-    for (std::size_t i = 0; i < input.n_samples; ++i)
-      moment[i] -= axial * sample_or_zero(input.base_acceleration, i) +
-                   cross * sample_or_zero(input.cross_acceleration, i);
+    const auto follow = [&](std::span<const double> acceleration, const Vector& direction) {
+      const double rigid = rigid_moment(model, axis, direction);
+      for (std::size_t i = 0; i < acceleration.size(); ++i) moment[i] -= rigid * acceleration[i];
+    };
+    follow(input.base_acceleration, plane.axial);
+    follow(input.cross_acceleration, plane.cross);
     for (std::size_t i = 0; i < wind.size(); ++i)
       moment[i] += wind_moment(model.wind, wind[i], axis);
   };

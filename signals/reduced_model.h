@@ -78,9 +78,9 @@ void check(const ReducedModel& model);
 struct ReducedInput {
   double sampling_rate_hz = 0.;
   std::size_t n_samples = 0;
-  std::span<const double> base_acceleration;   // axial, true motion [m/s^2]
-  std::span<const double> cross_acceleration;  // along e_z x axial [m/s^2]
-  std::span<const double> wind_speed;          // along the axial direction [m/s]
+  std::span<const double> base_acceleration{};   // axial, true motion [m/s^2]
+  std::span<const double> cross_acceleration{};  // along e_z x axial [m/s^2]
+  std::span<const double> wind_speed{};          // along the axial direction [m/s]
 };
 
 struct ReducedOutput {
@@ -104,8 +104,10 @@ std::vector<std::complex<double>> base_response(const ReducedModel& model,
 /// has no wind load.
 double steady_wind_moment(const ReducedModel& model, double speed_m_s);
 
+/// Schema "vibrissa-model-1": every figure with its unit in its key, reads back to identical bits.
 nlohmann::json to_json(const ReducedModel& model);
-/// Throws UserError with the file and the entry that is missing or of the wrong kind.
+/// Throws UserError with the file and the entry (JSON pointer) that is missing or of the wrong
+/// kind, or with what check() says. Proven by tests/signals/reduced_model_json_test.cc.
 ReducedModel read_reduced_model(const std::filesystem::path& file);
 void write_reduced_model(const std::filesystem::path& file, const ReducedModel& model);
 

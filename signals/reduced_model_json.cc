@@ -1,6 +1,6 @@
 #include <fstream>
-#include <utility>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "signals/error.h"
 #include "signals/output_file.h"
@@ -74,7 +74,8 @@ class Entry {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw UserError(file_ + ": " + place_.to_string() + " " + what);
+    throw UserError(file_ + ": " + (place_.empty() ? "the document" : place_.to_string()) + " " +
+                    what);
   }
   void require(bool fine, const std::string& rule) const {
     if (!fine) fail(rule + ", but is " + excerpt());

@@ -104,7 +104,6 @@ Eigen::VectorXd extended(const std::span<const double> x, const long reach) {
   Eigen::VectorXd result = Eigen::VectorXd::Constant(n + 2 * reach, x.front());
   const auto at = [&](const long i) -> double& { return result[reach + i]; };
   for (long i = 0; i < n; ++i) at(i) = x[static_cast<std::size_t>(i)];
-  if (n == 1) return result;
   for (long k = 1; k <= reach; ++k) {
     at(-k) = 2. * x.front() - at(k);
     at(n - 1 + k) = 2. * x.back() - at(n - 1 - k);

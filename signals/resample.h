@@ -8,14 +8,17 @@ namespace vibrissa::signals {
 /// Resamples a finite record to another rate by a polyphase windowed-sinc filter (rates in a ratio
 /// of small whole numbers): pass band flat within 0.1 % up to 0.8 of the lower Nyquist frequency,
 /// images and aliases below -80 dB from its 1.0 on, no delay; edges are extended by point
-/// reflection. Throws UserError when the ratio is not a ratio of whole numbers up to 1000.
+/// reflection. Sample j of the result is at j / to_hz; there are ceil(n to_hz / from_hz), all
+/// within the duration n / from_hz of the record. The same rate returns the record itself. Proven
+/// by tests/signals/resample_test.cc. Throws UserError when the ratio is not a ratio of whole
+/// numbers up to 1000.
 std::vector<double> resample(std::span<const double> x, double from_hz, double to_hz);
 
 /// Subtracts the mean; adding it back is the caller's affair.
 std::vector<double> remove_mean(std::span<const double> x);
 
 /// Maps the smallest value to low and the largest to high, linearly. Throws UserError for a
-/// constant.
+/// constant, for no values and for values that are not finite.
 std::vector<double> scale_to_range(std::span<const double> x, double low, double high);
 
 }  // namespace vibrissa::signals

@@ -66,11 +66,27 @@ std::size_t worst_off_grid(const PrintedTimes& times, const double period) {
   return worst;
 }
 
-// Where steps are not much larger than the last digit, rounding looks like a lost sample.
-std::string digits_advice(const PrintedTimes& times, const double period) {
-  const double last_digit = 2. * rounding_s(times, times.times_s.size() - 1);
-  if (last_digit < 0.4 * period) return {};
-  return "; its last digit stands for " + to_text(last_digit) +
+double with_significant_digits(const double value, const int n_digits) {
+  std::array<char, 40> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::scientific, n_digits - 1)
+                       .ptr;
+  double rounded = value;
+  std::from_chars(text.data(), end, rounded);
+  return rounded;
+}
+
+// A difference of times carries rounding that would only confuse in a message.
+std::string difference_text(const double difference_s) {
+  return to_text(with_significant_digits(difference_s, 6));
+}
+
+// Where a period is about a unit of the last digit, rounding looks like a lost sample.
+std::string digits_advice(const PrintedTimes& times, const std::size_t i, const double error_s) {
+  const double last_digit_s = 2. * rounding_s(times, i);
+  const double most_by_rounding_s = 1.01 * last_digit_s;
+  if (std::abs(error_s) > most_by_rounding_s) return {};
+  return "; its last digit stands for " + difference_text(last_digit_s) +
          " s, too coarse to tell: print time with more digits";
 }
 
@@ -80,42 +96,35 @@ void refuse_gap(const PrintedTimes& times, const double usual_step) {
   for (std::size_t i = 1; i < t.size(); ++i)
     if (t[i] - t[i - 1] > 1.5 * usual_step && ++n_gaps == 1) first = i;
   if (n_gaps == 0) return;
-  const double n_steps = std::round((t[first] - t[first - 1]) / usual_step);
+  const double step = t[first] - t[first - 1];
   const std::string more =
       n_gaps == 1 ? "" : " (" + std::to_string(n_gaps - 1) + " more further on)";
-  throw UserError(times.file + ": gap in time" + between(times, first) + ": " + to_text(n_steps) +
-                  " samples where 1 was expected" + more + digits_advice(times, usual_step));
+  throw UserError(times.file + ": gap in time" + between(times, first) + ": " +
+                  to_text(std::round(step / usual_step)) + " samples where 1 was expected" + more +
+                  digits_advice(times, first, step - usual_step));
 }
 
 void refuse_crowding(const PrintedTimes& times, const double usual_step) {
   const auto t = times.times_s;
-  for (std::size_t i = 1; i < t.size(); ++i)
-    if (t[i] - t[i - 1] < 0.5 * usual_step)
-      throw UserError(times.file + ": only " + to_text(t[i] - t[i - 1]) + " s" + between(times, i) +
-                      " where " + to_text(usual_step) + " s were expected" +
-                      digits_advice(times, usual_step));
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const double step = t[i] - t[i - 1];
+    if (step < 0.5 * usual_step)
+      throw UserError(times.file + ": only " + difference_text(step) + " s" + between(times, i) +
+                      " where " + difference_text(usual_step) + " s were expected" +
+                      digits_advice(times, i, step - usual_step));
+  }
 }
 
 [[noreturn]] void refuse_uneven(const PrintedTimes& times, const std::size_t worst,
                                 const double period) {
   const double offset =
       times.times_s[worst] - times.times_s[0] - static_cast<double>(worst) * period;
-  const double percent = std::round(1000. * std::abs(offset) / period) / 10.;
+  const double percent = with_significant_digits(100. * std::abs(offset) / period, 2);
   throw UserError(times.file + ": time is not uniform: " + moment(times, worst) + " lies " +
                   to_text(percent) + " % of a period off the even grid from first to last line" +
-                  digits_advice(times, period) +
+                  digits_advice(times, worst, offset) +
                   "; if the samples were taken evenly and only their stamps are not, take the time "
                   "column out and give --rate; else resample the recording");
-}
-
-double with_significant_digits(const double value, const int n_digits) {
-  std::array<char, 40> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::scientific, n_digits - 1)
-                       .ptr;
-  double rounded = value;
-  std::from_chars(text.data(), end, rounded);
-  return rounded;
 }
 
 double simplest_rate(const double period, const double relative_uncertainty) {

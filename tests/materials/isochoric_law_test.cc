@@ -27,12 +27,13 @@ Gradient random_tensor(std::mt19937& random, const double size) {
 }
 
 Gradient identity() {
-  /// E = (h + h^T + h^T h)/2 with h = F - I, which keeps the digits of a small h.
-  Strain green_lagrange(const Gradient& f) {
-    const Gradient h = f - identity();
-    return dealii::symmetrize(h) + 0.5 * dealii::symmetrize(dealii::transpose(h) * h);
-  }
   return Gradient(dealii::unit_symmetric_tensor<3>());
+}
+
+/// E = (h + h^T + h^T h)/2 with h = F - I, which keeps the digits of a small h.
+Strain green_lagrange(const Gradient& f) {
+  const Gradient h = f - identity();
+  return dealii::symmetrize(h) + 0.5 * dealii::symmetrize(dealii::transpose(h) * h);
 }
 
 std::vector<Strain> finite_strains() {

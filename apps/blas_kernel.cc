@@ -1,0 +1,32 @@
+#include "apps/blas_kernel.h"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace vibrissa::apps {
+
+void use_fast_blas_kernel(char** arguments) {
+#if defined(__x86_64__)
+  constexpr const char* variable = "OPENBLAS_CORETYPE";
+  if (std::getenv(variable) != nullptr) return;
+  using NameFunction = const char* (*)();
+  const auto name = reinterpret_cast<NameFunction>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+  if (name == nullptr || std::string(name()) != "Prescott") return;
+  __builtin_cpu_init();
+  const char* better = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
+                           ? "SkylakeX"
+                       : __builtin_cpu_supports("avx2") ? "Haswell"
+                                                        : nullptr;
+  if (better == nullptr) return;
+  setenv(variable, better, 1);
+  // Comes back only when it fails; then the slow kernel has to do.
+  execv("/proc/self/exe", arguments);
+#else
+  static_cast<void>(arguments);
+#endif
+}
+
+}  // namespace vibrissa::apps

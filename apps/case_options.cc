@@ -1,0 +1,130 @@
+#include "apps/case_options.h"
+
+#include <map>
+
+#include "apps/record_options.h"
+#include "signals/error.h"
+#include "signals/number_text.h"
+#include "signals/record_io.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+using signals::UserError;
+
+// Which part of the case file takes a recorded channel.
+const std::map<std::string, std::string>& recorded_sections() {
+  static const std::map<std::string, std::string> sections{
+      {signals::channel::base_acceleration, "Base motion/Recorded"},
+      {signals::channel::wind_speed, "Wind/Recorded"}};
+  return sections;
+}
+
+std::string section_of(const std::string& channel, const std::string& option) {
+  const auto found = recorded_sections().find(channel);
+  if (found == recorded_sections().end()) {
+    throw UserError(option + ": '" + channel +
+                    "' is no input of a run; inputs are base_acceleration and wind_speed");
+  }
+  return found->second;
+}
+
+std::pair<std::string, std::string> split(const std::string& text, const std::string& option) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) {
+    throw UserError(option + ": '" + text + "' has no '='; write NAME=VALUE");
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+// NAME=VALUE for one input, or VALUE for all of them.
+void set_for(CaseFile& file, const std::string& text, const std::string& option,
+             const std::string& entry) {
+  if (text.find('=') == std::string::npos) {
+    for (const auto& [channel, section] : recorded_sections()) {
+      file.set(section, entry, text, option);
+    }
+    return;
+  }
+  const auto [name, value] = split(text, option);
+  file.set(section_of(full_channel_name(name), option), entry, value, option);
+}
+
+void set_column(CaseFile& file, const std::string& text) {
+  const auto choice = signals::parse_column_choice(text);
+  const std::string section = section_of(choice.channel, "--column");
+  file.set(section, "Column", choice.column, "--column");
+  file.set(section, "Scale", signals::to_text(choice.scale), "--column");
+}
+
+void set_rows(CaseFile& file, const std::string& text) {
+  const auto [name, value] = split(text, "--rows");
+  const RowRange range = parse_rows(value, "--rows");
+  const std::string section = section_of(full_channel_name(name), "--rows");
+  file.set(section, "First row", std::to_string(range.first), "--rows");
+  file.set(section, "Rows", std::to_string(range.count), "--rows");
+}
+
+void set_range(CaseFile& file, const std::string& text) {
+  auto [name, value] = split(text, "--range");
+  const auto colon = value.find(':');
+  if (colon == std::string::npos) throw UserError("--range: write NAME=LOW:HIGH");
+  value[colon] = ',';
+  file.set(section_of(full_channel_name(name), "--range"), "Range", value, "--range");
+}
+
+void set_entry(CaseFile& file, const std::string& text) {
+  const auto [path, value] = split(text, "--set");
+  const auto slash = path.rfind('/');
+  if (slash == std::string::npos) {
+    throw UserError("--set: '" + path + "' has no '/'; write SECTION/ENTRY=VALUE");
+  }
+  file.set(path.substr(0, slash), path.substr(slash + 1), value, "--set");
+}
+
+}  // namespace
+
+void CaseOptions::add_to(CLI::App& command) {
+  command.add_option("case", case_file, "Case file (.prm)")->required();
+  command.add_option("--base-acceleration", base_acceleration_file,
+                     "CSV file with a recorded base acceleration");
+  command.add_option("--wind", wind_file, "CSV file with a recorded wind speed");
+  command.add_option("--column", columns,
+                     "CHANNEL=COLUMN[*SCALE] of these files, e.g. base_acceleration=z_mps2; "
+                     "channels: base_acceleration, wind_speed; repeatable");
+  command.add_option("--rate", rates, "[CHANNEL=]HZ: sampling rate of these files; repeatable");
+  command.add_option("--rows", rows, "CHANNEL=FIRST:LAST data rows used; repeatable");
+  command.add_option("--range", ranges, "CHANNEL=LOW:HIGH: scaled to this range; repeatable");
+  command.add_option("--remove-mean", remove_means,
+                     "CHANNEL whose mean (gravity) is taken off; repeatable");
+  command.add_option("--duration", duration_s, "Length of all records [s]");
+  command.add_option("-o,--output", output_folder, "Results folder; must not exist yet");
+  command.add_option("--set", settings, "SECTION/ENTRY=VALUE of the case file; repeatable");
+}
+
+CaseFile CaseOptions::load() const {
+  CaseFile file(case_file);
+  if (base_acceleration_file) {
+    file.set("Base motion", "Kind", "recorded", "--base-acceleration");
+    file.set("Base motion/Recorded", "File", *base_acceleration_file, "--base-acceleration");
+  }
+  if (wind_file) {
+    file.set("Wind", "Kind", "recorded", "--wind");
+    file.set("Wind/Recorded", "File", *wind_file, "--wind");
+  }
+  for (const auto& text : columns) set_column(file, text);
+  for (const auto& text : rates) set_for(file, text, "--rate", "Sampling rate");
+  for (const auto& text : rows) set_rows(file, text);
+  for (const auto& text : ranges) set_range(file, text);
+  for (const auto& name : remove_means) {
+    file.set(section_of(full_channel_name(name), "--remove-mean"), "Remove mean", "true",
+             "--remove-mean");
+  }
+  if (duration_s) file.set("Records", "Duration", *duration_s, "--duration");
+  if (output_folder) file.set("Output", "Folder", *output_folder, "--output");
+  for (const auto& text : settings) set_entry(file, text);
+  return file;
+}
+
+}  // namespace vibrissa::apps

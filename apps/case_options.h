@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/case_file.h"
+
+namespace vibrissa::apps {
+
+/// Command-line options that override entries of a case file: recorded inputs and any entry by name.
+struct CaseOptions {
+  std::string case_file;
+  std::optional<std::string> base_acceleration_file, wind_file, output_folder;
+  std::vector<std::string> columns, rates, rows, ranges, remove_means, settings;
+  std::optional<std::string> duration_s;
+
+  void add_to(CLI::App& command);
+  /// The case file with the overrides set. Throws UserError naming the option.
+  CaseFile load() const;
+};
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace vibrissa::apps {
+
+/// What every command takes.
+struct CommonOptions {
+  bool json = false;   // the result as one JSON document on standard output, nothing else there
+  bool quiet = false;  // no progress bar, no remarks
+};
+
+/// Adds --json and --quiet.
+void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// The words this program was started with, for the run's own record.
+std::vector<std::string> given_command_line();
+
+/// Prints a JSON document on standard output.
+void print_json(const nlohmann::json& document);
+
+/// Each adds its subcommand; the work happens in the subcommand's callback.
+void add_bode_command(CLI::App& app);
+void add_draw_command(CLI::App& app);
+void add_identify_command(CLI::App& app);
+void add_mesh_command(CLI::App& app);
+void add_modes_command(CLI::App& app);
+void add_run_command(CLI::App& app);
+void add_separate_command(CLI::App& app);
+void add_simulate_command(CLI::App& app);
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,77 @@
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "apps/identification_report.h"
+#include "apps/record_options.h"
+#include "separation/identify.h"
+#include "signals/error.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+struct IdentifyCommandOptions {
+  CommonOptions common;
+  RecordOptions record;
+  std::string record_file;
+  std::optional<std::string> held_out_file, model_file;
+  separation::IdentifyOptions identify;
+  std::optional<std::string> hold;
+  bool no_direct_term = false;
+};
+
+void identify(const IdentifyCommandOptions& options) {
+  const signals::Record all = options.record.read(options.record_file);
+  separation::IdentifyOptions identify = options.identify;
+  if (options.hold) identify.hold = separation::parse_hold(*options.hold);
+  identify.direct_term = !options.no_direct_term;
+  // Without a second file the last third is held out, never used to fit.
+  const std::size_t n_fit = options.held_out_file ? all.n_samples() : 2 * all.n_samples() / 3;
+  const signals::Record fit = all.slice(0, n_fit);
+  const signals::Record held_out = options.held_out_file
+                                       ? options.record.read(*options.held_out_file)
+                                       : all.slice(n_fit, all.n_samples() - n_fit);
+  const auto result = separation::identify_bvrm(fit, held_out, identify);
+  if (options.model_file) separation::write_bvrm(*options.model_file, result.fit.model);
+  if (options.common.json) {
+    print_json(identification_json(result));
+    return;
+  }
+  std::cout << identification_table(result).to_text() << "direct term "
+            << result.fit.direct_term_kg_m.value << " kg m; order " << result.order << ", "
+            << separation::to_string(result.hold) << " input, " << separation::to_string(result.fit.end)
+            << "\nfit on held-out data, free simulation: " << result.held_out_fit_percent << " % ("
+            << result.held_out_vaf_percent << " % of the variance)\n";
+  if (!options.held_out_file && !options.common.quiet) {
+    std::cout << "Held out: the last third of the record.\n";
+  }
+}
+
+}  // namespace
+
+void add_identify_command(CLI::App& app) {
+  const auto options = std::make_shared<IdentifyCommandOptions>();
+  auto* command = app.add_subcommand(
+      "identify", "Base vibration response model from a record of base acceleration and moment");
+  command->add_option("record", options->record_file, "CSV record")->required();
+  command->add_option("--held-out", options->held_out_file,
+                      "CSV record that only scores the model (default: last third of the record)");
+  command->add_option("--order", options->identify.order,
+                      "Number of poles, two for each mode (default: by information criterion)");
+  command->add_option("--max-order", options->identify.max_order, "Highest order tried")
+      ->capture_default_str();
+  command->add_option("--period", options->identify.period_samples,
+                      "Period of a periodic record [samples]");
+  command->add_option("--hold", options->hold,
+                      "Input between samples: first_order, zero_order or band_limited (default: "
+                      "first_order or band_limited, whichever fits better)");
+  command->add_flag("--no-direct-term", options->no_direct_term, "Strictly proper model");
+  command->add_option("-o,--output", options->model_file, "Model written as JSON");
+  options->record.add_to(*command);
+  add_common_options(*command, options->common);
+  command->callback([options] { identify(*options); });
+}
+
+}  // namespace vibrissa::apps

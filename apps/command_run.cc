@@ -1,0 +1,56 @@
+#include <iostream>
+#include <memory>
+
+#include "apps/command.h"
+#include "apps/run_job.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+struct RunOptions {
+  CommonOptions common;
+  CaseOptions chosen;
+};
+
+void print_outcome(const RunOutcome& outcome, const bool quiet) {
+  const auto& summary = outcome.summary;
+  const auto number = [](const nlohmann::json& value) {
+    return report::Cell(value.get<double>()).rounded(4);
+  };
+  std::cout << "First resonance " << number(summary["modes"][0]["frequency_hz"]) << " Hz";
+  if (summary.contains("calibration_note")) {
+    std::cout << " (" << summary["calibration_note"].get<std::string>() << ")";
+  }
+  const auto& identified = summary["identification"];
+  std::cout << "\nBase vibration response model of order " << identified["order"] << ": fit "
+            << number(identified["fit_percent"]) << " % on held-out data\n\n"
+            << separation_table(outcome.separated).to_text();
+  if (!quiet) std::cout << "\n";
+  if (!outcome.pictures.message.empty()) std::cout << outcome.pictures.message << "\n";
+  std::cout << "Results: " << outcome.folder.string() << "\n";
+  for (const auto& picture : outcome.pictures.made) {
+    std::cout << "  " << (outcome.folder / picture).string() << "\n";
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  const auto options = std::make_shared<RunOptions>();
+  auto* command = app.add_subcommand(
+      "run", "The main job: simulate, identify and separate, into a new results folder");
+  options->chosen.add_to(*command);
+  add_common_options(*command, options->common);
+  command->callback([options] {
+    const bool quiet = options->common.quiet || options->common.json;
+    const RunOutcome outcome = run_job(options->chosen, given_command_line(), quiet);
+    if (options->common.json) {
+      print_json(outcome.summary);
+    } else {
+      print_outcome(outcome, options->common.quiet);
+    }
+  });
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,112 @@
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "apps/record_options.h"
+#include "apps/separation_methods.h"
+#include "separation/bvrm_separator.h"
+#include "separation/fdaf.h"
+#include "separation/input_hold.h"
+#include "signals/error.h"
+#include "signals/record_io.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+struct SeparateOptions {
+  CommonOptions common;
+  RecordOptions record;
+  std::string record_file;
+  std::optional<std::string> model_file, truth_column, output_file;
+  std::string hold = "first_order";
+  separation::FdafOptions fdaf = {64, 512, {}, {}, 0.};
+  double settling_s = 2.;
+};
+
+std::vector<SeparatedSignal> separate_all(const SeparateOptions& options,
+                                          const signals::Record& record) {
+  std::vector<double> truth;
+  if (options.truth_column) {
+    truth = options.record.read_column(options.record_file, *options.truth_column);
+  }
+  const auto measured = record.channel(signals::channel::base_moment);
+  std::vector<SeparatedSignal> signals{score("nothing removed", {measured.begin(), measured.end()},
+                                             record, truth, options.settling_s)};
+  if (options.model_file) {
+    separation::BvrmSeparator bvrm(separation::read_bvrm(*options.model_file),
+                                   record.sampling_rate_hz(),
+                                   separation::parse_hold(options.hold));
+    signals.push_back(score("bvrm", separation::separate_record(bvrm, record), record, truth,
+                            options.settling_s));
+  }
+  separation::Fdaf fdaf(options.fdaf);
+  signals.push_back(
+      score("fdaf", separation::separate_record(fdaf, record), record, truth, options.settling_s));
+  return signals;
+}
+
+signals::Record output_record(const signals::Record& record,
+                              const std::vector<SeparatedSignal>& signals) {
+  signals::Record output(record.sampling_rate_hz(), record.n_samples(), record.time_s(0));
+  for (const auto& name : record.channel_names()) {
+    const auto values = record.channel(name);
+    output.set_channel(name, {values.begin(), values.end()});
+  }
+  for (const auto& signal : signals) {
+    if (signal.name == "nothing removed") continue;
+    output.set_channel("wind_moment_" + signal.name + "_N_m", signal.wind_moment_n_m);
+  }
+  return output;
+}
+
+void separate(const SeparateOptions& options) {
+  const signals::Record record = options.record.read(options.record_file);
+  const auto signals = separate_all(options, record);
+  if (options.output_file) {
+    signals::write_record(*options.output_file, output_record(record, signals));
+  }
+  if (options.common.json) {
+    print_json(separation_json(signals));
+    return;
+  }
+  std::cout << separation_table(signals).to_text();
+  if (!options.common.quiet) std::cout << metric_notes(options.settling_s) << "\n";
+}
+
+}  // namespace
+
+void add_separate_command(CLI::App& app) {
+  const auto options = std::make_shared<SeparateOptions>();
+  auto* command = app.add_subcommand(
+      "separate", "Wind part of a record's base moment, by a BVRM and by an adaptive filter");
+  command->add_option("record", options->record_file,
+                      "CSV record with base acceleration and base moment")
+      ->required();
+  command->add_option("--model", options->model_file,
+                      "BVRM as JSON, from 'vibrissa identify -o' (without it: adaptive filter only)");
+  command->add_option("--hold", options->hold,
+                      "Base acceleration between samples: first_order, zero_order or band_limited")
+      ->capture_default_str();
+  command->add_option("--truth", options->truth_column,
+                      "Column with the true wind moment [N m], for the scores");
+  command->add_option("-o,--output", options->output_file,
+                      "CSV record written, with a wind moment for each method");
+  command->add_option("--block", options->fdaf.block_length, "Block of the adaptive filter [samples]")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command->add_option("--taps", options->fdaf.filter_length, "Length of the adaptive filter [samples]")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  command->add_option("--step", options->fdaf.step.step, "Step size mu of the adaptive filter")
+      ->capture_default_str();
+  command->add_option("--settling", options->settling_s, "Start left out of the scores [s]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  options->record.add_to(*command);
+  add_common_options(*command, options->common);
+  command->callback([options] { separate(*options); });
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,91 @@
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/case_options.h"
+#include "apps/command.h"
+#include "apps/inputs.h"
+#include "apps/rig.h"
+#include "apps/sensor_model.h"
+#include "fem/linear_transient.h"
+#include "fem/solver_session.h"
+#include "signals/progress.h"
+#include "signals/record_io.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+struct SimulateOptions {
+  CommonOptions common;
+  CaseOptions chosen;
+  std::string record_file = "record.csv";
+  std::optional<std::string> model_file;
+  bool full_order = false;
+  unsigned int substeps = 4;
+};
+
+signals::Record full_order_record(const fem::Sensor& sensor, const Case& parameters,
+                                  const Inputs& inputs, const SimulateOptions& options) {
+  const std::size_t n = parameters.records.n_samples();
+  signals::Progress progress("full-order solid", n, !options.common.quiet);
+  const fem::TransientInput input{parameters.records.sampling_rate_hz, n,
+                                  inputs.base_acceleration_m_s2,
+                                  {},
+                                  inputs.wind_speed_m_s};
+  auto output = fem::simulate_linear(
+      sensor, input, {0.9, options.substeps, false},
+      [&](std::size_t, const fem::SolidState&) { progress.advance(); });
+  signals::Record record(parameters.records.sampling_rate_hz, n);
+  if (!inputs.base_acceleration_m_s2.empty()) {
+    record.set_channel(signals::channel::base_acceleration, inputs.base_acceleration_m_s2);
+  }
+  if (!inputs.wind_speed_m_s.empty()) {
+    record.set_channel(signals::channel::wind_speed, inputs.wind_speed_m_s);
+  }
+  record.set_channel(signals::channel::base_moment, std::move(output.base_moment));
+  return record;
+}
+
+void simulate(const SimulateOptions& options) {
+  const Case parameters = options.chosen.load().read();
+  const Inputs inputs = make_inputs(parameters);
+  const fem::SolverSession session;
+  const fem::Sensor sensor(parameters.sensor);
+  const auto model = make_reduced_model(sensor, parameters.sensor, !options.common.quiet);
+  const signals::Record record = options.full_order
+                                     ? full_order_record(sensor, parameters, inputs, options)
+                                     : measure_on_rig(model, parameters, inputs).both;
+  signals::write_record(options.record_file, record);
+  if (options.model_file) signals::write_reduced_model(*options.model_file, model);
+  if (options.common.json) {
+    print_json({{"record", options.record_file},
+                {"samples", record.n_samples()},
+                {"sampling_rate_hz", record.sampling_rate_hz()},
+                {"channels", record.channel_names()},
+                {"solver", options.full_order ? "full order" : "reduced"}});
+  } else {
+    std::cout << "wrote " << options.record_file << ": " << record.n_samples() << " samples at "
+              << record.sampling_rate_hz() << " Hz\n";
+  }
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app) {
+  const auto options = std::make_shared<SimulateOptions>();
+  auto* command = app.add_subcommand(
+      "simulate", "Base-moment record of a sensor that is shaken and blown at, with noise");
+  options->chosen.add_to(*command);
+  command->add_option("--record", options->record_file, "Record written")->capture_default_str();
+  command->add_option("--model", options->model_file, "Also write the reduced model (JSON)");
+  command->add_flag("--full-order", options->full_order,
+                    "Integrate the whole solid in place of the reduced model; no noise");
+  command->add_option("--substeps", options->substeps, "Steps of the full-order solid per sample")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->callback([options] { simulate(*options); });
+}
+
+}  // namespace vibrissa::apps

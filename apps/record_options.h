@@ -1,0 +1,39 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "signals/record.h"
+#include "signals/record_io.h"
+
+namespace vibrissa::apps {
+
+/// How a command takes a record file: --column, --rate, --rows, --remove-mean.
+struct RecordOptions {
+  std::vector<std::string> columns;
+  std::optional<double> rate_hz;
+  std::optional<std::string> rows;
+  std::vector<std::string> remove_mean;
+
+  void add_to(CLI::App& command);
+  /// Throws UserError as read_record does, and for rows that are not FIRST:LAST.
+  signals::Record read(const std::string& file) const;
+  /// One further column of the same rows, in its own unit.
+  std::vector<double> read_column(const std::string& file, const std::string& column) const;
+
+ private:
+  signals::ReadOptions read_options() const;
+};
+
+/// FIRST:LAST, data rows counted from 1. Throws UserError naming the option.
+struct RowRange {
+  std::size_t first = 1, count = 0;
+};
+RowRange parse_rows(const std::string& text, const std::string& option);
+
+/// "base_acceleration" -> "base_acceleration_m_s2"; throws UserError that lists the known channels.
+std::string full_channel_name(const std::string& name);
+
+}  // namespace vibrissa::apps

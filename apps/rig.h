@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/case_file.h"
+#include "apps/inputs.h"
+#include "signals/record.h"
+#include "signals/reduced_model.h"
+
+namespace vibrissa::apps {
+
+/// The records that a rig with this sensor would write, and the truth behind them.
+struct RigRecords {
+  signals::Record vibration_only, wind_only, both;  // as measured, with noise when asked for
+  std::vector<double> true_vibration_moment_n_m;    // M_b
+  std::vector<double> true_wind_moment_n_m;         // M_s
+};
+
+/// Passes base motion, wind and both through the measuring chain of the case (signals/
+/// measuring_chain.h); each record has noise of its own.
+RigRecords measure_on_rig(const signals::ReducedModel& model, const Case& parameters,
+                          const Inputs& inputs);
+
+}  // namespace vibrissa::apps

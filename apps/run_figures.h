@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "apps/rig.h"
+#include "apps/separation_methods.h"
+#include "report/figure.h"
+
+namespace vibrissa::apps {
+
+/// Base acceleration, wind, and the measured moment of the record with both.
+report::Figure records_figure(const RigRecords& records);
+
+/// True wind moment beside each method's estimate: the whole record above, its middle second below.
+report::Figure separation_figure(const RigRecords& records,
+                                 const std::vector<SeparatedSignal>& signals);
+
+/// Power spectral densities of the measured moment, of the true wind moment and of the estimates.
+report::Figure spectra_figure(const RigRecords& records,
+                              const std::vector<SeparatedSignal>& signals);
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,205 @@
+#include "apps/run_job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/bode_data.h"
+#include "apps/full_order_check.h"
+#include "apps/identification_report.h"
+#include "apps/inputs.h"
+#include "apps/mode_table.h"
+#include "apps/rig.h"
+#include "apps/run_figures.h"
+#include "apps/sensor_model.h"
+#include "apps/separation_methods.h"
+#include "fem/solver_session.h"
+#include "fem/vtk_output.h"
+#include "meshes/mesh_audit.h"
+#include "report/pictures.h"
+#include "report/run_folder.h"
+#include "separation/bvrm_separator.h"
+#include "separation/fdaf.h"
+#include "separation/identify.h"
+#include "signals/record_io.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t n_animated_modes = 6;
+
+separation::Identification identify(const RigRecords& records, const Case& parameters) {
+  const auto& record = records.vibration_only;
+  const std::size_t n_fit = 2 * record.n_samples() / 3;
+  separation::IdentifyOptions options;
+  options.max_order = parameters.separation.largest_order;
+  return separation::identify_bvrm(record.slice(0, n_fit),
+                                   record.slice(n_fit, record.n_samples() - n_fit), options);
+}
+
+// The best that any model of the vibration can do: the true response, driven by the noisy
+// accelerometer, on the noisy moment.
+std::vector<double> separate_by_true_response(const signals::ReducedModel& model,
+                                              const signals::Record& record) {
+  const auto response = signals::simulate(
+      model, {record.sampling_rate_hz(), record.n_samples(),
+              record.channel(signals::channel::base_acceleration)});
+  const auto measured = record.channel(signals::channel::base_moment);
+  std::vector<double> wind(measured.begin(), measured.end());
+  for (std::size_t i = 0; i < wind.size(); ++i) wind[i] -= response.base_moment[i];
+  return wind;
+}
+
+std::vector<SeparatedSignal> separate(const signals::ReducedModel& model,
+                                      const separation::Identification& identified,
+                                      const RigRecords& records,
+                                      const SeparationParameters& parameters) {
+  const auto& record = records.both;
+  const auto measured = record.channel(signals::channel::base_moment);
+  separation::BvrmSeparator bvrm(identified.fit.model, record.sampling_rate_hz(), identified.hold);
+  separation::Fdaf fdaf(parameters.fdaf);
+  const auto scored = [&](const std::string& name, std::vector<double> wind) {
+    return score(name, std::move(wind), record, records.true_wind_moment_n_m,
+                 parameters.settling_s);
+  };
+  return {scored("nothing removed", {measured.begin(), measured.end()}),
+          scored("bvrm", separation::separate_record(bvrm, record)),
+          scored("fdaf", separation::separate_record(fdaf, record)),
+          scored("true response", separate_by_true_response(model, record))};
+}
+
+BodeCurve measured_curve(const RigRecords& records) {
+  const auto& record = records.vibration_only;
+  signals::WelchOptions options;
+  options.segment_samples =
+      std::min<std::size_t>(options.segment_samples, record.n_samples() / 4);
+  BodeCurve curve{"record (Welch, coherence above 0.5)", report::CurveStyle::points,
+                  signals::welch_response(record.channel(signals::channel::base_acceleration),
+                                          record.channel(signals::channel::base_moment),
+                                          record.sampling_rate_hz(), options)};
+  // A point without coherence says nothing of the response: it is left out of the picture.
+  for (std::size_t i = 0; i < curve.response.value.size(); ++i) {
+    if (curve.response.coherence[i] < 0.5) curve.response.value[i] = std::nan("");
+  }
+  return curve;
+}
+
+report::Figure run_bode(const signals::ReducedModel& model,
+                        const separation::Identification& identified, const RigRecords& records) {
+  std::vector<double> resonances;
+  for (const auto& mode : model.modes) resonances.push_back(mode.frequency_hz);
+  const double nyquist = 0.5 * records.both.sampling_rate_hz();
+  const auto f = bode_frequencies(1., nyquist, resonances);
+  return bode_figure({bode_curve(model, f), bode_curve(identified.fit.model, f),
+                      measured_curve(records)});
+}
+
+signals::Record separated_record(const RigRecords& records,
+                                 const std::vector<SeparatedSignal>& signals) {
+  signals::Record output(records.both.sampling_rate_hz(), records.both.n_samples());
+  output.set_channel("wind_moment_true_N_m", records.true_wind_moment_n_m);
+  output.set_channel("vibration_moment_true_N_m", records.true_vibration_moment_n_m);
+  for (const auto& signal : signals) {
+    std::string name = signal.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    output.set_channel("wind_moment_" + name + "_N_m", signal.wind_moment_n_m);
+  }
+  return output;
+}
+
+/// What the stages of the job hand on.
+struct Results {
+  signals::ReducedModel model;
+  RigRecords records;
+  separation::Identification identified;
+  std::vector<SeparatedSignal> separated;
+};
+
+Results simulate_and_separate(const fem::Sensor& sensor, const Case& parameters,
+                              const Inputs& inputs, const bool show_progress) {
+  auto model = make_reduced_model(sensor, parameters.sensor, show_progress);
+  auto records = measure_on_rig(model, parameters, inputs);
+  auto identified = identify(records, parameters);
+  auto separated = separate(model, identified, records, parameters.separation);
+  return {std::move(model), std::move(records), std::move(identified), std::move(separated)};
+}
+
+void write_results(const report::RunFolder& folder, const fem::Sensor& sensor,
+                   const Results& results) {
+  folder.write_text("modes.csv", modes_table(sensor).to_csv());
+  signals::write_reduced_model(folder.file("model.json"), results.model);
+  signals::write_record(folder.file("records/vibration_only.csv"),
+                        results.records.vibration_only);
+  signals::write_record(folder.file("records/wind_only.csv"), results.records.wind_only);
+  signals::write_record(folder.file("records/both.csv"), results.records.both);
+  signals::write_record(folder.file("records/separated.csv"),
+                        separated_record(results.records, results.separated));
+  separation::write_bvrm(folder.file("bvrm.json"), results.identified.fit.model);
+  folder.write_text("metrics.csv", separation_table(results.separated).to_csv());
+  for (const auto& figure :
+       {run_bode(results.model, results.identified, results.records),
+        records_figure(results.records), separation_figure(results.records, results.separated),
+        spectra_figure(results.records, results.separated)}) {
+    report::write_figure(folder.path(), figure);
+  }
+}
+
+void write_mode_files(const report::RunFolder& folder, const fem::Sensor& sensor) {
+  const std::size_t n = std::min(n_animated_modes, sensor.modes().size());
+  for (std::size_t k = 1; k <= n; ++k) {
+    fem::write_mode_animation(folder.file("vtk/any").parent_path(), sensor, k);
+  }
+}
+
+nlohmann::json summarise(const fem::Sensor& sensor, const Case& parameters,
+                         const Results& results) {
+  nlohmann::json summary = modes_json(sensor);
+  summary["identification"] = identification_json(results.identified);
+  summary["separation"] = separation_json(results.separated);
+  if (parameters.sensor.model.calibration_note) {
+    summary["calibration_note"] = *parameters.sensor.model.calibration_note;
+  }
+  return summary;
+}
+
+}  // namespace
+
+RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& command_line,
+                   const bool quiet) {
+  CaseFile file = chosen.load();
+  const Case parameters = file.read();
+  const Inputs inputs = make_inputs(parameters);
+  const fem::SolverSession session;
+  const fem::Sensor sensor(parameters.sensor);
+
+  const report::RunFolder folder =
+      parameters.output.folder
+          ? report::RunFolder(*parameters.output.folder)
+          : report::RunFolder::first_free(fs::path("runs") / fs::path(chosen.case_file).stem());
+  folder.write_text("resolved.prm", file.resolved());
+  folder.write_run({command_line, parameters.records.seed,
+                    {{"mesh_sha256", meshes::mesh_sha256(sensor.mesh())}}});
+
+  RunOutcome outcome;
+  outcome.folder = folder.path();
+  const Results results = simulate_and_separate(sensor, parameters, inputs, !quiet);
+  write_results(folder, sensor, results);
+  outcome.separated = results.separated;
+  outcome.summary = summarise(sensor, parameters, results);
+  if (parameters.output.vtk) write_mode_files(folder, sensor);
+  if (parameters.output.full_order_duration_s > 0.) {
+    outcome.summary["full_order_check"] =
+        check_full_order(sensor, results.model, parameters, inputs,
+                         folder.file("vtk/any").parent_path(), !quiet);
+  }
+  if (parameters.output.pictures) outcome.pictures = report::draw_pictures(folder.path());
+  outcome.summary["folder"] = folder.path().string();
+  folder.write_json("summary.json", outcome.summary);
+  return outcome;
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,30 @@
+#include "apps/sensor_model.h"
+
+#include "fem/reduction.h"
+#include "fem/sensitivity.h"
+#include "meshes/mesh_audit.h"
+#include "report/revision.h"
+#include "signals/progress.h"
+
+namespace vibrissa::apps {
+
+signals::ReducedModel make_reduced_model(const fem::Sensor& sensor,
+                                         const fem::SensorParameters& parameters,
+                                         const bool show_progress) {
+  signals::ReducedModel model = fem::reduce(sensor);
+  model.name = parameters.geometry.fin == meshes::FinShape::none ? "whisker sensor" : "flow sensor";
+  model.provenance["program_revision"] = report::program_revision();
+  model.provenance["mesh_sha256"] = meshes::mesh_sha256(sensor.mesh());
+  if (parameters.model.calibration_note) {
+    model.provenance["calibration"] = *parameters.model.calibration_note;
+  }
+  if (parameters.model.sensitivities) {
+    signals::Progress progress("sensitivities", fem::n_sensitivity_solutions(parameters),
+                               show_progress);
+    model.sensitivities =
+        fem::sensitivities(parameters, model, [&progress] { progress.advance(); });
+  }
+  return model;
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,115 @@
+#include "apps/separation_methods.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "separation/dtw.h"
+#include "separation/metrics.h"
+#include "signals/error.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+constexpr double dtw_window_s = 0.02, largest_delay_s = 0.1;
+constexpr separation::Band wind_band{0.1, 10.};
+
+nlohmann::json json_or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json();
+}
+
+report::Cell cell_or_nothing(const std::optional<double>& value) {
+  return value ? report::Cell(*value) : report::Cell();
+}
+
+std::vector<double> difference(const std::span<const double> x, const std::span<const double> y) {
+  std::vector<double> result(x.size());
+  std::transform(x.begin(), x.end(), y.begin(), result.begin(), std::minus<>());
+  return result;
+}
+
+void score_against_truth(SeparatedSignal& signal, const std::span<const double> truth,
+                         const std::span<const double> estimate, const double rate_hz) {
+  signal.sdr_db = separation::sdr_db(truth, estimate);
+  signal.mse_n2_m2 = separation::mean_square_error(truth, estimate);
+  signal.nrmse = separation::nrmse(truth, estimate);
+  signal.band_difference_db =
+      separation::band_power_difference_db(truth, estimate, rate_hz, wind_band);
+  const auto window = static_cast<std::size_t>(dtw_window_s * rate_hz);
+  signal.dtw_n_m = separation::dtw(truth, estimate, window).cost_per_pair();
+  const auto largest_delay = static_cast<std::size_t>(largest_delay_s * rate_hz);
+  signal.delay_ms = 1e3 * separation::delay_samples(truth, estimate, largest_delay) / rate_hz;
+}
+
+}  // namespace
+
+SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n_m,
+                      const signals::Record& record, const std::span<const double> truth,
+                      const double settling_s) {
+  const double rate_hz = record.sampling_rate_hz();
+  const auto skipped = static_cast<std::size_t>(settling_s * rate_hz);
+  if (skipped + 64 > record.n_samples()) {
+    throw signals::UserError("the record of " + std::to_string(record.duration_s()) +
+                             " s is too short to leave out the settling time of " +
+                             std::to_string(settling_s) + " s; shorten the settling time");
+  }
+  SeparatedSignal signal;
+  signal.name = name;
+  signal.wind_moment_n_m = std::move(wind_moment_n_m);
+  const auto estimate = std::span<const double>(signal.wind_moment_n_m).subspan(skipped);
+  const auto measured = record.channel(signals::channel::base_moment).subspan(skipped);
+  const auto vibration = difference(measured, estimate);
+  if (std::any_of(vibration.begin(), vibration.end(), [](const double x) { return x != 0.; })) {
+    signal.paper_snr_db = separation::paper_snr_db(estimate, vibration);
+  }
+  if (!truth.empty()) score_against_truth(signal, truth.subspan(skipped), estimate, rate_hz);
+  return signal;
+}
+
+nlohmann::json separation_json(const std::vector<SeparatedSignal>& signals) {
+  nlohmann::json methods = nlohmann::json::array();
+  for (const auto& signal : signals) {
+    methods.push_back({{"name", signal.name},
+                       {"sdr_db", json_or_null(signal.sdr_db)},
+                       {"mse", json_or_null(signal.mse_n2_m2)},
+                       {"nrmse", json_or_null(signal.nrmse)},
+                       {"band_power_difference_db", json_or_null(signal.band_difference_db)},
+                       {"dtw_n_m_per_pair", json_or_null(signal.dtw_n_m)},
+                       {"delay_ms", json_or_null(signal.delay_ms)},
+                       {"paper_snr_db", json_or_null(signal.paper_snr_db)}});
+  }
+  return {{"methods", methods}};
+}
+
+report::Table separation_table(const std::vector<SeparatedSignal>& signals) {
+  report::Table table({{"method", ""},
+                       {"SDR", "dB"},
+                       {"mean square error", "N\u00b2 m\u00b2", 3},
+                       {"NRMSE", "", 3},
+                       {"wind band power", "dB", 3},
+                       {"DTW", "N m", 3},
+                       {"delay", "ms", 3},
+                       {"paper's ratio", "dB"}});
+  for (const auto& s : signals) {
+    table.add_row({s.name, cell_or_nothing(s.sdr_db), cell_or_nothing(s.mse_n2_m2),
+                   cell_or_nothing(s.nrmse), cell_or_nothing(s.band_difference_db),
+                   cell_or_nothing(s.dtw_n_m), cell_or_nothing(s.delay_ms),
+                   cell_or_nothing(s.paper_snr_db)});
+  }
+  return table;
+}
+
+std::string metric_notes(const double settling_s) {
+  const auto number = [](const double value) { return report::Cell(value).rounded(4); };
+  return "SDR: signal to distortion against the true wind moment. Wind band power: estimate over "
+         "truth in " +
+         number(wind_band.low_hz) + " to " + number(wind_band.high_hz) +
+         " Hz. DTW: dynamic time warping, unit steps, absolute cost per pair of the path, window +-" +
+         number(1e3 * dtw_window_s) +
+         " ms. Paper's ratio: power of the wind estimate over that of the vibration estimate, which "
+         "a method that removes nothing makes infinite. The first " +
+         number(settling_s) + " s are left out.";
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "report/table.h"
+#include "signals/record.h"
+
+namespace vibrissa::apps {
+
+/// One method's estimate of the wind moment of a record, with its score where the truth is known.
+struct SeparatedSignal {
+  std::string name;
+  std::vector<double> wind_moment_n_m;
+  /// Power of the wind estimate over that of the vibration estimate, what the reference paper calls
+  /// SNR; nothing when the method removes nothing.
+  std::optional<double> paper_snr_db;
+  std::optional<double> sdr_db, mse_n2_m2, nrmse, band_difference_db, dtw_n_m, delay_ms;
+};
+
+/// Scores an estimate. The first settling_s of the record are left out. truth: empty when unknown.
+SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n_m,
+                      const signals::Record& record, std::span<const double> truth,
+                      double settling_s);
+
+/// {"methods": [{"name", "sdr_db", "mse", "nrmse", "band_power_difference_db", "dtw_n_m_per_pair",
+///  "delay_ms", "paper_snr_db"}]}; null where no truth is given.
+nlohmann::json separation_json(const std::vector<SeparatedSignal>& signals);
+report::Table separation_table(const std::vector<SeparatedSignal>& signals);
+
+/// What the columns mean: windows, bands, normalisation.
+std::string metric_notes(double settling_s);
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,79 @@
+#include "separation/fdaf.h"
+
+#include <algorithm>
+
+#include "signals/error.h"
+#include "signals/number_text.h"
+
+namespace vibrissa::separation {
+
+namespace {
+
+std::size_t count_partitions(const FdafOptions& options) {
+  if (options.filter_length == 0)
+    throw signals::UserError("adaptive filter: filter_length must be at least 1");
+  return (options.filter_length + options.block_length - 1) / options.block_length;
+}
+
+double kept_share(double leakage) {
+  if (!(leakage >= 0. && leakage <= 1.))
+    throw signals::UserError("adaptive filter: leakage = " + signals::to_text(leakage) +
+                             " must be between 0 and 1");
+  return 1. - leakage;
+}
+
+}  // namespace
+
+FdafOptions paper_simulation_fdaf() {
+  FdafOptions options;
+  options.block_length = 20;
+  options.filter_length = 440;
+  options.step.step = 0.1;
+  return options;
+}
+
+FdafOptions paper_experiment_fdaf() {
+  FdafOptions options;
+  options.block_length = 200;
+  options.filter_length = 600;
+  options.step.step = 0.001;
+  return options;
+}
+
+Fdaf::Fdaf(const FdafOptions& options)
+    : BlockSeparator(options.block_length),
+      kept_(kept_share(options.leakage)),
+      fft_(2 * options.block_length),
+      input_(options.block_length, count_partitions(options)),
+      filter_(options.block_length, input_.n_partitions(), options.constraint),
+      step_rule_(options.step, input_.n_bins()),
+      error_(input_.n_bins()) {}
+
+void Fdaf::process_block(std::span<const double> base_acceleration,
+                         std::span<const double> base_moment, std::span<double> wind_moment) {
+  const auto n = static_cast<Eigen::Index>(block_length());
+  input_.push(base_acceleration, fft_);
+  Eigen::Map<Spectrum> spectrum(fft_.spectrum().data(), n + 1);
+  Eigen::Map<Eigen::ArrayXd> time(fft_.time().data(), 2 * n);
+  const Eigen::Map<const Eigen::ArrayXd> moment(base_moment.data(), n);
+
+  filter_.apply(input_, error_);
+  spectrum = error_;
+  fft_.inverse();
+  time.tail(n) = moment - time.tail(n);
+  time.head(n).setZero();
+  std::ranges::copy(fft_.time().last(wind_moment.size()), wind_moment.begin());
+  fft_.forward();
+  error_ = spectrum * step_rule_.update(input_.power());
+
+  if (kept_ < 1.) filter_.scale(kept_);
+  filter_.adapt(input_, error_, fft_);
+}
+
+void Fdaf::reset_blocks() {
+  input_.clear();
+  filter_.clear();
+  step_rule_.clear();
+}
+
+}  // namespace vibrissa::separation

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "separation/fitted_bvrm.h"
+#include "separation/input_hold.h"
+#include "separation/levenberg_marquardt.h"
+#include "signals/frequency_response.h"
+
+namespace vibrissa::separation {
+
+/// The grid on which a frequency response was measured as a ratio of spectra of samples.
+struct Sampling {
+  double rate_hz = 0.;
+  Hold hold = Hold::first_order;
+};
+
+/// Weighted differences between a measured frequency response and a model:
+/// e = sqrt(weight) (H - G(j w)), real and imaginary parts one above the other.
+/// Lines without a finite value are left out. weight = 2 / variance, where the variance of a line
+/// is averaged with that of its neighbours (few periods tell little about one line alone); equal
+/// weights when a line has no variance. Throws UserError unless lines and frequencies fit together.
+class FrequencyProblem {
+ public:
+  FrequencyProblem(const signals::FrequencyResponse& response, std::optional<Sampling> sampling,
+                   bool direct_term, double delay_s);
+
+  std::size_t n_lines() const { return s_.size(); }
+  Eigen::Index n_residuals() const { return 2 * static_cast<Eigen::Index>(n_lines()); }
+  bool direct_term() const { return direct_term_; }
+  double delay_s() const { return delay_s_; }
+  const std::vector<std::complex<double>>& s() const { return s_; }  // j w
+  const std::vector<double>& root_weight() const { return root_weight_; }
+  std::complex<double> measured(std::size_t line) const { return measured_[line]; }
+  /// Of the lines.
+  double highest_rad_s() const { return s_.back().imag(); }
+  /// Stable, and not beyond what the grid tells from its aliases.
+  bool admissible(const ModalTerm& mode) const;
+  /// sum of weight |H|^2.
+  double total() const { return total_; }
+
+  /// For minimise().
+  bool linearise(const Eigen::VectorXd& parameters, NormalEquations& equations) const;
+  /// e at these parameters.
+  Eigen::VectorXd residual(const Eigen::VectorXd& parameters) const;
+  /// Columns of the linear parameters b1, b0 of a mode with these poles; weighted.
+  Eigen::MatrixXd gain_columns(double a1, double a0) const;
+  /// Column of the direct term; weighted.
+  Eigen::VectorXd direct_column() const;
+  /// The model with these poles whose gains fit best (linear least squares).
+  Eigen::VectorXd with_best_gains(const std::vector<ModalTerm>& poles) const;
+
+ private:
+  void take_lines(const signals::FrequencyResponse& response);
+  void weigh(const std::vector<double>& standard_deviation);
+  void evaluate(const Eigen::VectorXd& parameters, Eigen::VectorXd& residual,
+                Eigen::MatrixXd* jacobian) const;
+  std::complex<double> delay_factor(std::size_t line) const { return delay_factor_[line]; }
+
+  std::optional<Sampling> sampling_;
+  bool direct_term_;
+  double delay_s_;
+  double fraction_ = 0.;
+  double highest_damped_rad_s_ = std::numeric_limits<double>::infinity();
+  std::vector<std::complex<double>> s_, one_sample_, delay_factor_, direct_factor_, measured_;
+  std::vector<double> root_weight_;
+  double total_ = 0.;
+};
+
+}  // namespace vibrissa::separation

@@ -1,0 +1,229 @@
+#include "separation/identify.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "separation/identify_frequency.h"
+#include "separation/metrics.h"
+#include "separation/output_error.h"
+#include "signals/error.h"
+#include "signals/frequency_response.h"
+#include "signals/number_text.h"
+
+namespace vibrissa::separation {
+
+namespace {
+
+using signals::Record;
+using signals::UserError;
+namespace channel = signals::channel;
+
+void check_channel(const Record& record, const std::string& name, const std::string& which) {
+  const auto x = record.channel(name);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!std::isfinite(x[i]))
+      throw UserError("identification: " + name + " of the " + which + " is not finite at sample " +
+                      std::to_string(i) + " (" + signals::to_text(record.time_s(i)) + " s)");
+  if (std::ranges::all_of(x, [&](double value) { return value == x[0]; }))
+    throw UserError("identification: " + name + " of the " + which +
+                    " is constant; nothing can be learnt from it");
+}
+
+void check_record(const Record& record, double sampling_rate_hz, const std::string& which) {
+  check_channel(record, channel::base_acceleration, which);
+  check_channel(record, channel::base_moment, which);
+  if (record.sampling_rate_hz() != sampling_rate_hz)
+    throw UserError("identification: the " + which + " has a sampling rate of " +
+                    signals::to_text(record.sampling_rate_hz()) + " Hz, the first fit record " +
+                    signals::to_text(sampling_rate_hz) + " Hz; resample one of them");
+}
+
+void check_all(std::span<const Record> fit_records, const Record& held_out,
+               const IdentifyOptions& options) {
+  if (fit_records.empty()) throw UserError("identification: no record to fit");
+  const double rate = fit_records[0].sampling_rate_hz();
+  for (std::size_t i = 0; i < fit_records.size(); ++i)
+    check_record(fit_records[i], rate, "fit record " + std::to_string(i + 1));
+  check_record(held_out, rate, "held-out record");
+  const std::size_t order = options.order.value_or(options.max_order);
+  if (order == 0 || order % 2 != 0)
+    throw UserError("identification: order = " + std::to_string(order) +
+                    " must be an even number of poles, at least 2 (two a mode)");
+}
+
+std::size_t total_samples(std::span<const Record> records) {
+  std::size_t n = 0;
+  for (const Record& record : records) n += record.n_samples();
+  return n;
+}
+
+Eigen::Index n_unknowns(std::size_t order, std::size_t n_records, const IdentifyOptions& options) {
+  const std::size_t nuisance =
+      (options.nuisance.initial_state ? order : 0) + options.nuisance.offset;
+  return n_parameters(order / 2, options.direct_term) +
+         static_cast<Eigen::Index>(n_records * nuisance);
+}
+
+// Highest order for which the records have at least four samples an unknown.
+std::size_t affordable_order(std::span<const Record> records, const IdentifyOptions& options) {
+  const std::size_t wanted = options.order.value_or(options.max_order);
+  const auto n = static_cast<Eigen::Index>(total_samples(records));
+  std::size_t order = wanted;
+  while (order >= 2 && 4 * n_unknowns(order, records.size(), options) > n) order -= 2;
+  if (order == 0 || (options.order && order < wanted))
+    throw UserError(
+        "identification: " + std::to_string(n) +
+        " samples to fit are too few for a model of order " +
+        std::to_string(options.order.value_or(2)) + " (at least " +
+        std::to_string(4 * n_unknowns(options.order.value_or(2), records.size(), options)) + ")");
+  return order;
+}
+
+signals::FrequencyResponse measured_response(std::span<const Record> records,
+                                             std::size_t period_samples) {
+  const Record& longest = *std::ranges::max_element(records, {}, &Record::n_samples);
+  const auto input = longest.channel(channel::base_acceleration);
+  const auto output = longest.channel(channel::base_moment);
+  if (period_samples > 0)
+    return signals::periodic_response(input, output, longest.sampling_rate_hz(), period_samples);
+  constexpr std::size_t shortest_segment = 32, longest_segment = 2048;
+  const std::size_t segment =
+      std::clamp(std::bit_floor(longest.n_samples() / 4), shortest_segment, longest_segment);
+  return signals::welch_response(input, output, longest.sampling_rate_hz(),
+                                 {.segment_samples = segment});
+}
+
+std::vector<Segment> segments_of(std::span<const Record> records) {
+  std::vector<Segment> segments;
+  for (const Record& record : records)
+    segments.push_back({.base_acceleration = record.channel(channel::base_acceleration),
+                        .base_moment = record.channel(channel::base_moment)});
+  return segments;
+}
+
+double information_criterion(const FittedBvrm& fit, double n_samples, double n_unknowns,
+                             double mean_square_moment) {
+  // An error below what rounding leaves is no better than another.
+  const double mean_square = std::max(fit.residual_variance * (n_samples - n_unknowns) / n_samples,
+                                      1e-24 * mean_square_moment);
+  return n_samples * std::log(mean_square) + n_unknowns * std::log(n_samples);
+}
+
+struct Trial {
+  FittedBvrm fit;
+  IdentificationTrial summary;
+};
+
+class Identifier {
+ public:
+  Identifier(std::span<const Record> records, const IdentifyOptions& options)
+      : records_(records),
+        options_(options),
+        rate_(records[0].sampling_rate_hz()),
+        n_samples_(static_cast<double>(total_samples(records))),
+        order_(affordable_order(records, options)),
+        response_(measured_response(records, options.period_samples)),
+        segments_(segments_of(records)) {
+    for (const Segment& segment : segments_)
+      for (const double m : segment.base_moment) mean_square_moment_ += m * m / n_samples_;
+  }
+
+  std::vector<Trial> run() const {
+    std::vector<Trial> trials;
+    const std::vector<Hold> holds = options_.hold
+                                        ? std::vector<Hold>{*options_.hold}
+                                        : std::vector<Hold>{Hold::first_order, Hold::band_limited};
+    for (const Hold hold : holds) try_hold(hold, trials);
+    if (trials.empty())
+      throw UserError("identification: the frequency response of " +
+                      std::to_string(response_.frequency_hz.size()) +
+                      " excited lines does not determine a model of order " +
+                      std::to_string(options_.order.value_or(2)) +
+                      "; excite more lines or lower the order");
+    return trials;
+  }
+
+ private:
+  void try_hold(Hold hold, std::vector<Trial>& trials) const {
+    const auto starts = identify_frequency_orders(response_, {.order = order_,
+                                                              .direct_term = options_.direct_term,
+                                                              .delay_s = options_.delay_s,
+                                                              .sampling = Sampling{rate_, hold}});
+    for (const FittedBvrm& start : starts) {
+      const std::size_t order = start.model.order();
+      if (options_.order && order != *options_.order) continue;
+      trials.push_back(refine(start.model, hold));
+    }
+  }
+
+  Trial refine(const Bvrm& start, Hold hold) const {
+    Trial trial;
+    trial.fit = refine_output_error(
+        start, segments_, rate_,
+        {.hold = hold, .direct_term = options_.direct_term, .nuisance = options_.nuisance});
+    const auto unknowns = static_cast<double>(n_unknowns(start.order(), records_.size(), options_));
+    trial.summary = {.order = start.order(),
+                     .hold = hold,
+                     .residual_rms_n_m = std::sqrt(trial.fit.residual_variance),
+                     .information_criterion = information_criterion(trial.fit, n_samples_, unknowns,
+                                                                    mean_square_moment_),
+                     .end = trial.fit.end};
+    return trial;
+  }
+
+  std::span<const Record> records_;
+  const IdentifyOptions& options_;
+  double rate_, n_samples_;
+  std::size_t order_;
+  signals::FrequencyResponse response_;
+  std::vector<Segment> segments_;
+  double mean_square_moment_ = 0.;
+};
+
+// The lowest criterion among the fits that came to an end; among all when none did.
+const Trial& choose(const std::vector<Trial>& trials) {
+  const auto rank = [](const Trial& trial) {
+    return std::pair(trial.fit.end != FitEnd::converged, trial.summary.information_criterion);
+  };
+  return *std::ranges::min_element(trials, {}, rank);
+}
+
+std::vector<double> free_simulation(const Bvrm& model, const Record& record, Hold hold,
+                                    const Nuisance& nuisance) {
+  return simulate_like(model, record.channel(channel::base_acceleration),
+                       record.channel(channel::base_moment), record.sampling_rate_hz(), hold,
+                       nuisance);
+}
+
+}  // namespace
+
+Identification identify_bvrm(std::span<const Record> fit_records, const Record& held_out,
+                             const IdentifyOptions& options) {
+  check_all(fit_records, held_out, options);
+  const std::vector<Trial> trials = Identifier(fit_records, options).run();
+  const Trial& best = choose(trials);
+  Identification result;
+  result.fit = best.fit;
+  result.hold = best.summary.hold;
+  result.order = best.summary.order;
+  for (const Trial& trial : trials) result.trials.push_back(trial.summary);
+  const auto held_out_moment = held_out.channel(channel::base_moment);
+  const auto simulated = free_simulation(result.fit.model, held_out, result.hold, options.nuisance);
+  result.held_out_fit_percent = fit_percent(held_out_moment, simulated);
+  result.held_out_vaf_percent = vaf_percent(held_out_moment, simulated);
+  const Record& first = fit_records[0];
+  result.fit_record_fit_percent =
+      fit_percent(first.channel(channel::base_moment),
+                  free_simulation(result.fit.model, first, result.hold, options.nuisance));
+  return result;
+}
+
+Identification identify_bvrm(const Record& fit_record, const Record& held_out,
+                             const IdentifyOptions& options) {
+  return identify_bvrm(std::span(&fit_record, 1), held_out, options);
+}
+
+}  // namespace vibrissa::separation

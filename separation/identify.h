@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "separation/fitted_bvrm.h"
+#include "separation/input_hold.h"
+#include "separation/simulation.h"
+#include "signals/record.h"
+
+namespace vibrissa::separation {
+
+struct IdentifyOptions {
+  /// Number of poles, even. Nothing: chosen by the Bayesian information criterion on the fit
+  /// records.
+  std::optional<std::size_t> order = std::nullopt;
+  std::size_t max_order = 6;
+  /// Of periodic records in steady state; 0: not periodic.
+  std::size_t period_samples = 0;
+  /// Nothing: first_order or band_limited, whichever fits the fit records better.
+  std::optional<Hold> hold = std::nullopt;
+  bool direct_term = true;
+  double delay_s = 0.;     // known, not estimated
+  Nuisance nuisance = {};  // estimated in every record beside the model
+};
+
+/// One order and hold that was tried.
+struct IdentificationTrial {
+  std::size_t order = 0;
+  Hold hold = Hold::first_order;
+  double residual_rms_n_m = 0.;  // on the fit records
+  /// n ln(mean e^2) + n_parameters ln n; the lowest wins.
+  double information_criterion = 0.;
+  FitEnd end = FitEnd::converged;
+};
+
+struct Identification {
+  FittedBvrm fit;
+  Hold hold = Hold::first_order;
+  std::size_t order = 0;
+  /// Held-out record in free simulation, its initial state and offset estimated (see Nuisance).
+  double held_out_fit_percent = 0.;
+  double held_out_vaf_percent = 0.;
+  double fit_record_fit_percent = 0.;  // of the first fit record, likewise
+  std::vector<IdentificationTrial> trials;
+};
+
+/// Identifies the base-vibration response model from base_acceleration to base_moment. The
+/// frequency response of the longest fit record (from whole periods, or Welch's) gives the start of
+/// every order, the output-error fit to all fit records the model; the held-out record only scores
+/// it. Throws UserError: no such channel, a constant or not finite one, unequal rates, a record too
+/// short for the order, an odd order. Proven by tests/separation/identify_test.cc.
+Identification identify_bvrm(std::span<const signals::Record> fit_records,
+                             const signals::Record& held_out, const IdentifyOptions& options = {});
+Identification identify_bvrm(const signals::Record& fit_record, const signals::Record& held_out,
+                             const IdentifyOptions& options = {});
+
+}  // namespace vibrissa::separation

@@ -1,0 +1,161 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/apps/program.h"
+
+namespace vibrissa::apps {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// What must hold for every mistake of the user.
+void expect_refusal(const ProgramResult& result, const testing::Matcher<const std::string&>& text) {
+  EXPECT_EQ(result.status, 2) << result.errors;
+  EXPECT_THAT(result.errors, text);
+  EXPECT_THAT(result.errors, testing::Not(HasSubstr("internal error")));
+  EXPECT_EQ(result.output, "");
+}
+
+std::string case_with(const std::string& section, const std::string& entry) {
+  return "subsection " + section + "\n  set " + entry + "\nend\n";
+}
+
+class BadCase : public testing::Test {
+ protected:
+  void refuse(const std::string& text, const testing::Matcher<const std::string&>& message) {
+    const std::string file = folder.write("bad.prm", text);
+    expect_refusal(vibrissa("run '" + file + "' -o '" + folder.file("run") + "'" + quick), message);
+    EXPECT_FALSE(std::filesystem::exists(folder.file("run"))) << "half a run was written";
+  }
+  Folder folder;
+};
+
+TEST_F(BadCase, UnknownEntryNamesFileLineAndKnownNames) {
+  refuse(case_with("Geometry", "Wire diametre = 1e-3"),
+         AllOf(HasSubstr("bad.prm:2"), HasSubstr("Wire diametre"), HasSubstr("Wire diameter"),
+               HasSubstr("Free length")));
+}
+
+TEST_F(BadCase, UnknownSubsectionNamesTheKnownOnes) {
+  refuse(case_with("Geometri", "Fin = none"),
+         AllOf(HasSubstr("bad.prm:1"), HasSubstr("Geometri"), HasSubstr("Geometry")));
+}
+
+TEST_F(BadCase, TextInANumberNamesLineAndEntry) {
+  refuse(case_with("Geometry", "Wire diameter = thin"),
+         AllOf(HasSubstr("bad.prm"), HasSubstr("2"), HasSubstr("thin"), HasSubstr("Wire diameter")));
+}
+
+TEST_F(BadCase, NegativeDensityIsRefused) {
+  refuse("subsection Materials\n  subsection Wire\n    set Density = -6450\n  end\nend\n",
+         AllOf(HasSubstr("3"), HasSubstr("Density"), HasSubstr("-6450")));
+}
+
+TEST_F(BadCase, ZeroC1IsRefused) {
+  refuse("subsection Materials\n  subsection Silicone\n    set c1 = 0\n  end\nend\n",
+         AllOf(HasSubstr("c1")));
+}
+
+TEST_F(BadCase, BulkModulusBelowTenShearModuliIsRefusedWithTheNumbers) {
+  refuse("subsection Materials\n  subsection Silicone\n    set Bulk modulus = 1e6\n  end\nend\n",
+         AllOf(HasSubstr("bulk modulus"), HasSubstr("6")));
+}
+
+TEST_F(BadCase, LineAtOrAboveHalfTheSamplingRateIsRefused) {
+  refuse(case_with("Base motion", "Lines = 20, 250"),
+         AllOf(HasSubstr("Lines"), HasSubstr("250"), HasSubstr("line 2")));
+}
+
+TEST_F(BadCase, WireThickerThanItsBaseIsRefused) {
+  refuse(case_with("Geometry", "Wire diameter = 20e-3"), HasSubstr("Wire diameter"));
+}
+
+TEST_F(BadCase, MissingCaseFileIsNamed) {
+  expect_refusal(vibrissa("run '" + folder.file("none.prm") + "'"), HasSubstr("none.prm"));
+}
+
+TEST_F(BadCase, UnknownOptionEntryNamesTheKnownOnes) {
+  expect_refusal(vibrissa("modes '" + case_file("flow_sensor.prm") + "' --nonsense"),
+                 HasSubstr("--nonsense"));
+  expect_refusal(vibrissa("simulate '" + case_file("flow_sensor.prm") + "' --set Wind/Sped=3"),
+                 AllOf(HasSubstr("Sped"), HasSubstr("Mean speed")));
+}
+
+TEST_F(BadCase, ResultsOfAnEarlierRunAreNotOverwritten) {
+  std::filesystem::create_directory(folder.file("run"));
+  folder.write("run/summary.json", "old");
+  expect_refusal(vibrissa("run '" + case_file("whisker_sensor.prm") + "' -o '" +
+                          folder.file("run") + "'" + quick),
+                 HasSubstr("run"));
+  EXPECT_EQ(content(folder.file("run/summary.json")), "old");
+}
+
+TEST_F(BadCase, FolderThatCannotBeMadeIsNamed) {
+  folder.write("plain", "a file");
+  expect_refusal(vibrissa("run '" + case_file("whisker_sensor.prm") + "' -o '" +
+                          folder.file("plain") + "/run'" + quick),
+                 HasSubstr("plain"));
+}
+
+/// A record of 400 samples whose rows a test can spoil.
+std::string record_text(const std::function<std::string(int, std::string)>& spoil) {
+  std::ostringstream text;
+  text << "time_s,base_acceleration_m_s2,base_moment_N_m\n";
+  for (int i = 0; i < 400; ++i) {
+    std::ostringstream row;
+    row << 0.002 * i << "," << std::sin(0.3 * i) << "," << 1e-5 * std::sin(0.3 * i + 3.);
+    text << spoil(i, row.str()) << "\n";
+  }
+  return text.str();
+}
+
+class BadRecord : public testing::Test {
+ protected:
+  void refuse(const std::string& text, const std::string& options,
+              const testing::Matcher<const std::string&>& message) {
+    const std::string file = folder.write("bad.csv", text);
+    const std::string model = folder.file("model.json");
+    expect_refusal(vibrissa("identify '" + file + "' " + options + " -o '" + model + "'"), message);
+    EXPECT_FALSE(std::filesystem::exists(model));
+    expect_refusal(vibrissa("run '" + case_file("whisker_sensor.prm") +
+                            "' --set Wind/Kind=none --duration 0.5 --base-acceleration '" + file +
+                            "' -o '" + folder.file("run") + "'" + quick + " " + options),
+                   message);
+    EXPECT_FALSE(std::filesystem::exists(folder.file("run")));
+  }
+  Folder folder;
+};
+
+TEST_F(BadRecord, TextInANumberNamesFileLineAndColumn) {
+  refuse(record_text([](int i, std::string row) { return i == 40 ? "0.08,abc,0" : row; }), "",
+         AllOf(HasSubstr("bad.csv:42"), HasSubstr("base_acceleration_m_s2"), HasSubstr("abc")));
+}
+
+TEST_F(BadRecord, NotANumberIsReportedWithItsPlace) {
+  refuse(record_text([](int i, std::string row) { return i == 40 ? "0.08,nan,0" : row; }), "",
+         AllOf(HasSubstr("bad.csv:42"), HasSubstr("nan")));
+}
+
+TEST_F(BadRecord, GapInTimeIsReportedWithItsPlace) {
+  std::string text = record_text([](int i, std::string row) {
+    return i >= 100 && i < 107 ? std::string("DROP") : row;
+  });
+  for (std::size_t at; (at = text.find("DROP\n")) != std::string::npos;) text.erase(at, 5);
+  refuse(text, "", AllOf(HasSubstr("gap"), HasSubstr("101")));
+}
+
+TEST_F(BadRecord, WrongColumnNameListsTheColumnsOfTheFile) {
+  refuse(record_text([](int, std::string row) { return row; }),
+         "--column base_acceleration=z_mps2",
+         AllOf(HasSubstr("z_mps2"), HasSubstr("base_acceleration_m_s2")));
+}
+
+TEST_F(BadRecord, MissingFileIsNamed) {
+  expect_refusal(vibrissa("identify '" + folder.file("none.csv") + "'"), HasSubstr("none.csv"));
+}
+
+}  // namespace
+}  // namespace vibrissa::apps

@@ -1,0 +1,154 @@
+#include <gmock/gmock.h>
+
+#include "tests/apps/program.h"
+
+namespace vibrissa::apps {
+namespace {
+
+using nlohmann::json;
+
+/// One quick run of each sensor, made once.
+const Folder& runs() {
+  static const Folder folder;
+  static const bool made = [] {
+    for (const std::string name : {"flow", "whisker"}) {
+      const auto result = vibrissa("run '" + case_file(name + "_sensor.prm") + "' -o '" +
+                                   folder.file(name) + "'" + quick + " --json");
+      EXPECT_EQ(result.status, 0) << result.errors;
+    }
+    return true;
+  }();
+  EXPECT_TRUE(made);
+  return folder;
+}
+
+json summary(const std::string& name) {
+  return json::parse(content(runs().file(name + "/summary.json")));
+}
+
+TEST(Run, LeavesEveryPromisedFile) {
+  for (const std::string file :
+       {"resolved.prm", "run.json", "modes.csv", "model.json", "bvrm.json", "metrics.csv",
+        "summary.json", "records/vibration_only.csv", "records/wind_only.csv", "records/both.csv",
+        "records/separated.csv", "figures/bode.csv", "figures/separation.csv"}) {
+    EXPECT_TRUE(std::filesystem::exists(runs().file("flow/" + file))) << file;
+  }
+  const json run = json::parse(content(runs().file("flow/run.json")));
+  EXPECT_EQ(run["facts"]["mesh_sha256"].get<std::string>().size(), 64u);
+  EXPECT_EQ(run["seed"], 1);
+}
+
+TEST(Run, ResolvedCaseReadsBackToTheSameResults) {
+  const Folder folder;
+  const auto result = vibrissa("run '" + runs().file("flow/resolved.prm") + "' -o '" +
+                               folder.file("again") + "' --quiet --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(content(folder.file("again/records/both.csv")),
+            content(runs().file("flow/records/both.csv")));
+}
+
+TEST(Run, SeparatesByTheIdentifiedModelAlmostAsWellAsByTheTrueResponse) {
+  for (const std::string name : {"flow", "whisker"}) {
+    std::map<std::string, double> sdr_db;
+    for (const auto& method : summary(name)["separation"]["methods"]) {
+      sdr_db[method["name"]] = method["sdr_db"];
+    }
+    EXPECT_GT(sdr_db.at("bvrm"), sdr_db.at("true response") - 1.) << name;
+    EXPECT_GT(sdr_db.at("bvrm"), sdr_db.at("nothing removed") + 3.) << name;
+    EXPECT_TRUE(sdr_db.count("fdaf"));
+  }
+}
+
+TEST(Modes, JsonHasThePromisedShapeAndTheConvergenceTable) {
+  const auto result = vibrissa("modes '" + case_file("flow_sensor.prm") + "' --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json document = result.json();
+  EXPECT_NEAR(document["modes"][0]["frequency_hz"].get<double>(), 37.32, 0.003 * 37.32);
+  EXPECT_EQ(document["modes"][0]["effective_mass_kg"].size(), 3u);
+  EXPECT_GT(document["dofs"].get<int>(), document["cells"].get<int>());
+  EXPECT_EQ(document["convergence"]["levels"].size(), 3u);
+  EXPECT_LT(document["convergence"]["last_change_percent"].get<double>(), 0.2);
+}
+
+// The finite-element sensor's own clean records, at the order that the band asks for.
+TEST(Identify, CleanRecordsOfBothSensorsFitHeldOutDataTo99Percent) {
+  for (const std::string name : {"flow", "whisker"}) {
+    const Folder folder;
+    const std::string record = folder.file("clean.csv");
+    const auto simulated =
+        vibrissa("simulate '" + case_file(name + "_sensor.prm") + "' --record '" + record +
+                 "' --set Wind/Kind=none --set 'Records/Accelerometer noise=0' --set "
+                 "'Records/Moment noise=0'" +
+                 quick.substr(0, quick.find(" --set 'Output")) + " --quiet");
+    ASSERT_EQ(simulated.status, 0) << simulated.errors;
+    const auto identified = vibrissa("identify '" + record + "' --json -o '" +
+                                     folder.file("bvrm.json") + "'");
+    ASSERT_EQ(identified.status, 0) << identified.errors;
+    const json model = identified.json();
+    EXPECT_GE(model["fit_percent"].get<double>(), 99.) << name;
+    const double first_hz = summary(name)["modes"][0]["frequency_hz"].get<double>();
+    EXPECT_NEAR(model["modes"][0]["frequency_hz"].get<double>(), first_hz, 1e-3 * first_hz);
+    EXPECT_NEAR(model["modes"][0]["damping_ratio"].get<double>(), 0.05, 1e-3);
+    EXPECT_TRUE(model.contains("direct_term"));
+    EXPECT_GE(model["order"].get<int>(), name == "whisker" ? 4 : 2);
+  }
+}
+
+TEST(Separate, GivesNullScoresWithoutTruthAndNumbersWithIt) {
+  const std::string record = runs().file("flow/records/both.csv");
+  const std::string model = runs().file("flow/bvrm.json");
+  const auto blind = vibrissa("separate '" + record + "' --model '" + model + "' --json");
+  ASSERT_EQ(blind.status, 0) << blind.errors;
+  for (const auto& method : blind.json()["methods"]) EXPECT_TRUE(method["sdr_db"].is_null());
+
+  const Folder folder;
+  const auto written = vibrissa("separate '" + record + "' --model '" + model + "' -o '" +
+                                folder.file("separated.csv") + "'");
+  ASSERT_EQ(written.status, 0) << written.errors;
+  EXPECT_THAT(content(folder.file("separated.csv")).substr(0, 300),
+              testing::HasSubstr("wind_moment_bvrm_N_m"));
+  const auto scored = vibrissa("separate '" + folder.file("separated.csv") +
+                               "' --truth wind_moment_bvrm_N_m --json");
+  ASSERT_EQ(scored.status, 0) << scored.errors;
+  EXPECT_TRUE(scored.json()["methods"][1]["sdr_db"].is_number());
+}
+
+TEST(Bode, OfARecordAgreesWithThatOfItsModelAtThePeriodicLines) {
+  const Folder folder;
+  const std::string record = folder.file("clean.csv");
+  const std::string settings = " --set Wind/Kind=none --set 'Records/Accelerometer noise=0' --set "
+                               "'Records/Moment noise=0' --set 'Model/Mesh resolution=1'"
+                               " --set Model/Sensitivities=false --quiet";
+  ASSERT_EQ(vibrissa("simulate '" + case_file("flow_sensor.prm") + "' --record '" + record + "'" +
+                     settings)
+                .status,
+            0);
+  // The multisine has whole lines a second; the last 10 s are in steady state.
+  const auto result =
+      vibrissa("bode '" + record + "' --rows 5001:10000 --period 500 --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto model = vibrissa("bode '" + case_file("flow_sensor.prm") +
+                              "' --low 9 --high 9.000001 --json");
+  ASSERT_EQ(model.status, 0) << model.errors;
+  const json expected = model.json()["points"][0];
+  for (const auto& point : result.json()["points"]) {
+    if (std::abs(point["frequency_hz"].get<double>() - 9.) > 1e-9) continue;
+    EXPECT_NEAR(point["real"].get<double>() / expected["real"].get<double>(), 1., 5e-3);
+    return;
+  }
+  FAIL() << "the line at 9 Hz is missing";
+}
+
+TEST(Mesh, AuditNamesEveryRegionAndExportsToCalculix) {
+  const Folder folder;
+  const auto result = vibrissa("mesh '" + case_file("flow_sensor.prm") + "' --json --calculix '" +
+                               folder.file("sensor.inp") + "'");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  for (const std::string region : {"silicone", "wire", "fin"}) {
+    EXPECT_GT(result.json()["region_mass_kg"][region].get<double>(), 0.);
+  }
+  EXPECT_THAT(content(folder.file("sensor.inp")), testing::HasSubstr("C3D20R"));
+}
+
+}  // namespace
+}  // namespace vibrissa::apps

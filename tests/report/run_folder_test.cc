@@ -1,0 +1,83 @@
+#include "report/run_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "report/json_file.h"
+#include "report/revision.h"
+#include "tests/signals/temporary_folder.h"
+
+namespace vibrissa::report {
+namespace {
+
+using signals::UserError;
+using signals::testing::content_of;
+using signals::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+TEST(RunFolder, RefusesToWriteOverAnEarlierRun) {
+  const TemporaryFolder base;
+  const RunFolder first(base.path() / "run");
+  first.write_text("result.csv", "1\n");
+  EXPECT_THAT([&] { RunFolder second(base.path() / "run"); },
+              ThrowsMessage<UserError>(HasSubstr("not empty")));
+  EXPECT_EQ(content_of(base.path() / "run" / "result.csv"), "1\n");
+}
+
+TEST(RunFolder, FindsAFreeName) {
+  const TemporaryFolder base;
+  EXPECT_EQ(RunFolder::first_free(base.path() / "run").path(), base.path() / "run");
+  EXPECT_EQ(RunFolder::first_free(base.path() / "run").path(), base.path() / "run-2");
+}
+
+TEST(RunFolder, MakesSubFolders) {
+  const TemporaryFolder base;
+  const RunFolder run(base.path() / "run");
+  run.write_json("a/b/c.json", {{"x", 1}});
+  EXPECT_EQ(read_json(base.path() / "run/a/b/c.json")["x"], 1);
+}
+
+TEST(RunFolder, RefusesNamesThatLeadOutOfIt) {
+  const TemporaryFolder base;
+  const RunFolder run(base.path() / "run");
+  for (const std::string name : {"", ".", "a/", "../x", "a/../../x", "/tmp/x"})
+    EXPECT_THAT([&] { run.file(name); }, ThrowsMessage<UserError>(HasSubstr("names no file")))
+        << name;
+  EXPECT_NO_THROW(run.file("a/../b"));
+}
+
+TEST(RunFolder, SaysHowTheRunCameAbout) {
+  const TemporaryFolder base;
+  const RunFolder run(base.path() / "run");
+  run.write_run({.command_line = {"/some/where/bin/vibrissa", "run", "cases/flow.prm"},
+                 .seed = 18446744073709551615u,
+                 .facts = {{"mesh_sha256", "abc"}}});
+  const auto json = read_json(run.file("run.json"));
+  EXPECT_EQ(json["program"], "vibrissa");
+  EXPECT_EQ(json["version"], program_version());
+  EXPECT_EQ(json["revision"], program_revision());
+  EXPECT_EQ(json["command_line"], (nlohmann::json{"vibrissa", "run", "cases/flow.prm"}));
+  EXPECT_EQ(json["seed"], 18446744073709551615u);
+  EXPECT_EQ(json["facts"]["mesh_sha256"], "abc");
+  EXPECT_TRUE(std::regex_match(json["started_utc"].get<std::string>(),
+                               std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)")));
+}
+
+TEST(RunFolder, SaysNullForNoSeed) {
+  const TemporaryFolder base;
+  const RunFolder run(base.path() / "run");
+  run.write_run({});
+  EXPECT_TRUE(read_json(run.file("run.json"))["seed"].is_null());
+}
+
+TEST(Revision, IsKnownOrSaysThatItIsNot) {
+  EXPECT_TRUE(std::regex_match(program_revision(), std::regex("[\\w.-]+"))) << program_revision();
+  EXPECT_TRUE(std::regex_match(program_version(), std::regex("unknown|[0-9]+(\\.[0-9]+)*")))
+      << program_version();
+}
+
+}  // namespace
+}  // namespace vibrissa::report

@@ -1,0 +1,69 @@
+#include "report/table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+
+namespace vibrissa::report {
+namespace {
+
+Table modes() {
+  Table table({{"mode", ""}, {"frequency", "Hz", 4}, {"kind", ""}});
+  table.add_row({1, 37.3, "bending, x"});
+  table.add_row({std::size_t{2}, 147.123456789, "torsion"});
+  table.add_row({3, Cell(), "a|b"});
+  return table;
+}
+
+TEST(Table, CsvKeepsAllDigitsAndQuotes) {
+  EXPECT_EQ(modes().to_csv(),
+            "mode,frequency [Hz],kind\n"
+            "1,37.3,\"bending, x\"\n"
+            "2,147.123456789,torsion\n"
+            "3,,a|b\n");
+}
+
+TEST(Table, MarkdownRoundsAlignsAndEscapes) {
+  EXPECT_EQ(modes().to_markdown(),
+            "| mode | frequency [Hz] | kind |\n"
+            "|---:|---:|---|\n"
+            "| 1 | 37.30 | bending, x |\n"
+            "| 2 | 147.1 | torsion |\n"
+            "| 3 | - | a\\|b |\n");
+}
+
+TEST(Table, TextHasAlignedColumnsAndNoTrailingBlanks) {
+  EXPECT_EQ(modes().to_text(),
+            "mode  frequency [Hz]  kind\n"
+            "----  --------------  ----------\n"
+            "   1           37.30  bending, x\n"
+            "   2           147.1  torsion\n"
+            "   3               -  a|b\n");
+}
+
+TEST(Table, TextAlignsByCharactersNotBytes) {
+  Table table({{"\u00b5", "\u00b0"}, {"n", ""}});
+  table.add_row({"\u00b5\u00b5\u00b5\u00b5\u00b5\u00b5", 1});
+  EXPECT_EQ(table.to_text(),
+            "\u00b5 [\u00b0]     n\n"
+            "------  ---\n"
+            "\u00b5\u00b5\u00b5\u00b5\u00b5\u00b5    1\n");
+}
+
+TEST(Table, TellsNotKnownFromNaNInCsvAlone) {
+  Table table({{"a", ""}, {"b", ""}});
+  table.add_row({std::nan(""), Cell()});
+  EXPECT_EQ(table.to_csv(), "a,b\nnan,\n");
+  EXPECT_EQ(table.to_markdown(), "| a | b |\n|---:|---:|\n| - | - |\n");
+}
+
+TEST(Table, WithoutRowsStillHasItsHeading) {
+  const Table table(std::vector<Column>{{"name", "m"}});
+  EXPECT_EQ(table.n_rows(), 0u);
+  EXPECT_EQ(table.to_csv(), "name [m]\n");
+  EXPECT_EQ(table.to_text(), "name [m]\n--------\n");
+}
+
+}  // namespace
+}  // namespace vibrissa::report
