@@ -25,19 +25,21 @@ std::vector<double> bode_frequencies(const double low_hz, const double high_hz,
 }
 
 BodeCurve bode_curve(const signals::ReducedModel& model, const std::vector<double>& frequency_hz) {
-  return {model.name, report::CurveStyle::line,
+  return {model.name,
+          report::CurveStyle::line,
           {frequency_hz, signals::base_response(model, frequency_hz), {}, {}}};
 }
 
 BodeCurve bode_curve(const separation::Bvrm& model, const std::vector<double>& frequency_hz) {
-  return {"identified model", report::CurveStyle::dashed,
+  return {"identified model",
+          report::CurveStyle::dashed,
           {frequency_hz, separation::response(model, frequency_hz), {}, {}}};
 }
 
 namespace {
 
-// In (-360, 0], so that the half turn at low frequency (the moment opposes the acceleration) starts at
-// -180 degrees and a lag goes down.
+// In (-360, 0], so that the half turn at low frequency (the moment opposes the acceleration) starts
+// at -180 degrees and a lag goes down.
 double phase_deg(const std::complex<double> value) {
   const double degrees = std::arg(value) * 180. / std::numbers::pi;
   return degrees > 1e-6 ? degrees - 360. : degrees;
@@ -81,7 +83,8 @@ report::Figure bode_figure(const std::vector<BodeCurve>& curves) {
   report::Figure figure;
   figure.name = "bode";
   figure.title = "Base acceleration to base moment";
-  figure.caption = "Frequency response from base acceleration to base moment, convention exp(+j w t).";
+  figure.caption =
+      "Frequency response from base acceleration to base moment, convention exp(+j w t).";
   figure.panels = {magnitude, phase};
   if (!coherence.curves.empty()) figure.panels.push_back(coherence);
   return figure;

@@ -24,7 +24,8 @@ struct BodeCurve {
 BodeCurve bode_curve(const signals::ReducedModel& model, const std::vector<double>& frequency_hz);
 BodeCurve bode_curve(const separation::Bvrm& model, const std::vector<double>& frequency_hz);
 
-/// Magnitude and phase (unwrapped below 180 degrees at low frequency), and coherence where it is known.
+/// Magnitude and phase (unwrapped below 180 degrees at low frequency), and coherence where it is
+/// known.
 report::Figure bode_figure(const std::vector<BodeCurve>& curves);
 
 }  // namespace vibrissa::apps

@@ -103,8 +103,9 @@ void declare_records(ParameterHandler& prm) {
   prm.declare_entry("Sampling rate", "500", Patterns::Double(1., 1e6), "Of all records [Hz].");
   prm.declare_entry("Duration", "20", Patterns::Double(0.2, 1e5), "Of all records [s].");
   prm.declare_entry("Seed", "1", Patterns::Integer(0), "Of turbulence and noise.");
-  prm.declare_entry("Accelerometer noise", "0.0785", Patterns::Double(0., 1e3),
-                    "Standard deviation of a sample of the measured base acceleration [m/s^2] (0.008 g).");
+  prm.declare_entry(
+      "Accelerometer noise", "0.0785", Patterns::Double(0., 1e3),
+      "Standard deviation of a sample of the measured base acceleration [m/s^2] (0.008 g).");
   prm.declare_entry("Moment noise", "1e-6", Patterns::Double(0., 1e3),
                     "Standard deviation of a sample of the measured base moment [N m] (5.43 uT).");
   prm.leave_subsection();
@@ -155,7 +156,7 @@ void declare_output(ParameterHandler& prm) {
                     "Results; must not exist yet. Empty: a free name below runs/.");
   prm.declare_entry("VTK", "true", Patterns::Bool(), "Whether .vtu and .pvd files are written.");
   prm.declare_entry("Pictures", "true", Patterns::Bool(), "Whether figures are drawn.");
-  prm.declare_entry("Full-order duration", "0.2", Patterns::Double(0., 1e4),
+  prm.declare_entry("Full-order duration", "0.06", Patterns::Double(0., 1e4),
                     "How much of the record the full-order solid repeats, to check the reduced "
                     "model and to give stress fields [s]; 0: none.");
   prm.leave_subsection();
@@ -180,8 +181,8 @@ void check(const Case& all) {
     for (const double f : all.base.line_frequency_hz) {
       if (f >= nyquist) {
         throw UserError("Base motion/Lines holds " + std::to_string(f) +
-                        " Hz, not below half of Records/Sampling rate (" +
-                        std::to_string(nyquist) + " Hz); drop the line or raise the rate");
+                        " Hz, not below half of Records/Sampling rate (" + std::to_string(nyquist) +
+                        " Hz); drop the line or raise the rate");
       }
     }
   }

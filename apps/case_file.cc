@@ -13,7 +13,9 @@ namespace {
 
 using signals::UserError;
 
-std::string trimmed(const std::string& text) { return dealii::Utilities::trim(text); }
+std::string trimmed(const std::string& text) {
+  return dealii::Utilities::trim(text);
+}
 
 std::vector<std::string> read_lines(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -100,8 +102,8 @@ std::string lines_of_named_entries(const std::vector<std::string>& lines,
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const auto entry = text_after(lines[i], "set");
     if (!entry || message.find(entry_name(*entry)) == std::string::npos) continue;
-    text += (text.empty() ? " (line " : ", line ") + std::to_string(i + 1) + ": " +
-            entry_name(*entry);
+    text +=
+        (text.empty() ? " (line " : ", line ") + std::to_string(i + 1) + ": " + entry_name(*entry);
   }
   return text.empty() ? "" : text + ")";
 }
@@ -161,8 +163,8 @@ Case CaseFile::read() {
 
 std::string CaseFile::resolved() const {
   std::ostringstream text;
-  prm_->print_parameters(text, dealii::ParameterHandler::Text |
-                                   dealii::ParameterHandler::KeepDeclarationOrder);
+  prm_->print_parameters(
+      text, dealii::ParameterHandler::Text | dealii::ParameterHandler::KeepDeclarationOrder);
   return text.str();
 }
 

@@ -50,7 +50,7 @@ struct SeparationParameters {
 struct OutputParameters {
   std::optional<std::string> folder;
   bool vtk = true, pictures = true;
-  double full_order_duration_s = 0.2;
+  double full_order_duration_s = 0.06;
 };
 
 /// Everything that a case file says.
@@ -63,8 +63,8 @@ struct Case {
   OutputParameters output;
 };
 
-/// A case file with its entries checked one by one: unknown entries, text that is no number and values out of
-/// range are refused with file, line and the known names or the range.
+/// A case file with its entries checked one by one: unknown entries, text that is no number and
+/// values out of range are refused with file, line and the known names or the range.
 class CaseFile {
  public:
   /// Throws UserError when the file is missing or has such an entry.
@@ -84,6 +84,5 @@ class CaseFile {
   std::filesystem::path file_;
   std::unique_ptr<dealii::ParameterHandler> prm_;
 };
-
 
 }  // namespace vibrissa::apps

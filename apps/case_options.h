@@ -9,7 +9,8 @@
 
 namespace vibrissa::apps {
 
-/// Command-line options that override entries of a case file: recorded inputs and any entry by name.
+/// Command-line options that override entries of a case file: recorded inputs and any entry by
+/// name.
 struct CaseOptions {
   std::string case_file;
   std::optional<std::string> base_acceleration_file, wind_file, output_folder;

@@ -18,6 +18,8 @@ std::vector<std::string> given_command_line() {
   return words;
 }
 
-void print_json(const nlohmann::json& document) { std::cout << document.dump(2) << std::endl; }
+void print_json(const nlohmann::json& document) {
+  std::cout << document.dump(2) << std::endl;
+}
 
 }  // namespace vibrissa::apps

@@ -109,14 +109,17 @@ void add_bode_command(CLI::App& app) {
   const auto options = std::make_shared<BodeOptions>();
   auto* command = app.add_subcommand(
       "bode", "Frequency response base acceleration -> base moment of a case, a model or a record");
-  command->add_option("input", options->input,
-                      "Case file (.prm), reduced model (.json) or record (.csv)")
+  command
+      ->add_option("input", options->input,
+                   "Case file (.prm), reduced model (.json) or record (.csv)")
       ->required();
   command->add_option("-o,--output", options->folder, "New folder for figure, picture and CSV");
-  command->add_option("--period", options->period_samples,
-                      "Period of a periodic record [samples]: averages of whole periods, no leakage");
-  command->add_option("--segment", options->segment_samples,
-                      "Segment length for records that are not periodic [samples]")
+  command->add_option(
+      "--period", options->period_samples,
+      "Period of a periodic record [samples]: averages of whole periods, no leakage");
+  command
+      ->add_option("--segment", options->segment_samples,
+                   "Segment length for records that are not periodic [samples]")
       ->capture_default_str();
   command->add_option("--low", options->low_hz, "Lowest frequency of a model's diagram [Hz]")
       ->capture_default_str();

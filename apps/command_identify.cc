@@ -41,7 +41,8 @@ void identify(const IdentifyCommandOptions& options) {
   }
   std::cout << identification_table(result).to_text() << "direct term "
             << result.fit.direct_term_kg_m.value << " kg m; order " << result.order << ", "
-            << separation::to_string(result.hold) << " input, " << separation::to_string(result.fit.end)
+            << separation::to_string(result.hold) << " input, "
+            << separation::to_string(result.fit.end)
             << "\nfit on held-out data, free simulation: " << result.held_out_fit_percent << " % ("
             << result.held_out_vaf_percent << " % of the variance)\n";
   if (!options.held_out_file && !options.common.quiet) {

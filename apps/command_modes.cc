@@ -1,6 +1,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/case_file.h"
 #include "apps/command.h"
@@ -15,6 +16,7 @@ struct ModesOptions {
   CommonOptions common;
   std::string case_file;
   bool convergence = true;
+  std::optional<unsigned int> first_resolution;
 };
 
 nlohmann::json convergence_json(const std::vector<ConvergenceLevel>& levels) {
@@ -35,7 +37,8 @@ nlohmann::json convergence_json(const std::vector<ConvergenceLevel>& levels) {
 }
 
 void print_convergence(const nlohmann::json& document) {
-  report::Table table({{"resolution", ""}, {"cells", ""}, {"unknowns", ""}, {"first mode", "Hz", 6}});
+  report::Table table(
+      {{"resolution", ""}, {"cells", ""}, {"unknowns", ""}, {"first mode", "Hz", 6}});
   for (const auto& level : document["levels"]) {
     table.add_row({level["resolution"].get<int>(), level["cells"].get<int>(),
                    level["dofs"].get<int>(), level["first_frequency_hz"].get<double>()});
@@ -56,7 +59,9 @@ void show_modes(const ModesOptions& options) {
   const fem::Sensor sensor(parameters.sensor);
   nlohmann::json document = modes_json(sensor);
   const bool refined = options.convergence && !parameters.sensor.model.mesh_file;
-  if (refined) document["convergence"] = convergence_json(refine(sensor));
+  const unsigned int own = parameters.sensor.model.mesh_resolution;
+  const unsigned int first = options.first_resolution.value_or(own > 1 ? own - 1 : 1);
+  if (refined) document["convergence"] = convergence_json(refine(sensor, first));
   const auto& note = parameters.sensor.model.calibration_note;
   if (note) document["calibration_note"] = *note;
   if (options.common.json) {
@@ -77,7 +82,12 @@ void add_modes_command(CLI::App& app) {
       "modes", "Resonances of a sensor, with damping, effective masses and mesh convergence");
   command->add_option("case", options->case_file, "Case file (.prm)")->required();
   command->add_flag("!--no-convergence", options->convergence,
-                    "Skip the two further meshes of the refinement table");
+                    "Skip the further meshes of the refinement table");
+  command
+      ->add_option("--refine-from", options->first_resolution,
+                   "Resolution of the first of the three meshes of the refinement table "
+                   "(default: one below the case's)")
+      ->check(CLI::Range(1, 6));
   add_common_options(*command, options->common);
   command->callback([options] { show_modes(*options); });
 }

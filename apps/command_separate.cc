@@ -36,8 +36,7 @@ std::vector<SeparatedSignal> separate_all(const SeparateOptions& options,
                                              record, truth, options.settling_s)};
   if (options.model_file) {
     separation::BvrmSeparator bvrm(separation::read_bvrm(*options.model_file),
-                                   record.sampling_rate_hz(),
-                                   separation::parse_hold(options.hold));
+                                   record.sampling_rate_hz(), separation::parse_hold(options.hold));
     signals.push_back(score("bvrm", separation::separate_record(bvrm, record), record, truth,
                             options.settling_s));
   }
@@ -81,22 +80,27 @@ void add_separate_command(CLI::App& app) {
   const auto options = std::make_shared<SeparateOptions>();
   auto* command = app.add_subcommand(
       "separate", "Wind part of a record's base moment, by a BVRM and by an adaptive filter");
-  command->add_option("record", options->record_file,
-                      "CSV record with base acceleration and base moment")
+  command
+      ->add_option("record", options->record_file,
+                   "CSV record with base acceleration and base moment")
       ->required();
-  command->add_option("--model", options->model_file,
-                      "BVRM as JSON, from 'vibrissa identify -o' (without it: adaptive filter only)");
-  command->add_option("--hold", options->hold,
-                      "Base acceleration between samples: first_order, zero_order or band_limited")
+  command->add_option(
+      "--model", options->model_file,
+      "BVRM as JSON, from 'vibrissa identify -o' (without it: adaptive filter only)");
+  command
+      ->add_option("--hold", options->hold,
+                   "Base acceleration between samples: first_order, zero_order or band_limited")
       ->capture_default_str();
   command->add_option("--truth", options->truth_column,
                       "Column with the true wind moment [N m], for the scores");
   command->add_option("-o,--output", options->output_file,
                       "CSV record written, with a wind moment for each method");
-  command->add_option("--block", options->fdaf.block_length, "Block of the adaptive filter [samples]")
+  command
+      ->add_option("--block", options->fdaf.block_length, "Block of the adaptive filter [samples]")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
-  command->add_option("--taps", options->fdaf.filter_length, "Length of the adaptive filter [samples]")
+  command
+      ->add_option("--taps", options->fdaf.filter_length, "Length of the adaptive filter [samples]")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
   command->add_option("--step", options->fdaf.step.step, "Step size mu of the adaptive filter")

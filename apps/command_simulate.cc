@@ -29,13 +29,14 @@ signals::Record full_order_record(const fem::Sensor& sensor, const Case& paramet
                                   const Inputs& inputs, const SimulateOptions& options) {
   const std::size_t n = parameters.records.n_samples();
   signals::Progress progress("full-order solid", n, !options.common.quiet);
-  const fem::TransientInput input{parameters.records.sampling_rate_hz, n,
+  const fem::TransientInput input{parameters.records.sampling_rate_hz,
+                                  n,
                                   inputs.base_acceleration_m_s2,
                                   {},
                                   inputs.wind_speed_m_s};
-  auto output = fem::simulate_linear(
-      sensor, input, {0.9, options.substeps, false},
-      [&](std::size_t, const fem::SolidState&) { progress.advance(); });
+  auto output =
+      fem::simulate_linear(sensor, input, {0.9, options.substeps, false},
+                           [&](std::size_t, const fem::SolidState&) { progress.advance(); });
   signals::Record record(parameters.records.sampling_rate_hz, n);
   if (!inputs.base_acceleration_m_s2.empty()) {
     record.set_channel(signals::channel::base_acceleration, inputs.base_acceleration_m_s2);

@@ -10,8 +10,8 @@
 
 namespace vibrissa::apps {
 
-/// Repeats the start of the run with the whole solid: how far the reduced model's moment is from it,
-/// how far the two routes to the moment are apart, and (when the case wants VTK files) the
+/// Repeats the start of the run with the whole solid: how far the reduced model's moment is from
+/// it, how far the two routes to the moment are apart, and (when the case wants VTK files) the
 /// displacement and stress at every fifth sample, as transient.pvd in the folder.
 nlohmann::json check_full_order(const fem::Sensor& sensor, const signals::ReducedModel& model,
                                 const Case& parameters, const Inputs& inputs,

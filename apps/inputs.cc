@@ -36,8 +36,8 @@ std::vector<double> wind_speed(const Case& parameters) {
       return load_input(parameters.wind_record, signals::channel::wind_speed,
                         records.sampling_rate_hz, records.n_samples());
     default:
-      return flow::make_wind(parameters.sensor.wind, records.sampling_rate_hz,
-                             records.n_samples(), records.seed * 1000 + wind_stream);
+      return flow::make_wind(parameters.sensor.wind, records.sampling_rate_hz, records.n_samples(),
+                             records.seed * 1000 + wind_stream);
   }
 }
 

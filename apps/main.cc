@@ -26,7 +26,8 @@ constexpr const char* footer =
 int run(int argc, char** argv) {
   CLI::App app(about, "vibrissa");
   app.footer(footer);
-  app.set_version_flag("--version", std::string("vibrissa ") + vibrissa::report::program_revision());
+  app.set_version_flag("--version",
+                       std::string("vibrissa ") + vibrissa::report::program_revision());
   app.require_subcommand(1);
   vibrissa::apps::add_run_command(app);
   vibrissa::apps::add_modes_command(app);
@@ -54,9 +55,10 @@ int main(int argc, char** argv) {
     std::cerr << "vibrissa: " << error.what() << std::endl;
     return bad_input;
   } catch (const std::exception& error) {
-    std::cerr << "vibrissa: internal error: " << error.what()
-              << "\nThis is a fault of the program; please report it with the command that you gave."
-              << std::endl;
+    std::cerr
+        << "vibrissa: internal error: " << error.what()
+        << "\nThis is a fault of the program; please report it with the command that you gave."
+        << std::endl;
     return internal_error;
   }
 }

@@ -47,9 +47,8 @@ ConvergenceLevel level_of(const fem::Sensor& sensor) {
 
 }  // namespace
 
-std::vector<ConvergenceLevel> refine(const fem::Sensor& given) {
+std::vector<ConvergenceLevel> refine(const fem::Sensor& given, const unsigned int first) {
   const unsigned int own = given.parameters().model.mesh_resolution;
-  const unsigned int first = std::max(1u, own - 1);
   std::vector<ConvergenceLevel> levels;
   for (unsigned int resolution = first; resolution < first + 3; ++resolution) {
     if (resolution == own) {

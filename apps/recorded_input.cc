@@ -18,7 +18,8 @@ std::vector<double> load_input(const RecordedInput& input, const std::string& ch
   const auto values = record.channel(channel);
   std::vector<double> samples(values.begin(), values.end());
   if (input.remove_mean) samples = signals::remove_mean(samples);
-  if (input.range) samples = signals::scale_to_range(samples, input.range->first, input.range->second);
+  if (input.range)
+    samples = signals::scale_to_range(samples, input.range->first, input.range->second);
   samples = signals::resample(samples, record.sampling_rate_hz(), sampling_rate_hz);
   if (n_samples == 0) return samples;
   if (samples.size() < n_samples) {

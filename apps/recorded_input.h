@@ -22,8 +22,8 @@ struct RecordedInput {
   std::optional<std::pair<double, double>> range;  // smallest and largest value after scaling
 };
 
-/// Samples of the channel at the run's rate. Throws UserError as read_record and resample do, and when
-/// fewer than n_samples come out; longer input is cut. n_samples = 0 takes what there is.
+/// Samples of the channel at the run's rate. Throws UserError as read_record and resample do, and
+/// when fewer than n_samples come out; longer input is cut. n_samples = 0 takes what there is.
 std::vector<double> load_input(const RecordedInput& input, const std::string& channel,
                                double sampling_rate_hz, std::size_t n_samples);
 

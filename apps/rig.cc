@@ -31,8 +31,7 @@ Record motion(const Case& parameters, const Inputs& inputs, const Driven driven)
   Record record(parameters.records.sampling_rate_hz, n);
   record.set_channel(signals::channel::base_acceleration,
                      driven == Driven::wind || a.empty() ? still : a);
-  record.set_channel(signals::channel::wind_speed,
-                     driven == Driven::base || u.empty() ? still : u);
+  record.set_channel(signals::channel::wind_speed, driven == Driven::base || u.empty() ? still : u);
   return record;
 }
 

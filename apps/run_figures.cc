@@ -49,8 +49,8 @@ bool shown(const SeparatedSignal& signal) {
 }
 
 report::Panel separation_panel(const RigRecords& records,
-                               const std::vector<SeparatedSignal>& signals,
-                               const std::size_t first, const std::size_t count) {
+                               const std::vector<SeparatedSignal>& signals, const std::size_t first,
+                               const std::size_t count) {
   report::Panel panel;
   panel.x_label = "Time [s]";
   panel.y_label = "Wind moment [mN m]";
@@ -108,14 +108,14 @@ report::Figure spectra_figure(const RigRecords& records,
   panel.log_x = panel.log_y = true;
   const double rate = records.both.sampling_rate_hz();
   signals::WelchOptions options;
-  options.segment_samples = std::min<std::size_t>(options.segment_samples,
-                                                  records.both.n_samples() / 2);
+  options.segment_samples =
+      std::min<std::size_t>(options.segment_samples, records.both.n_samples() / 2);
   std::size_t colour = 1;
   const auto add = [&](const std::string& label, const std::span<const double> x,
                        const std::size_t use_colour) {
     auto spectrum = signals::welch_spectrum(x, rate, options);
-    panel.curves.push_back(trace(label, std::move(spectrum.frequency_hz),
-                                 std::move(spectrum.density), use_colour));
+    panel.curves.push_back(
+        trace(label, std::move(spectrum.frequency_hz), std::move(spectrum.density), use_colour));
   };
   for (const auto& signal : signals) {
     if (shown(signal)) add(signal.name, signal.wind_moment_n_m, colour++);

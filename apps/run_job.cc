@@ -17,6 +17,7 @@
 #include "fem/solver_session.h"
 #include "fem/vtk_output.h"
 #include "meshes/mesh_audit.h"
+#include "report/mode_picture.h"
 #include "report/pictures.h"
 #include "report/run_folder.h"
 #include "separation/bvrm_separator.h"
@@ -45,9 +46,9 @@ separation::Identification identify(const RigRecords& records, const Case& param
 // accelerometer, on the noisy moment.
 std::vector<double> separate_by_true_response(const signals::ReducedModel& model,
                                               const signals::Record& record) {
-  const auto response = signals::simulate(
-      model, {record.sampling_rate_hz(), record.n_samples(),
-              record.channel(signals::channel::base_acceleration)});
+  const auto response =
+      signals::simulate(model, {record.sampling_rate_hz(), record.n_samples(),
+                                record.channel(signals::channel::base_acceleration)});
   const auto measured = record.channel(signals::channel::base_moment);
   std::vector<double> wind(measured.begin(), measured.end());
   for (std::size_t i = 0; i < wind.size(); ++i) wind[i] -= response.base_moment[i];
@@ -75,8 +76,7 @@ std::vector<SeparatedSignal> separate(const signals::ReducedModel& model,
 BodeCurve measured_curve(const RigRecords& records) {
   const auto& record = records.vibration_only;
   signals::WelchOptions options;
-  options.segment_samples =
-      std::min<std::size_t>(options.segment_samples, record.n_samples() / 4);
+  options.segment_samples = std::min<std::size_t>(options.segment_samples, record.n_samples() / 4);
   BodeCurve curve{"record (Welch, coherence above 0.5)", report::CurveStyle::points,
                   signals::welch_response(record.channel(signals::channel::base_acceleration),
                                           record.channel(signals::channel::base_moment),
@@ -94,8 +94,8 @@ report::Figure run_bode(const signals::ReducedModel& model,
   for (const auto& mode : model.modes) resonances.push_back(mode.frequency_hz);
   const double nyquist = 0.5 * records.both.sampling_rate_hz();
   const auto f = bode_frequencies(1., nyquist, resonances);
-  return bode_figure({bode_curve(model, f), bode_curve(identified.fit.model, f),
-                      measured_curve(records)});
+  return bode_figure(
+      {bode_curve(model, f), bode_curve(identified.fit.model, f), measured_curve(records)});
 }
 
 signals::Record separated_record(const RigRecords& records,
@@ -132,8 +132,7 @@ void write_results(const report::RunFolder& folder, const fem::Sensor& sensor,
                    const Results& results) {
   folder.write_text("modes.csv", modes_table(sensor).to_csv());
   signals::write_reduced_model(folder.file("model.json"), results.model);
-  signals::write_record(folder.file("records/vibration_only.csv"),
-                        results.records.vibration_only);
+  signals::write_record(folder.file("records/vibration_only.csv"), results.records.vibration_only);
   signals::write_record(folder.file("records/wind_only.csv"), results.records.wind_only);
   signals::write_record(folder.file("records/both.csv"), results.records.both);
   signals::write_record(folder.file("records/separated.csv"),
@@ -153,6 +152,15 @@ void write_mode_files(const report::RunFolder& folder, const fem::Sensor& sensor
   for (std::size_t k = 1; k <= n; ++k) {
     fem::write_mode_animation(folder.file("vtk/any").parent_path(), sensor, k);
   }
+  const auto& first = sensor.modes()[0];
+  report::write_mode_picture(
+      folder.path(), {.name = "mode_1",
+                      .title = "First mode, " + report::Cell(first.frequency_hz).rounded(4) + " Hz",
+                      .caption = "Shape at a size that can be seen; the size has no meaning.",
+                      .vtu = "vtk/mode_1_0.vtu",
+                      .displacement = "displacement_m",
+                      .colour_label = "Displacement (relative)",
+                      .scale = 1.});
 }
 
 nlohmann::json summarise(const fem::Sensor& sensor, const Case& parameters,
@@ -181,7 +189,8 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
           ? report::RunFolder(*parameters.output.folder)
           : report::RunFolder::first_free(fs::path("runs") / fs::path(chosen.case_file).stem());
   folder.write_text("resolved.prm", file.resolved());
-  folder.write_run({command_line, parameters.records.seed,
+  folder.write_run({command_line,
+                    parameters.records.seed,
                     {{"mesh_sha256", meshes::mesh_sha256(sensor.mesh())}}});
 
   RunOutcome outcome;
@@ -192,9 +201,8 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
   outcome.summary = summarise(sensor, parameters, results);
   if (parameters.output.vtk) write_mode_files(folder, sensor);
   if (parameters.output.full_order_duration_s > 0.) {
-    outcome.summary["full_order_check"] =
-        check_full_order(sensor, results.model, parameters, inputs,
-                         folder.file("vtk/any").parent_path(), !quiet);
+    outcome.summary["full_order_check"] = check_full_order(
+        sensor, results.model, parameters, inputs, folder.file("vtk/any").parent_path(), !quiet);
   }
   if (parameters.output.pictures) outcome.pictures = report::draw_pictures(folder.path());
   outcome.summary["folder"] = folder.path().string();

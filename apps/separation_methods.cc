@@ -105,9 +105,11 @@ std::string metric_notes(const double settling_s) {
   return "SDR: signal to distortion against the true wind moment. Wind band power: estimate over "
          "truth in " +
          number(wind_band.low_hz) + " to " + number(wind_band.high_hz) +
-         " Hz. DTW: dynamic time warping, unit steps, absolute cost per pair of the path, window +-" +
+         " Hz. DTW: dynamic time warping, unit steps, absolute cost per pair of the path, window "
+         "+-" +
          number(1e3 * dtw_window_s) +
-         " ms. Paper's ratio: power of the wind estimate over that of the vibration estimate, which "
+         " ms. Paper's ratio: power of the wind estimate over that of the vibration estimate, "
+         "which "
          "a method that removes nothing makes infinite. The first " +
          number(settling_s) + " s are left out.";
 }

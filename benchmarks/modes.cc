@@ -28,8 +28,8 @@ fem::SensorParameters whisker() {
 }
 
 // Between resolutions 2 and 3 of the generated mesh lie about 40k unknowns only with more layers of
-// the wire: one global refinement along nothing but a longer base mesh would change the problem, so the
-// resolution nearest to it is taken and its size printed.
+// the wire: one global refinement along nothing but a longer base mesh would change the problem, so
+// the resolution nearest to it is taken and its size printed.
 void make_mesh(dealii::Triangulation<3>& mesh, const unsigned int resolution) {
   meshes::make_sensor_mesh(whisker().geometry, resolution, mesh);
 }

@@ -25,9 +25,8 @@ void sixty_seconds_at_one_kilohertz(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(simulate(model, {rate_hz, a.size(), a}));
   }
-  state.counters["times_real_time"] =
-      benchmark::Counter(duration_s * static_cast<double>(state.iterations()),
-                         benchmark::Counter::kIsRate);
+  state.counters["times_real_time"] = benchmark::Counter(
+      duration_s * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
   state.counters["ns_per_sample_and_mode"] = benchmark::Counter(
       static_cast<double>(state.iterations() * a.size() * model.modes.size()) * 1e-9,
       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);

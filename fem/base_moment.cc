@@ -18,9 +18,7 @@ Vector BaseMoment::inertia_force(const SolidState& state, const SolidLoad& load)
 std::array<double, 3> BaseMoment::by_reactions(const SolidState& state,
                                                const SolidLoad& load) const {
   Vector support = inertia_force(state, load);
-  Vector elastic = space_.make_vector();
-  operators_.stiffness->vmult(elastic, state.displacement);
-  support += elastic;
+  operators_.internal_force->add(1., state.displacement, support);
   support += load.damping_force;
   support -= load.external_force;
   std::array<double, 3> moment{};
@@ -35,8 +33,7 @@ std::array<double, 3> BaseMoment::by_reactions(const SolidState& state,
   return moment;
 }
 
-std::array<double, 3> BaseMoment::by_balance(const SolidState& state,
-                                             const SolidLoad& load) const {
+std::array<double, 3> BaseMoment::by_balance(const SolidState& state, const SolidLoad& load) const {
   Vector force(load.external_force);
   force -= inertia_force(state, load);
   force -= load.damping_force;

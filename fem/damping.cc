@@ -73,7 +73,7 @@ ModalDamping::ModalDamping(const SolidSpace& space, const SolidOperators& operat
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const double omega = 2. * dealii::numbers::PI * modes[k].frequency_hz;
     forces_.push_back(space.make_vector());
-    operators.stiffness->vmult(forces_.back(), modes[k].shape);
+    operators.internal_force->add(1., modes[k].shape, forces_.back());
     coefficients_.push_back(2. * ratios[k] / std::pow(omega, 3));
   }
 }

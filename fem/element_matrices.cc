@@ -85,10 +85,14 @@ void ElementMatrices::fill_projection() {
   }
 }
 
+Eigen::Matrix<double, 6, 6> ElementMatrices::isochoric_tangent(
+    const materials::Material& material) {
+  return voigt(std::visit([](const auto& law) { return law.tangent(materials::Strain()); },
+                          material.isochoric));
+}
+
 void ElementMatrices::stiffness(const materials::Material& material, CellMatrix& matrix) {
-  const materials::Tangent at_rest = std::visit(
-      [](const auto& law) { return law.tangent(materials::Strain()); }, material.isochoric);
-  const VoigtMatrix isochoric = voigt(at_rest);
+  const VoigtMatrix isochoric = isochoric_tangent(material);
   for (int q = 0; q < n_points; ++q) {
     stress_.middleRows<n_strains>(n_strains * q).noalias() =
         values_.JxW(q) * isochoric * strain_.middleRows<n_strains>(n_strains * q);

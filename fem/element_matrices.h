@@ -12,20 +12,28 @@
 namespace vibrissa::fem {
 
 /// Stiffness and mass of one cell at rest. Unknowns are ordered node by node (3 node + component).
-/// Stiffness: K = int B^T C_iso B + kappa D^T P^-1 D, the isochoric tangent of the law at rest and the
-/// volumetric part with div u projected to discontinuous linear functions psi of the cell
-/// (D = int psi div, P = int psi psi): Q2/DGP1 condensed. Mass: consistent, int rho N^T N.
-/// Proven by tests/fem/element_matrices_test.cc.
+/// Stiffness: K = int B^T C_iso B + kappa D^T P^-1 D, the isochoric tangent of the law at rest and
+/// the volumetric part with div u projected to discontinuous linear functions psi of the cell (D =
+/// int psi div, P = int psi psi): Q2/DGP1 condensed. Mass: consistent, int rho N^T N. Proven by
+/// tests/fem/element_matrices_test.cc.
 class ElementMatrices {
  public:
-  using CellMatrix = Eigen::Matrix<double, SolidSpace::dofs_per_cell, SolidSpace::dofs_per_cell,
-                                   Eigen::RowMajor>;
+  using CellMatrix =
+      Eigen::Matrix<double, SolidSpace::dofs_per_cell, SolidSpace::dofs_per_cell, Eigen::RowMajor>;
   using NodeMatrix = Eigen::Matrix<double, SolidSpace::nodes_per_cell, SolidSpace::nodes_per_cell,
                                    Eigen::RowMajor>;
 
   explicit ElementMatrices(const SolidSpace& space);
   void reinit(const dealii::Triangulation<3>::cell_iterator& cell);
   void stiffness(const materials::Material& material, CellMatrix& matrix);
+  /// What both matrices are made of, for the cell of the last reinit().
+  const dealii::FEValues<3>& values() const { return values_; }
+  const auto& divergence() const { return divergence_; }
+  const Eigen::Matrix4d& projection_mass() const { return projection_mass_; }
+  /// The law's isochoric tangent at rest in Voigt's order 11, 22, 33, 12, 13, 23 (engineering
+  /// shear).
+  static Eigen::Matrix<double, 6, 6> isochoric_tangent(const materials::Material& material);
+
   /// One component's block; components do not couple.
   void mass(double density, NodeMatrix& matrix);
 
@@ -41,9 +49,9 @@ class ElementMatrices {
   dealii::FEValues<3> values_;
   // Row-major, so that each quadrature point's rows lie together.
   using TallMatrix = Eigen::Matrix<double, Eigen::Dynamic, n_unknowns, Eigen::RowMajor>;
-  TallMatrix strain_, stress_;                             // [6 q + component][unknown]
+  TallMatrix strain_, stress_;                                        // [6 q + component][unknown]
   Eigen::Matrix<double, 4, n_unknowns, Eigen::RowMajor> divergence_;  // D
-  Eigen::Matrix4d projection_mass_;                        // P
+  Eigen::Matrix4d projection_mass_;                                   // P
 };
 
 }  // namespace vibrissa::fem

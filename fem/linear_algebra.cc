@@ -79,7 +79,8 @@ void check_factors(KSP solver) {
   }
   if (error != MAT_FACTOR_NOERROR) {
     throw signals::UserError(
-        "the stiffness matrix is not positive definite: a part of the mesh is not held by the clamp "
+        "the stiffness matrix is not positive definite: a part of the mesh is not held by the "
+        "clamp "
         "or a material is unstable; check regions, boundaries and moduli");
   }
 }
@@ -90,8 +91,8 @@ struct CholeskySolver::Factors {
   ~Factors() { KSPDestroy(&solver); }
 };
 
-CholeskySolver::CholeskySolver(const Matrix& matrix)
-    : matrix_(matrix), factors_(std::make_unique<Factors>()) {
+CholeskySolver::CholeskySolver(const Matrix& matrix, Product product)
+    : matrix_(matrix), product_(std::move(product)), factors_(std::make_unique<Factors>()) {
   factors_->residual.reinit(matrix.locally_owned_domain_indices(), matrix.get_mpi_communicator());
   factors_->correction.reinit(factors_->residual);
   const Mat raw = matrix;
@@ -110,7 +111,11 @@ void CholeskySolver::solve(const Vector& right_hand_side, Vector& solution) cons
   back_substitute(right_hand_side, solution);
   // A slender solid has stiffnesses that differ by many orders: one step of refinement takes the
   // forces that the factors' rounding leaves unbalanced, which have long lever arms, out.
-  matrix_.vmult(factors_->residual, solution);
+  if (product_) {
+    product_(solution, factors_->residual);
+  } else {
+    matrix_.vmult(factors_->residual, solution);
+  }
   factors_->residual.sadd(-1., right_hand_side);
   back_substitute(factors_->residual, factors_->correction);
   solution += factors_->correction;

@@ -4,6 +4,7 @@
 #include <deal.II/lac/petsc_sparse_matrix.h>
 #include <deal.II/lac/petsc_vector.h>
 
+#include <functional>
 #include <memory>
 
 namespace vibrissa::fem {
@@ -27,11 +28,15 @@ void zero_entries(Vector& vector, const dealii::IndexSet& entries);
 std::unique_ptr<Matrix> combine(double a, const Matrix& x, double b, const Matrix& y);
 
 /// Sparse Cholesky factors of a symmetric positive definite matrix (MUMPS, METIS ordering), kept
-/// for any number of solves, each with one step of iterative refinement. Throws signals::UserError when the matrix is not positive definite or
-/// memory runs out. The matrix must outlive the factors.
+/// for any number of solves, each with one step of iterative refinement. Throws signals::UserError
+/// when the matrix is not positive definite or memory runs out. The matrix must outlive the
+/// factors.
 class CholeskySolver {
  public:
-  explicit CholeskySolver(const Matrix& matrix);
+  /// Product with the matrix for the refinement, where the assembled one is not exact enough;
+  /// nothing: the matrix itself.
+  using Product = std::function<void(const Vector& x, Vector& product)>;
+  explicit CholeskySolver(const Matrix& matrix, Product product = {});
   ~CholeskySolver();
   CholeskySolver(const CholeskySolver&) = delete;
   CholeskySolver& operator=(const CholeskySolver&) = delete;
@@ -42,6 +47,7 @@ class CholeskySolver {
 
   struct Factors;
   const Matrix& matrix_;
+  Product product_;
   std::unique_ptr<Factors> factors_;
 };
 

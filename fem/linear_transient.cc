@@ -23,13 +23,14 @@ GeneralizedAlpha::GeneralizedAlpha(const double spectral_radius) {
 
 namespace {
 
-/// Solves (A + s D W D^T) x = b, D the damping's mode forces and W their coefficients, by the factors
-/// of A and the Woodbury identity: the modal damping is of low rank and need not be assembled.
+/// Solves (A + s D W D^T) x = b, D the damping's mode forces and W their coefficients, by the
+/// factors of A and the Woodbury identity: the modal damping is of low rank and need not be
+/// assembled.
 class DampedSolver {
  public:
-  DampedSolver(const SolidSpace& space, const Matrix& undamped, const ModalDamping& damping,
-               const double scale)
-      : factors_(undamped), small_(Eigen::MatrixXd::Zero(0, 0)) {
+  DampedSolver(const SolidSpace& space, const Matrix& undamped, CholeskySolver::Product product,
+               const ModalDamping& damping, const double scale)
+      : factors_(undamped, std::move(product)), small_(Eigen::MatrixXd::Zero(0, 0)) {
     const auto n = static_cast<Eigen::Index>(damping.n_modes());
     Eigen::MatrixXd small = Eigen::MatrixXd::Zero(n, n);
     for (std::size_t k = 0; k < damping.n_modes(); ++k) {
@@ -44,9 +45,9 @@ class DampedSolver {
     small.resize(used, used);
     for (Eigen::Index i = 0; i < used; ++i) {
       for (Eigen::Index j = 0; j < used; ++j) {
-        small(i, j) = free_forces_[static_cast<std::size_t>(i)] *
-                          solved_[static_cast<std::size_t>(j)] +
-                      (i == j ? inverse_weights_[static_cast<std::size_t>(i)] : 0.);
+        small(i, j) =
+            free_forces_[static_cast<std::size_t>(i)] * solved_[static_cast<std::size_t>(j)] +
+            (i == j ? inverse_weights_[static_cast<std::size_t>(i)] : 0.);
       }
     }
     small_.compute(small);
@@ -88,7 +89,8 @@ class LinearStepper {
         system_(combine((1. - alpha_.alpha_f) * alpha_.beta * dt_ * dt_,
                         *sensor.operators().clamped_stiffness, 1. - alpha_.alpha_m,
                         *sensor.operators().clamped_mass)),
-        solver_(space_, *system_, damping_, (1. - alpha_.alpha_f) * alpha_.gamma * dt_),
+        solver_(space_, *system_, undamped_product(), damping_,
+                (1. - alpha_.alpha_f) * alpha_.gamma * dt_),
         axis_(sensor.parameters().model.axial_direction()) {
     for (Vector* v : {&state_.displacement, &state_.velocity, &state_.acceleration, &algorithmic_,
                       &scratch_, &load_.external_force, &load_.damping_force, &wind_before_,
@@ -132,8 +134,7 @@ class LinearStepper {
 
     Vector right(force_after_);
     right.sadd(1. - f, f, force_before_);
-    sensor_.operators().stiffness->vmult(scratch_, level_u);
-    right -= scratch_;
+    sensor_.operators().internal_force->add(-1., level_u, right);
     scratch_ = 0.;
     damping_.add_force(level_v, scratch_);
     right -= scratch_;
@@ -155,6 +156,19 @@ class LinearStepper {
   const SolidLoad& load() const { return load_; }
 
  private:
+  // (1 - am) M x + (1 - af) beta dt^2 K x on the free rows, with the forces of each cell in
+  // balance.
+  CholeskySolver::Product undamped_product() const {
+    const double stiffness = (1. - alpha_.alpha_f) * alpha_.beta * dt_ * dt_;
+    const double mass = 1. - alpha_.alpha_m;
+    return [this, stiffness, mass](const Vector& x, Vector& product) {
+      sensor_.operators().mass->vmult(product, x);
+      product *= mass;
+      sensor_.operators().internal_force->add(stiffness, x, product);
+      zero_entries(product, space_.clamped());
+    };
+  }
+
   void start() {
     force_before_ = force_after_;
     Vector right(force_after_);

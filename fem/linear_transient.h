@@ -13,8 +13,8 @@
 
 namespace vibrissa::fem {
 
-/// Constants of the generalised-alpha method from its spectral radius at infinite frequency (Chung and
-/// Hulbert 1993): second order for any radius in [0, 1]; 1 keeps all energy.
+/// Constants of the generalised-alpha method from its spectral radius at infinite frequency (Chung
+/// and Hulbert 1993): second order for any radius in [0, 1]; 1 keeps all energy.
 struct GeneralizedAlpha {
   double alpha_m, alpha_f, beta, gamma;
   /// Throws UserError outside [0, 1].
@@ -38,14 +38,14 @@ struct TransientOptions {
 
 struct TransientOutput {
   std::vector<double> base_moment, cross_moment;  // by the clamp's reactions [N m]
-  double largest_route_difference = 0.;  // between the two routes, over the largest moment
+  double largest_route_difference = 0.;           // between the two routes, over the largest moment
 };
 
 /// Called at every sample with its index and the state there.
 using TransientObserver = std::function<void(std::size_t, const SolidState&)>;
 
-/// Full-order linear response of the sensor at rest: M u'' + C u' + K u = -M r a_b + f(u_wind), modal
-/// damping (damping.h), generalised-alpha on the record's clock divided by substeps; one
+/// Full-order linear response of the sensor at rest: M u'' + C u' + K u = -M r a_b + f(u_wind),
+/// modal damping (damping.h), generalised-alpha on the record's clock divided by substeps; one
 /// factorisation. The reported acceleration satisfies the equation of motion at every instant:
 /// (1-am) a_(n+1) + am a_n = (1-af) u''_(n+1) + af u''_n (Arnold and Bruels 2007).
 /// Proven by tests/fem/linear_transient_test.cc.

@@ -14,9 +14,10 @@ namespace Patterns = dealii::Patterns;
 
 void ModelParameters::declare(dealii::ParameterHandler& prm) {
   prm.enter_subsection("Model");
-  prm.declare_entry("Mesh resolution", "2", Patterns::Integer(1, 8),
-                    "Cells of the coarsest mesh are divided by this number in every direction [1]; 2 "
-                    "is within about 0.1 % in the first frequency.");
+  prm.declare_entry(
+      "Mesh resolution", "2", Patterns::Integer(1, 8),
+      "Cells of the coarsest mesh are divided by this number in every direction [1]; 2 "
+      "is within about 0.1 % in the first frequency.");
   prm.declare_entry("Mesh file", "", Patterns::Anything(),
                     "Gmsh .msh file in metres, with the regions and boundaries named as in the "
                     "documentation, used in place of the generated mesh; empty: generate.");
@@ -26,9 +27,10 @@ void ModelParameters::declare(dealii::ParameterHandler& prm) {
                     "modal: the ratios below; material: from the loss factors of the materials.");
   prm.declare_entry("Damping ratios", "0.05", Patterns::List(Patterns::Double(0., 0.999), 1, 200),
                     "Damping ratio of each mode [1]; the last holds for the modes that follow.");
-  prm.declare_entry("Axial angle", "0", Patterns::Double(-360., 360.),
-                    "Direction of base motion, wind and base moment's plane: angle from x towards y "
-                    "about the whisker's axis [degrees].");
+  prm.declare_entry(
+      "Axial angle", "0", Patterns::Double(-360., 360.),
+      "Direction of base motion, wind and base moment's plane: angle from x towards y "
+      "about the whisker's axis [degrees].");
   prm.declare_entry("Wind on wire", "true", Patterns::Bool(),
                     "Whether the wind reaches the wire's free surface.");
   prm.declare_entry("Wind on fin", "true", Patterns::Bool(), "Whether the wind reaches the fin.");
@@ -62,7 +64,8 @@ void ModelParameters::parse(dealii::ParameterHandler& prm) {
 void ModelParameters::check() const {
   if (!wind_on_wire && !wind_on_fin) {
     throw signals::UserError(
-        "Model/Wind on wire and Model/Wind on fin are both false: nothing meets the wind; set one to "
+        "Model/Wind on wire and Model/Wind on fin are both false: nothing meets the wind; set one "
+        "to "
         "true, or set Wind/Kind = none for a case without wind");
   }
 }

@@ -29,9 +29,9 @@ void set_up(EigenSolver& solver, const SolidOperators& operators, const unsigned
   check_petsc(EPSSetType(solver.eps, EPSKRYLOVSCHUR), "EPSSetType");
   check_petsc(EPSSetWhichEigenpairs(solver.eps, EPS_TARGET_MAGNITUDE), "EPSSetWhichEigenpairs");
   check_petsc(EPSSetTarget(solver.eps, 0.), "EPSSetTarget");
-  check_petsc(EPSSetDimensions(solver.eps, static_cast<PetscInt>(n_modes), PETSC_DEFAULT,
-                               PETSC_DEFAULT),
-              "EPSSetDimensions");
+  check_petsc(
+      EPSSetDimensions(solver.eps, static_cast<PetscInt>(n_modes), PETSC_DEFAULT, PETSC_DEFAULT),
+      "EPSSetDimensions");
   check_petsc(EPSSetTolerances(solver.eps, 1e-10, PETSC_DEFAULT), "EPSSetTolerances");
 
   ST transform = nullptr;
@@ -46,8 +46,8 @@ void set_up(EigenSolver& solver, const SolidOperators& operators, const unsigned
   check_factors(linear);
 }
 
-// Without a projection on the free unknowns the semi-definite mass leaves parts of the start vector in
-// the clamp, which the first inverse iteration removes.
+// Without a projection on the free unknowns the semi-definite mass leaves parts of the start vector
+// in the clamp, which the first inverse iteration removes.
 Mode read_mode(const EigenSolver& solver, const PetscInt index, const SolidSpace& space) {
   Mode mode;
   mode.shape = space.make_vector();
@@ -97,9 +97,9 @@ void align_pair(Mode& first, Mode& second, const std::array<double, 3>& axis) {
 }
 
 void fix_sign(Mode& mode) {
-  const auto largest = std::max_element(
-      mode.participation.begin(), mode.participation.end(),
-      [](const double a, const double b) { return std::abs(a) < std::abs(b); });
+  const auto largest =
+      std::max_element(mode.participation.begin(), mode.participation.end(),
+                       [](const double a, const double b) { return std::abs(a) < std::abs(b); });
   if (*largest >= 0.) return;
   mode.shape *= -1.;
   for (auto& value : mode.participation) value = -value;

@@ -86,8 +86,8 @@ Figures figures_of(const signals::ReducedModel& model) {
   f.static_base_moment = 0.;
   for (unsigned int d = 0; d < 3; ++d) {
     f.static_base_moment +=
-        e[d] * dot({model.rigid_moment[0][d], model.rigid_moment[1][d], model.rigid_moment[2][d]},
-                   axis);
+        e[d] *
+        dot({model.rigid_moment[0][d], model.rigid_moment[1][d], model.rigid_moment[2][d]}, axis);
   }
   f.static_wind_moment = dot(model.wind.moment_coefficient[at], axis);
   return f;

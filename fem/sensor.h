@@ -24,8 +24,8 @@ struct SensorParameters {
   flow::WindParameters wind;
 };
 
-/// The meshed sensor with its operators at rest and its damped modes: everything that the reduced and
-/// the full-order model are made of.
+/// The meshed sensor with its operators at rest and its damped modes: everything that the reduced
+/// and the full-order model are made of.
 class Sensor {
  public:
   /// Meshes (or reads), assembles and solves. Throws UserError for parameters that make no sensor.

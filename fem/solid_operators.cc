@@ -38,11 +38,12 @@ std::unique_ptr<Matrix> make_matrix(const SolidSpace& space, const Coupling coup
   return matrix;
 }
 
-const materials::Material& material_of(
-    const std::map<std::string, materials::Material>& materials, const std::string& region) {
+const materials::Material& material_of(const std::map<std::string, materials::Material>& materials,
+                                       const std::string& region) {
   const auto found = materials.find(region);
   if (found == materials.end()) {
-    throw signals::UserError("the mesh has a region '" + region + "' that no material is given for");
+    throw signals::UserError("the mesh has a region '" + region +
+                             "' that no material is given for");
   }
   return found->second;
 }
@@ -51,8 +52,8 @@ const materials::Material& material_of(
 template <std::size_t n>
 void add(const double* values, const std::array<PetscInt, n>& rows, Matrix& global) {
   const Mat raw = global;
-  check_petsc(
-      MatSetValues(raw, n, rows.data(), n, rows.data(), values, ADD_VALUES), "MatSetValues");
+  check_petsc(MatSetValues(raw, n, rows.data(), n, rows.data(), values, ADD_VALUES),
+              "MatSetValues");
 }
 
 }  // namespace
@@ -87,6 +88,7 @@ SolidOperators assemble_operators(const SolidSpace& space,
   }
   operators.stiffness->compress(dealii::VectorOperation::add);
   operators.mass->compress(dealii::VectorOperation::add);
+  operators.internal_force = std::make_unique<InternalForce>(space, materials);
   operators.clamped_stiffness = with_clamped_rows(*operators.stiffness, space.clamped(), 1.);
   operators.clamped_mass = with_clamped_rows(*operators.mass, space.clamped(), 0.);
   return operators;

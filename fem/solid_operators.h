@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "fem/internal_force.h"
 #include "fem/linear_algebra.h"
 #include "fem/solid_space.h"
 #include "materials/material.h"
@@ -14,12 +15,13 @@ namespace vibrissa::fem {
 /// and once with the clamp's rows and columns removed (for solving).
 struct SolidOperators {
   std::unique_ptr<Matrix> stiffness, mass;
-  std::unique_ptr<Matrix> clamped_stiffness;  // clamp: unit diagonal
-  std::unique_ptr<Matrix> clamped_mass;       // clamp: zero
+  std::unique_ptr<InternalForce> internal_force;  // K u without loss of balance
+  std::unique_ptr<Matrix> clamped_stiffness;      // clamp: unit diagonal
+  std::unique_ptr<Matrix> clamped_mass;           // clamp: zero
 };
 
-/// Assembles both. Materials are looked up by region name; throws UserError for a region of the mesh
-/// without material.
+/// Assembles both. Materials are looked up by region name; throws UserError for a region of the
+/// mesh without material.
 SolidOperators assemble_operators(const SolidSpace& space,
                                   const std::map<std::string, materials::Material>& materials);
 

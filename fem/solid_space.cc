@@ -43,8 +43,7 @@ void SolidSpace::make_rigid_motions() {
     dealii::ComponentMask mask(3, false);
     mask.set(component, true);
     const unsigned int next = (component + 1) % 3, last = (component + 2) % 3;
-    for (const auto i :
-         dealii::DoFTools::extract_dofs(dofs_, mask) & dofs_.locally_owned_dofs()) {
+    for (const auto i : dealii::DoFTools::extract_dofs(dofs_, mask) & dofs_.locally_owned_dofs()) {
       const auto& x = positions.at(i);
       translation_[component][i] = 1.;
       // (e_d x X)_component: d = next gives +X_last, d = last gives -X_next.

@@ -15,8 +15,8 @@
 
 namespace vibrissa::fem {
 
-/// Displacement space of the solid: continuous triquadratic (Q2) on isoparametric hexahedra, held at
-/// the boundary "clamp". The mesh must outlive it.
+/// Displacement space of the solid: continuous triquadratic (Q2) on isoparametric hexahedra, held
+/// at the boundary "clamp". The mesh must outlive it.
 class SolidSpace {
  public:
   explicit SolidSpace(const dealii::Triangulation<3>& mesh);

@@ -78,9 +78,8 @@ void write_pvd(const std::filesystem::path& file, const std::span<const double> 
                const std::span<const std::string> vtu_names) {
   std::vector<std::pair<double, std::string>> list;
   for (std::size_t i = 0; i < vtu_names.size(); ++i) list.emplace_back(times_s[i], vtu_names[i]);
-  signals::write_file(file, [&](std::ostream& stream) {
-    dealii::DataOutBase::write_pvd_record(stream, list);
-  });
+  signals::write_file(
+      file, [&](std::ostream& stream) { dealii::DataOutBase::write_pvd_record(stream, list); });
 }
 
 std::filesystem::path write_mode_animation(const std::filesystem::path& folder,

@@ -25,8 +25,8 @@ void WindSurface::collect(const std::set<dealii::types::boundary_id>& boundaries
                                  dealii::update_values | dealii::update_normal_vectors |
                                      dealii::update_quadrature_points | dealii::update_JxW_values);
   std::vector<dealii::types::global_dof_index> cell_dofs(SolidSpace::dofs_per_cell);
-  const dealii::Tensor<1, 3> axis({exposure_.axial_direction[0], exposure_.axial_direction[1],
-                                   exposure_.axial_direction[2]});
+  const dealii::Tensor<1, 3> axis(
+      {exposure_.axial_direction[0], exposure_.axial_direction[1], exposure_.axial_direction[2]});
   // Faces along the wind have normals that are zero but for rounding.
   constexpr double grazing = 1e-9;
   for (const auto& cell : space_.dofs().active_cell_iterators()) {
@@ -44,8 +44,8 @@ void WindSurface::collect(const std::set<dealii::types::boundary_id>& boundaries
         Point point;
         point.body = on_wire ? flow::DragBody::wire : flow::DragBody::blades;
         point.width = on_wire ? exposure_.wire_width : exposure_.fin_width;
-        point.height_factor = flow::profile_factor(
-            exposure_.profile, values.quadrature_point(q)[2], exposure_.height);
+        point.height_factor = flow::profile_factor(exposure_.profile, values.quadrature_point(q)[2],
+                                                   exposure_.height);
         point.windward = along < 0. ? -1. : 1.;
         for (unsigned int n = 0; n < nodes_per_face; ++n) {
           const unsigned int node = space_.scalar_element().face_to_cell_index(n, f);
@@ -64,8 +64,8 @@ void WindSurface::collect(const std::set<dealii::types::boundary_id>& boundaries
 // Positive on the windward side only; acts along -n, that is with the wind.
 double WindSurface::pressure(const Point& point, const double speed_m_s) const {
   if (point.windward * speed_m_s >= 0.) return 0.;
-  return std::abs(flow::drag_pressure(point.body, point.width, point.height_factor * speed_m_s,
-                                      exposure_.air));
+  return std::abs(
+      flow::drag_pressure(point.body, point.width, point.height_factor * speed_m_s, exposure_.air));
 }
 
 void WindSurface::add_force(const double speed_m_s, Vector& force) const {

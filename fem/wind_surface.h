@@ -23,8 +23,8 @@ struct WindExposure {
 };
 
 /// Wind as prescribed pressure on the windward faces of the undeformed sensor. Per reference area,
-/// on the reference normal n: traction -p n with p = 0.5 rho Cd(Re) u |u| where n points against the
-/// wind (n . e u < 0), so that the resultant along the wind is the drag on the frontal area.
+/// on the reference normal n: traction -p n with p = 0.5 rho Cd(Re) u |u| where n points against
+/// the wind (n . e u < 0), so that the resultant along the wind is the drag on the frontal area.
 class WindSurface {
  public:
   WindSurface(const SolidSpace& space, const WindExposure& exposure);
@@ -40,9 +40,9 @@ class WindSurface {
  private:
   struct Point {
     flow::DragBody body;
-    double width, height_factor, windward;                    // windward: sign of n . e
-    std::array<dealii::types::global_dof_index, 27> unknowns; // [3 node + component] of the face
-    std::array<double, 27> weight;                            // -N n JxW
+    double width, height_factor, windward;                     // windward: sign of n . e
+    std::array<dealii::types::global_dof_index, 27> unknowns;  // [3 node + component] of the face
+    std::array<double, 27> weight;                             // -N n JxW
   };
   void collect(const std::set<dealii::types::boundary_id>& boundaries);
   double pressure(const Point& point, double speed_m_s) const;

@@ -15,7 +15,8 @@ namespace {
 
 /// Layers of the coarsest mesh, and how much thicker the coarse end is than the fine one. The error
 /// of the first frequency sits at the wire's tip, where the wire leaves the silicone, and at the
-/// fin's lower edge; these numbers leave 0.1 % at resolution 2.
+/// fin's lower edge. Measured with quadratic elements and pressure in P1: whisker 27.22 and 27.20
+/// Hz, flow sensor 37.38 and 37.34 Hz at resolutions 2 and 4.
 struct Grading {
   unsigned int n_layers;
   double growth;
@@ -78,13 +79,13 @@ void make_sensor_mesh(const SensorGeometry& geometry, const unsigned int resolut
   stack.add_up_to(geometry.base_height, embedded_wire,
                   {{Part::wire, region::wire}, {Part::base, region::silicone}});
   stack.add(geometry.free_length, has_fin ? neck : whisker, {{Part::wire, region::wire}});
-  const double fin_height = stack.height();
+  const double fin_bottom = stack.height();
   if (has_fin)
     stack.add(geometry.fin_height, blades, {{Part::wire, region::wire}, {Part::fin, region::fin}});
 
   const auto blade_width = [&](const double height) {
     return std::lerp(geometry.fin_bottom_width, geometry.fin_top_width,
-                     (height - fin_height) / geometry.fin_height);
+                     (height - fin_bottom) / geometry.fin_height);
   };
   extrude(section, stack.slabs(), blade_width, mesh);
 }

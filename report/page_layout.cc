@@ -93,7 +93,8 @@ class PageBuilder {
     double left = 0.;
     for (std::size_t p = 0; p < n_; ++p) {
       Axis& y = panel(p).y;
-      set_ticks(y, figure_.panels[p].y_label, usual_plot_height, 48.);
+      const bool few = y.logarithmic || is_in_degrees(figure_.panels[p].y_label);
+      set_ticks(y, figure_.panels[p].y_label, usual_plot_height, few ? 48. : 36.);
       left = std::max(left, margin + static_cast<double>(y_label_lines(p).size()) * row + tick_gap +
                                 widest_number(y));
     }

@@ -3,10 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <numbers>
 #include <string>
 
-#include "separation/mode_step.h"
 #include "signals/error.h"
 #include "signals/number_text.h"
 
@@ -29,7 +30,7 @@ void check_lengths(const signals::FrequencyResponse& response) {
 std::vector<double> averaged_variance(const std::vector<double>& standard_deviation) {
   constexpr std::ptrdiff_t reach = 5;
   const auto n = static_cast<std::ptrdiff_t>(standard_deviation.size());
-  std::vector<double> variance(standard_deviation.size());
+  std::vector<double> variance;
   for (std::ptrdiff_t k = 0; k < n; ++k) {
     const std::ptrdiff_t first = std::max<std::ptrdiff_t>(0, k - reach);
     const std::ptrdiff_t end = std::min(n, k + reach + 1);
@@ -37,13 +38,24 @@ std::vector<double> averaged_variance(const std::vector<double>& standard_deviat
     for (std::ptrdiff_t i = first; i < end; ++i)
       sum += std::pow(standard_deviation[static_cast<std::size_t>(i)], 2);
     const double own = std::pow(standard_deviation[static_cast<std::size_t>(k)], 2);
-    variance[static_cast<std::size_t>(k)] =
-        0.5 * own + 0.5 * sum / static_cast<double>(end - first);
+    variance.push_back(0.5 * own + 0.5 * sum / static_cast<double>(end - first));
   }
   return variance;
 }
 
+// Real parts above imaginary parts.
+template <typename Column>
+void stack(const Eigen::ArrayXcd& values, Column&& column) {
+  column.head(values.size()) = values.real().matrix();
+  column.tail(values.size()) = values.imag().matrix();
+}
+
 }  // namespace
+
+// Weighted response of a mode at all lines, and its derivatives.
+struct FrequencyProblem::ModeResponse {
+  Eigen::ArrayXcd value, by_b1, by_b0, by_a1, by_a0;
+};
 
 FrequencyProblem::FrequencyProblem(const signals::FrequencyResponse& response,
                                    std::optional<Sampling> sampling, bool direct_term,
@@ -54,64 +66,62 @@ FrequencyProblem::FrequencyProblem(const signals::FrequencyResponse& response,
     // The samples of a band-limited signal are as good as the signal.
     if (sampling_->hold == Hold::band_limited) sampling_.reset();
   }
+  if (sampling_) delay_ = sampled_delay(delay_s_, sampling_->rate_hz);
   check_lengths(response);
   take_lines(response);
 }
 
 void FrequencyProblem::take_lines(const signals::FrequencyResponse& response) {
-  SampledDelay delay;
-  if (sampling_) delay = sampled_delay(delay_s_, sampling_->rate_hz);
-  fraction_ = delay.fraction;
-  std::vector<double> deviation;
+  std::vector<double> omega, deviation;
+  std::vector<Complex> value;
   for (std::size_t k = 0; k < response.value.size(); ++k) {
-    const double f = response.frequency_hz[k];
-    const Complex value = response.value[k];
-    if (!std::isfinite(value.real()) || !std::isfinite(value.imag())) continue;
-    if (!std::isfinite(f) || f < 0. ||
-        (!s_.empty() && !(2. * std::numbers::pi * f > s_.back().imag())))
+    if (!std::isfinite(response.value[k].real()) || !std::isfinite(response.value[k].imag()))
+      continue;
+    const double f = response.frequency_hz[k], w = 2. * std::numbers::pi * f;
+    if (!std::isfinite(f) || f < 0. || (!omega.empty() && !(w > omega.back())))
       throw UserError("frequency fit: frequency " + std::to_string(k + 1) + ", " +
                       signals::to_text(f) + " Hz, is not above the one before it");
-    const Complex s(0., 2. * std::numbers::pi * f);
-    s_.push_back(s);
-    measured_.push_back(value);
+    omega.push_back(w);
+    value.push_back(response.value[k]);
     deviation.push_back(response.standard_deviation.empty()
                             ? std::numeric_limits<double>::quiet_NaN()
                             : response.standard_deviation[k]);
-    if (sampling_) {
-      const Complex one = std::exp(-s / sampling_->rate_hz);
-      const bool steps = sampling_->hold == Hold::zero_order;
-      const double older = fraction_ == 0. ? 0. : steps ? 1. : fraction_;
-      one_sample_.push_back(one);
-      delay_factor_.push_back(std::pow(one, static_cast<int>(delay.shift)));
-      direct_factor_.push_back(1. - older + older * one);
-    } else {
-      one_sample_.push_back(1.);
-      delay_factor_.push_back(std::exp(-s * delay_s_));
-      direct_factor_.push_back(1.);
-    }
   }
-  if (s_.size() < 3)
-    throw UserError("frequency fit: only " + std::to_string(s_.size()) +
+  if (omega.size() < 3)
+    throw UserError("frequency fit: only " + std::to_string(omega.size()) +
                     " lines have a finite value; at least 3 are needed");
+  const auto n = static_cast<Eigen::Index>(omega.size());
+  s_ = Complex(0., 1.) * Eigen::Map<const Eigen::ArrayXd>(omega.data(), n);
+  measured_ = Eigen::Map<const Eigen::ArrayXcd>(value.data(), n);
   weigh(deviation);
 }
 
 void FrequencyProblem::weigh(const std::vector<double>& standard_deviation) {
   const bool known = std::ranges::all_of(standard_deviation,
                                          [](double sd) { return std::isfinite(sd) && sd >= 0.; });
-  double power = 0.;
-  for (const Complex& value : measured_) power += std::norm(value);
-  power /= static_cast<double>(n_lines());
+  const double power = measured_.abs2().mean();
   if (!(power > 0.)) throw UserError("frequency fit: the measured response is zero at every line");
-  root_weight_.assign(n_lines(), std::sqrt(2. / power));
+  root_weight_ = Eigen::ArrayXd::Constant(n_lines(), std::sqrt(2. / power));
   if (known) {
-    // No line is known better than rounding allows.
     const std::vector<double> variance = averaged_variance(standard_deviation);
-    for (std::size_t k = 0; k < n_lines(); ++k)
-      root_weight_[k] = std::sqrt(2. / (variance[k] + 1e-16 * power));
+    // No line is known better than rounding allows.
+    root_weight_ =
+        (2. / (Eigen::Map<const Eigen::ArrayXd>(variance.data(), n_lines()) + 1e-16 * power))
+            .sqrt();
   }
-  total_ = 0.;
-  for (std::size_t k = 0; k < n_lines(); ++k) total_ += std::norm(root_weight_[k] * measured_[k]);
+  total_ = (root_weight_ * measured_.abs()).square().sum();
+  if (!sampling_) {
+    gain_weight_ = root_weight_ * (-delay_s_ * s_).exp();
+    direct_weight_ = gain_weight_;
+    return;
+  }
+  const double sample_s = 1. / sampling_->rate_hz;
+  for (std::size_t i = 0; i < late_.size(); ++i)
+    late_[i] = (-(static_cast<double>(i + 1) * sample_s) * s_).exp();
+  const bool steps = sampling_->hold == Hold::zero_order;
+  const double older = delay_.fraction == 0. ? 0. : steps ? 1. : delay_.fraction;
+  gain_weight_ = root_weight_ * (-(static_cast<double>(delay_.shift) * sample_s) * s_).exp();
+  direct_weight_ = gain_weight_ * (1. - older + older * late_[0]);
 }
 
 bool FrequencyProblem::admissible(const ModalTerm& mode) const {
@@ -120,39 +130,57 @@ bool FrequencyProblem::admissible(const ModalTerm& mode) const {
   return damped_square < std::pow(highest_damped_rad_s_, 2);
 }
 
+FrequencyProblem::ModeResponse FrequencyProblem::mode_response(const ModalTerm& mode,
+                                                               bool derivatives) const {
+  ModeResponse g;
+  if (!sampling_) {
+    const Eigen::ArrayXcd receptance = 1. / (s_ * (s_ + mode.a1) + mode.a0);
+    g.by_b0 = gain_weight_ * receptance;
+    g.by_b1 = s_ * g.by_b0;
+    g.value = mode.b1 * g.by_b1 + mode.b0 * g.by_b0;
+    if (!derivatives) return g;
+    g.by_a0 = -g.value * receptance;
+    g.by_a1 = s_ * g.by_a0;
+    return g;
+  }
+  const ModeStep step(mode.a1, mode.a0, sampling_->rate_hz, sampling_->hold, delay_.fraction);
+  const Eigen::ArrayXcd inverse =
+      1. / (1. + step.pole1.value * late_[0] + step.pole2.value * late_[1]);
+  const Eigen::ArrayXcd weighted = gain_weight_ * inverse;
+  const auto polynomial = [&](const auto& tap) {
+    return tap(0) + tap(1) * late_[0] + tap(2) * late_[1] + tap(3) * late_[2];
+  };
+  g.by_b1 = weighted * polynomial([&](std::size_t j) { return step.b1_taps[j].value; });
+  g.by_b0 = weighted * polynomial([&](std::size_t j) { return step.b0_taps[j].value; });
+  g.value = mode.b1 * g.by_b1 + mode.b0 * g.by_b0;
+  if (!derivatives) return g;
+  const auto by = [&](double Sensitive::*parameter) -> Eigen::ArrayXcd {
+    return weighted * polynomial([&](std::size_t j) {
+             return mode.b1 * step.b1_taps[j].*parameter + mode.b0 * step.b0_taps[j].*parameter;
+           }) -
+           g.value * inverse *
+               (step.pole1.*parameter * late_[0] + step.pole2.*parameter * late_[1]);
+  };
+  g.by_a1 = by(&Sensitive::by_a1);
+  g.by_a0 = by(&Sensitive::by_a0);
+  return g;
+}
+
 void FrequencyProblem::evaluate(const Eigen::VectorXd& parameters, Eigen::VectorXd& residual,
                                 Eigen::MatrixXd* jacobian) const {
   const Bvrm model = with_parameters(parameters, direct_term_, delay_s_);
-  const auto n = static_cast<Eigen::Index>(n_lines());
-  std::vector<Complex> remaining = measured_;
+  Eigen::ArrayXcd remaining = root_weight_ * measured_ - model.direct_term_kg_m * direct_weight_;
   Eigen::Index column = 0;
-  const auto fill = [&](Eigen::Index j, std::size_t line, Complex value) {
-    const auto row = static_cast<Eigen::Index>(line);
-    (*jacobian)(row, j) = root_weight_[line] * value.real();
-    (*jacobian)(row + n, j) = root_weight_[line] * value.imag();
-  };
   for (const ModalTerm& mode : model.modes) {
-    std::optional<ModeStep> step;
-    if (sampling_) step.emplace(mode.a1, mode.a0, sampling_->rate_hz, sampling_->hold, fraction_);
-    for (std::size_t k = 0; k < n_lines(); ++k) {
-      const SensitiveResponse g =
-          step ? sampled_mode_response(mode, *step, one_sample_[k]) : mode_response(mode, s_[k]);
-      remaining[k] -= g.value * delay_factor(k);
-      if (!jacobian) continue;
-      for (std::size_t j = 0; j < g.derivative.size(); ++j)
-        fill(column + static_cast<Eigen::Index>(j), k, g.derivative[j] * delay_factor(k));
-    }
-    column += parameters_per_mode;
+    const ModeResponse g = mode_response(mode, jacobian != nullptr);
+    remaining -= g.value;
+    if (!jacobian) continue;
+    for (const Eigen::ArrayXcd* derivative : {&g.by_b1, &g.by_b0, &g.by_a1, &g.by_a0})
+      stack(*derivative, jacobian->col(column++));
   }
-  residual.resize(2 * n);
-  for (std::size_t k = 0; k < n_lines(); ++k) {
-    const Complex direct = direct_factor_[k] * delay_factor(k);
-    remaining[k] -= model.direct_term_kg_m * direct;
-    if (jacobian && direct_term_) fill(column, k, direct);
-    const auto row = static_cast<Eigen::Index>(k);
-    residual[row] = root_weight_[k] * remaining[k].real();
-    residual[row + n] = root_weight_[k] * remaining[k].imag();
-  }
+  if (jacobian && direct_term_) stack(direct_weight_, jacobian->col(column));
+  residual.resize(n_residuals());
+  stack(remaining, residual);
 }
 
 bool FrequencyProblem::linearise(const Eigen::VectorXd& parameters,
@@ -176,44 +204,28 @@ Eigen::VectorXd FrequencyProblem::residual(const Eigen::VectorXd& parameters) co
 }
 
 Eigen::MatrixXd FrequencyProblem::gain_columns(double a1, double a0) const {
-  const ModalTerm mode{.b1 = 0., .b0 = 0., .a1 = a1, .a0 = a0};
-  std::optional<ModeStep> step;
-  if (sampling_) step.emplace(a1, a0, sampling_->rate_hz, sampling_->hold, fraction_);
-  const auto n = static_cast<Eigen::Index>(n_lines());
-  Eigen::MatrixXd columns(2 * n, 2);
-  for (std::size_t k = 0; k < n_lines(); ++k) {
-    const SensitiveResponse g =
-        step ? sampled_mode_response(mode, *step, one_sample_[k]) : mode_response(mode, s_[k]);
-    for (Eigen::Index j = 0; j < 2; ++j) {
-      const Complex value =
-          root_weight_[k] * g.derivative[static_cast<std::size_t>(j)] * delay_factor(k);
-      columns(static_cast<Eigen::Index>(k), j) = value.real();
-      columns(static_cast<Eigen::Index>(k) + n, j) = value.imag();
-    }
-  }
+  const ModeResponse g = mode_response({.b1 = 0., .b0 = 0., .a1 = a1, .a0 = a0}, false);
+  Eigen::MatrixXd columns(n_residuals(), 2);
+  stack(g.by_b1, columns.col(0));
+  stack(g.by_b0, columns.col(1));
   return columns;
 }
 
 Eigen::VectorXd FrequencyProblem::direct_column() const {
-  const auto n = static_cast<Eigen::Index>(n_lines());
-  Eigen::VectorXd column(2 * n);
-  for (std::size_t k = 0; k < n_lines(); ++k) {
-    const Complex value = root_weight_[k] * direct_factor_[k] * delay_factor(k);
-    column[static_cast<Eigen::Index>(k)] = value.real();
-    column[static_cast<Eigen::Index>(k) + n] = value.imag();
-  }
+  Eigen::VectorXd column(n_residuals());
+  stack(direct_weight_, column);
   return column;
 }
 
 Eigen::VectorXd FrequencyProblem::with_best_gains(const std::vector<ModalTerm>& poles) const {
   const auto n_modes = static_cast<Eigen::Index>(poles.size());
   Eigen::MatrixXd columns(n_residuals(), 2 * n_modes + (direct_term_ ? 1 : 0));
+  if (columns.cols() == 0) return {};
   for (Eigen::Index k = 0; k < n_modes; ++k) {
     const ModalTerm& mode = poles[static_cast<std::size_t>(k)];
     columns.middleCols(2 * k, 2) = gain_columns(mode.a1, mode.a0);
   }
   if (direct_term_) columns.rightCols(1) = direct_column();
-  if (columns.cols() == 0) return {};
   const Eigen::VectorXd measured =
       residual(Eigen::VectorXd::Zero(direct_term_ ? 1 : 0));  // of a model without modes
   // The columns differ by powers of the frequency; equal lengths let the rank be judged.

@@ -1,8 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
-#include <cstddef>
+#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "separation/fitted_bvrm.h"
 #include "separation/input_hold.h"
 #include "separation/levenberg_marquardt.h"
+#include "separation/mode_step.h"
 #include "signals/frequency_response.h"
 
 namespace vibrissa::separation {
@@ -30,15 +30,14 @@ class FrequencyProblem {
   FrequencyProblem(const signals::FrequencyResponse& response, std::optional<Sampling> sampling,
                    bool direct_term, double delay_s);
 
-  std::size_t n_lines() const { return s_.size(); }
-  Eigen::Index n_residuals() const { return 2 * static_cast<Eigen::Index>(n_lines()); }
+  Eigen::Index n_lines() const { return s_.size(); }
+  Eigen::Index n_residuals() const { return 2 * n_lines(); }
   bool direct_term() const { return direct_term_; }
   double delay_s() const { return delay_s_; }
-  const std::vector<std::complex<double>>& s() const { return s_; }  // j w
-  const std::vector<double>& root_weight() const { return root_weight_; }
-  std::complex<double> measured(std::size_t line) const { return measured_[line]; }
-  /// Of the lines.
-  double highest_rad_s() const { return s_.back().imag(); }
+  const Eigen::ArrayXcd& s() const { return s_; }  // j w of the lines
+  const Eigen::ArrayXd& root_weight() const { return root_weight_; }
+  const Eigen::ArrayXcd& measured() const { return measured_; }
+  double highest_rad_s() const { return s_[s_.size() - 1].imag(); }
   /// Stable, and not beyond what the grid tells from its aliases.
   bool admissible(const ModalTerm& mode) const;
   /// sum of weight |H|^2.
@@ -48,27 +47,31 @@ class FrequencyProblem {
   bool linearise(const Eigen::VectorXd& parameters, NormalEquations& equations) const;
   /// e at these parameters.
   Eigen::VectorXd residual(const Eigen::VectorXd& parameters) const;
-  /// Columns of the linear parameters b1, b0 of a mode with these poles; weighted.
+  /// Weighted columns of the linear parameters b1, b0 of a mode with these poles.
   Eigen::MatrixXd gain_columns(double a1, double a0) const;
-  /// Column of the direct term; weighted.
+  /// Weighted column of the direct term.
   Eigen::VectorXd direct_column() const;
   /// The model with these poles whose gains fit best (linear least squares).
   Eigen::VectorXd with_best_gains(const std::vector<ModalTerm>& poles) const;
 
  private:
+  struct ModeResponse;
+
   void take_lines(const signals::FrequencyResponse& response);
   void weigh(const std::vector<double>& standard_deviation);
+  ModeResponse mode_response(const ModalTerm& mode, bool derivatives) const;
   void evaluate(const Eigen::VectorXd& parameters, Eigen::VectorXd& residual,
                 Eigen::MatrixXd* jacobian) const;
-  std::complex<double> delay_factor(std::size_t line) const { return delay_factor_[line]; }
 
   std::optional<Sampling> sampling_;
   bool direct_term_;
   double delay_s_;
-  double fraction_ = 0.;
+  SampledDelay delay_;
   double highest_damped_rad_s_ = std::numeric_limits<double>::infinity();
-  std::vector<std::complex<double>> s_, one_sample_, delay_factor_, direct_factor_, measured_;
-  std::vector<double> root_weight_;
+  Eigen::ArrayXcd s_, measured_;
+  Eigen::ArrayXd root_weight_;
+  Eigen::ArrayXcd gain_weight_, direct_weight_;  // root_weight times what the delay does
+  std::array<Eigen::ArrayXcd, 3> late_;          // exp(-j w n / rate), n = 1, 2, 3
   double total_ = 0.;
 };
 

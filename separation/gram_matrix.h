@@ -7,6 +7,7 @@ namespace vibrissa::separation {
 
 /// Columns of a tall matrix, a block of rows at a time, and the sum of their inner products.
 /// Three columns against three at once, so that each number read serves three products.
+/// Proven by tests/separation/gram_matrix_test.cc.
 class GramMatrix {
  public:
   static constexpr Eigen::Index block = 256;

@@ -29,19 +29,28 @@ std::vector<ModalTerm> modes_of(const FrequencyProblem& problem,
   return with_parameters(parameters, problem.direct_term(), problem.delay_s()).modes;
 }
 
-// Starts for one more mode than the given fit has.
-std::vector<std::vector<ModalTerm>> starts(const FrequencyProblem& problem,
-                                           const Eigen::VectorXd& smaller) {
-  std::vector<ModalTerm> present = modes_of(problem, smaller);
-  std::vector<std::vector<ModalTerm>> result{vector_fitting_poles(problem, present.size() + 1)};
-  for (const ModalTerm& mode : promising_modes(problem, smaller, 3)) {
-    result.push_back(present);
-    result.back().push_back(mode);
+// Starts for one more mode than the given fit has, the cheapest first.
+std::vector<Eigen::VectorXd> starts(const FrequencyProblem& problem,
+                                    const Eigen::VectorXd& smaller) {
+  constexpr std::size_t n_places = 3, n_starts = 2;
+  const std::vector<ModalTerm> present = modes_of(problem, smaller);
+  std::vector<std::vector<ModalTerm>> poles{vector_fitting_poles(problem, present.size() + 1)};
+  for (const ModalTerm& mode : promising_modes(problem, smaller, n_places)) {
+    poles.push_back(present);
+    poles.back().push_back(mode);
   }
-  std::erase_if(result, [&](const std::vector<ModalTerm>& modes) {
-    return modes.size() != present.size() + 1 ||
-           !std::ranges::all_of(modes, [&](const ModalTerm& m) { return problem.admissible(m); });
-  });
+  std::vector<std::pair<double, Eigen::VectorXd>> ranked;
+  for (const auto& modes : poles) {
+    const bool admissible =
+        std::ranges::all_of(modes, [&](const ModalTerm& mode) { return problem.admissible(mode); });
+    if (modes.size() != present.size() + 1 || !admissible) continue;
+    const Eigen::VectorXd parameters = problem.with_best_gains(modes);
+    ranked.emplace_back(problem.residual(parameters).squaredNorm(), parameters);
+  }
+  std::ranges::stable_sort(ranked, {}, [](const auto& start) { return start.first; });
+  std::vector<Eigen::VectorXd> result;
+  for (std::size_t i = 0; i < std::min(n_starts, ranked.size()); ++i)
+    result.push_back(ranked[i].second);
   return result;
 }
 
@@ -74,9 +83,8 @@ std::vector<FittedBvrm> identify_frequency_orders(const signals::FrequencyRespon
   for (std::size_t n_modes = 1; 2 * n_modes <= options.order; ++n_modes) {
     if (n_parameters(n_modes, options.direct_term) > problem.n_residuals()) break;
     std::optional<LevenbergResult> best;
-    for (const auto& poles : starts(problem, smaller)) {
-      LevenbergResult result =
-          refine(problem, problem.with_best_gains(poles), options.max_iterations);
+    for (const Eigen::VectorXd& start : starts(problem, smaller)) {
+      LevenbergResult result = refine(problem, start, options.max_iterations);
       if (!best || result.equations.cost < best->equations.cost) best = std::move(result);
     }
     if (!best) break;

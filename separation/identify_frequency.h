@@ -17,7 +17,7 @@ struct FrequencyFitOptions {
   /// The response is the ratio of spectra of samples, whose input ran between them as the hold
   /// says. Nothing: it is that of the continuous signals.
   std::optional<Sampling> sampling = std::nullopt;
-  int max_iterations = 60;
+  int max_iterations = 100;
 };
 
 /// Fits G(j w) to a measured frequency response by weighted least squares, weights 1 / variance

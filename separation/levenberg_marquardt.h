@@ -23,7 +23,7 @@ struct NormalEquations {
 };
 
 struct LevenbergOptions {
-  int max_iterations = 60;
+  int max_iterations = 100;
   /// Ends when the next step would be less than this many standard deviations of the parameters.
   double tolerance = 1e-3;
   double n_residuals = 0.;

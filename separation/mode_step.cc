@@ -183,29 +183,4 @@ ModeStep::ModeStep(double a1, double a0, double sampling_rate_hz, Hold hold, dou
   }
 }
 
-SensitiveResponse mode_response(const ModalTerm& mode, std::complex<double> s) {
-  const std::complex<double> receptance = 1. / (s * s + mode.a1 * s + mode.a0);
-  const std::complex<double> value = (mode.b1 * s + mode.b0) * receptance;
-  return {value, {s * receptance, receptance, -s * value * receptance, -value * receptance}};
-}
-
-SensitiveResponse sampled_mode_response(const ModalTerm& mode, const ModeStep& step,
-                                        std::complex<double> one_sample) {
-  using Complex = std::complex<double>;
-  const Complex two_samples = one_sample * one_sample;
-  const std::array<Complex, 4> power{1., one_sample, two_samples, one_sample * two_samples};
-  Complex b1 = 0., b0 = 0., by_a1 = 0., by_a0 = 0.;
-  for (std::size_t j = 0; j < 4; ++j) {
-    b1 += step.b1_taps[j].value * power[j];
-    b0 += step.b0_taps[j].value * power[j];
-    by_a1 += (mode.b1 * step.b1_taps[j].by_a1 + mode.b0 * step.b0_taps[j].by_a1) * power[j];
-    by_a0 += (mode.b1 * step.b1_taps[j].by_a0 + mode.b0 * step.b0_taps[j].by_a0) * power[j];
-  }
-  const Complex denominator = 1. + step.pole1.value * power[1] + step.pole2.value * power[2];
-  const Complex value = (mode.b1 * b1 + mode.b0 * b0) / denominator;
-  by_a1 -= value * (step.pole1.by_a1 * power[1] + step.pole2.by_a1 * power[2]);
-  by_a0 -= value * (step.pole1.by_a0 * power[1] + step.pole2.by_a0 * power[2]);
-  return {value, {b1 / denominator, b0 / denominator, by_a1 / denominator, by_a0 / denominator}};
-}
-
 }  // namespace vibrissa::separation

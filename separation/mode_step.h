@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <complex>
+#include <cstddef>
 
 #include "separation/input_hold.h"
 #include "separation/rational_model.h"
@@ -45,18 +45,5 @@ struct ModeStep {
 
   ModeStep(double a1, double a0, double sampling_rate_hz, Hold hold, double delay_fraction = 0.);
 };
-
-/// Value of a transfer function with its derivatives by b1, b0, a1, a0.
-struct SensitiveResponse {
-  std::complex<double> value;
-  std::array<std::complex<double>, 4> derivative;
-};
-
-/// The mode in continuous time at s = j w.
-SensitiveResponse mode_response(const ModalTerm& mode, std::complex<double> s);
-/// Ratio of output to input spectra of the sampled mode, without the whole-sample shift of the
-/// delay; one_sample = exp(-j 2 pi f / rate).
-SensitiveResponse sampled_mode_response(const ModalTerm& mode, const ModeStep& step,
-                                        std::complex<double> one_sample);
 
 }  // namespace vibrissa::separation

@@ -21,7 +21,7 @@ struct OutputErrorOptions {
   bool direct_term = true;
   /// Estimated for each segment beside the model; otherwise at rest at the first sample, no offset.
   Nuisance nuisance = {};
-  int max_iterations = 60;
+  int max_iterations = 100;
 };
 
 /// Output-error fit in the time domain (maximum likelihood for white noise on the moment):

@@ -22,9 +22,7 @@ constexpr auto block = static_cast<std::size_t>(GramMatrix::block);
 using Memory = std::array<double, history + block>;
 
 // sum_j taps[j] x[n - j].
-template <std::size_t n_taps>
-auto moving_sum(const std::array<double, n_taps>& taps, const double* x, Eigen::Index n) {
-  static_assert(n_taps == 3);
+auto moving_sum(const std::array<double, 3>& taps, const double* x, Eigen::Index n) {
   return taps[0] * ConstSignal(x, n) + taps[1] * ConstSignal(x - 1, n) +
          taps[2] * ConstSignal(x - 2, n);
 }
@@ -211,46 +209,67 @@ void OutputErrorProblem::add_segment(const Aligned& segment, Eigen::Index first_
 void OutputErrorProblem::advance(std::size_t k, const Aligned& segment, Eigen::Index start,
                                  Eigen::Index n, const double* free) {
   Mode& mode = modes_[k];
-  double *v = mode.v.data() + history, *g = mode.g.data() + history, *s = mode.s.data() + history;
-  mode.filter.run(segment.node.data() + start, v, n);
-  const bool midpoints = !segment.midpoint.empty();
-  double* w = mode.w.data() + history;
-  if (midpoints) mode.filter.run(segment.midpoint.data() + start, w, n);
-  const auto column = [&](Eigen::Index j) {
-    return Signal(gram_.column(parameters_per_mode * static_cast<Eigen::Index>(k) + j), n);
-  };
-  for (Eigen::Index j = 0; j < parameters_per_mode; ++j) {
-    const auto& [t0, t1, t2, t3] = mode.taps[static_cast<std::size_t>(j)];
-    column(j) = moving_sum(std::array{t0, t1, t2}, v, n);
-    if (between_) column(j) += t3 * ConstSignal(v - 3, n);
-    const auto& [unused, m1, m2] = mode.mid[static_cast<std::size_t>(j)];
-    if (midpoints) column(j) += m1 * ConstSignal(w - 1, n) + m2 * ConstSignal(w - 2, n);
-  }
-  Signal output(mode.output.data(), n);
+  fill_forced_columns(k, segment, start, n);
   if (mode.free_active) run_impulse(mode, start, n);
-  if (!free && mode.free_active)
-    for (Eigen::Index j = 0; j < parameters_per_mode; ++j)
-      column(j) += segment.node[0] * moving_sum(mode.rest[static_cast<std::size_t>(j)], g, n);
-  output = mode.b1 * column(0) + mode.b0 * column(1);
-  if (free) {
-    const Eigen::Index first =
-        n_model_ + 1 + (options_.nuisance.offset ? 1 : 0) + 2 * static_cast<Eigen::Index>(k);
-    for (Eigen::Index j = 0; j < 2; ++j) {
-      Signal response(gram_.column(first + j), n);
-      if (mode.free_active)
-        response = ConstSignal(g - j - (between_ ? 1 : 0), n);
-      else
-        response.setZero();
-      if (mode.free_active) output += free[j] * response;
-    }
-  }
+  if (!free && mode.free_active) add_start_at_rest(k, segment.node[0], n);
+  Signal output(mode.output.data(), n);
+  output = mode.b1 * column(k, 0, n) + mode.b0 * column(k, 1, n);
+  if (free) fill_free_columns(k, free, n);
+
+  double* s = mode.s.data() + history;
   mode.filter.run(mode.output.data(), s, n);
-  column(2) -= mode.pole1_by_a1 * ConstSignal(s - 1, n) + mode.pole2_by_a1 * ConstSignal(s - 2, n);
-  column(3) -= mode.pole1_by_a0 * ConstSignal(s - 1, n) + mode.pole2_by_a0 * ConstSignal(s - 2, n);
-  keep_history(mode.v, n);
-  if (midpoints) keep_history(mode.w, n);
+  const ConstSignal last(s - 1, n), older(s - 2, n);
+  column(k, 2, n) -= mode.pole1_by_a1 * last + mode.pole2_by_a1 * older;
+  column(k, 3, n) -= mode.pole1_by_a0 * last + mode.pole2_by_a0 * older;
   keep_history(mode.s, n);
   if (mode.free_active) finish_impulse(mode, n);
+}
+
+Eigen::Map<Eigen::ArrayXd> OutputErrorProblem::column(std::size_t mode, Eigen::Index parameter,
+                                                      Eigen::Index n) {
+  return {gram_.column(parameters_per_mode * static_cast<Eigen::Index>(mode) + parameter), n};
+}
+
+// What the input does through the numerators; the poles' own share follows once the output is
+// known.
+void OutputErrorProblem::fill_forced_columns(std::size_t k, const Aligned& segment,
+                                             Eigen::Index start, Eigen::Index n) {
+  Mode& mode = modes_[k];
+  const bool midpoints = !segment.midpoint.empty();
+  double *v = mode.v.data() + history, *w = mode.w.data() + history;
+  mode.filter.run(segment.node.data() + start, v, n);
+  if (midpoints) mode.filter.run(segment.midpoint.data() + start, w, n);
+  for (Eigen::Index j = 0; j < parameters_per_mode; ++j) {
+    Signal target = column(k, j, n);
+    const auto& [t0, t1, t2, t3] = mode.taps[static_cast<std::size_t>(j)];
+    target = moving_sum({t0, t1, t2}, v, n);
+    if (between_) target += t3 * ConstSignal(v - 3, n);
+    if (midpoints) target += moving_sum(mode.mid[static_cast<std::size_t>(j)], w, n);
+  }
+  keep_history(mode.v, n);
+  if (midpoints) keep_history(mode.w, n);
+}
+
+void OutputErrorProblem::add_start_at_rest(std::size_t k, double first_node, Eigen::Index n) {
+  const Mode& mode = modes_[k];
+  for (Eigen::Index j = 0; j < parameters_per_mode; ++j)
+    column(k, j, n) +=
+        first_node * moving_sum(mode.rest[static_cast<std::size_t>(j)], mode.g.data() + history, n);
+}
+
+void OutputErrorProblem::fill_free_columns(std::size_t k, const double* free, Eigen::Index n) {
+  Mode& mode = modes_[k];
+  const Eigen::Index first =
+      n_model_ + 1 + (options_.nuisance.offset ? 1 : 0) + 2 * static_cast<Eigen::Index>(k);
+  for (Eigen::Index j = 0; j < 2; ++j) {
+    Signal response(gram_.column(first + j), n);
+    if (!mode.free_active) {
+      response.setZero();
+      continue;
+    }
+    response = ConstSignal(mode.g.data() + history - j - (between_ ? 1 : 0), n);
+    Signal(mode.output.data(), n) += free[j] * response;
+  }
 }
 
 void OutputErrorProblem::run_impulse(Mode& mode, Eigen::Index start, Eigen::Index n) {

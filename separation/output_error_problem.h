@@ -44,6 +44,11 @@ class OutputErrorProblem {
   // Output and sensitivities of one mode over a block of samples; free: its two numbers, or none.
   void advance(std::size_t k, const Aligned& segment, Eigen::Index start, Eigen::Index n,
                const double* free);
+  Eigen::Map<Eigen::ArrayXd> column(std::size_t mode, Eigen::Index parameter, Eigen::Index n);
+  void fill_forced_columns(std::size_t k, const Aligned& segment, Eigen::Index start,
+                           Eigen::Index n);
+  void add_start_at_rest(std::size_t k, double first_node, Eigen::Index n);
+  void fill_free_columns(std::size_t k, const double* free, Eigen::Index n);
   static void run_impulse(Mode& mode, Eigen::Index start, Eigen::Index n);
   static void finish_impulse(Mode& mode, Eigen::Index n);
   void scatter(Eigen::Index first_nuisance, NormalEquations& equations) const;

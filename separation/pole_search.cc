@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
+#include <limits>
+#include <utility>
 
 namespace vibrissa::separation {
 
@@ -72,19 +75,19 @@ PoleSet stable_poles(const Eigen::VectorXcd& values) {
       poles.upper.emplace_back(real, value.imag());
   }
   std::ranges::sort(poles.real);
+  std::ranges::sort(poles.upper, {}, [](const Complex& p) { return std::abs(p); });
   return poles;
 }
 
 PoleSet relocate(const FrequencyProblem& problem, const PoleSet& poles) {
-  const auto n_lines = static_cast<Eigen::Index>(problem.n_lines());
+  const Eigen::Index n_lines = problem.n_lines();
   const Eigen::Index n = poles.size(), n_direct = problem.direct_term() ? 1 : 0;
   Eigen::MatrixXcd rows(n_lines, 2 * n + n_direct + 1);
   Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(rows.cols());
   for (Eigen::Index k = 0; k < n_lines; ++k) {
-    const auto line = static_cast<std::size_t>(k);
-    const Complex s = problem.s()[line];
-    const Complex undelayed = problem.measured(line) * std::exp(s * problem.delay_s());
-    const double weight = problem.root_weight()[line];
+    const Complex s = problem.s()[k];
+    const Complex undelayed = problem.measured()[k] * std::exp(s * problem.delay_s());
+    const double weight = problem.root_weight()[k];
     const Eigen::RowVectorXcd row = fractions(poles, s / problem.highest_rad_s());
     rows.row(k).head(n) = weight * row;
     if (n_direct) rows(k, n) = weight;
@@ -108,6 +111,18 @@ PoleSet relocate(const FrequencyProblem& problem, const PoleSet& poles) {
   return stable_poles(zeros(poles, x.segment(n + n_direct, n), d));
 }
 
+// Largest relative move of a pole; infinite when pairs have become real or the other way round.
+double distance(const PoleSet& before, const PoleSet& after) {
+  if (before.upper.size() != after.upper.size()) return std::numeric_limits<double>::infinity();
+  double largest = 0.;
+  for (std::size_t i = 0; i < after.upper.size(); ++i)
+    largest =
+        std::max(largest, std::abs(after.upper[i] - before.upper[i]) / std::abs(after.upper[i]));
+  for (std::size_t i = 0; i < after.real.size(); ++i)
+    largest = std::max(largest, std::abs(after.real[i] - before.real[i]) / std::abs(after.real[i]));
+  return largest;
+}
+
 std::vector<ModalTerm> pairs(const PoleSet& poles, double unit_rad_s) {
   std::vector<ModalTerm> modes;
   for (const Complex& p : poles.upper)
@@ -122,25 +137,24 @@ std::vector<ModalTerm> pairs(const PoleSet& poles, double unit_rad_s) {
 // Lines with the largest residual in their neighbourhood, and others spread over the band.
 std::vector<double> candidate_rad_s(const FrequencyProblem& problem,
                                     const Eigen::VectorXd& residual) {
-  constexpr std::size_t n_spread = 32, n_peaks = 8;
-  const std::size_t n = problem.n_lines();
-  const auto power = [&](std::size_t k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    return std::pow(residual[row], 2) + std::pow(residual[row + static_cast<Eigen::Index>(n)], 2);
-  };
-  std::vector<std::size_t> lines;
-  for (std::size_t k = 0; k < n; ++k) {
-    const bool above_left = k == 0 || power(k) >= power(k - 1);
-    const bool above_right = k + 1 == n || power(k) > power(k + 1);
+  constexpr Eigen::Index n_spread = 24;
+  constexpr std::size_t n_peaks = 8;
+  const Eigen::Index n = problem.n_lines();
+  const Eigen::ArrayXd power =
+      residual.head(n).array().square() + residual.tail(n).array().square();
+  std::vector<Eigen::Index> lines;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const bool above_left = k == 0 || power[k] >= power[k - 1];
+    const bool above_right = k + 1 == n || power[k] > power[k + 1];
     if (above_left && above_right) lines.push_back(k);
   }
-  std::ranges::sort(lines, std::greater<>(), power);
+  std::ranges::sort(lines, std::greater<>(), [&](Eigen::Index k) { return power[k]; });
   lines.resize(std::min(lines.size(), n_peaks));
-  for (std::size_t i = 0; i < n_spread; ++i) lines.push_back(i * (n - 1) / (n_spread - 1));
+  for (Eigen::Index i = 0; i < n_spread; ++i) lines.push_back(i * (n - 1) / (n_spread - 1));
   std::ranges::sort(lines);
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
   std::vector<double> omega;
-  for (const std::size_t k : lines)
+  for (const Eigen::Index k : lines)
     if (problem.s()[k].imag() > 0.) omega.push_back(problem.s()[k].imag());
   return omega;
 }
@@ -181,8 +195,13 @@ double gain_of(Eigen::MatrixXd columns, const Eigen::MatrixXd& space,
 
 std::vector<ModalTerm> vector_fitting_poles(const FrequencyProblem& problem, std::size_t n_modes) {
   constexpr int n_iterations = 12;
-  PoleSet poles = spread_poles(problem.s().front().imag() / problem.highest_rad_s(), n_modes);
-  for (int i = 0; i < n_iterations; ++i) poles = relocate(problem, poles);
+  PoleSet poles = spread_poles(problem.s()[0].imag() / problem.highest_rad_s(), n_modes);
+  for (int i = 0; i < n_iterations; ++i) {
+    PoleSet next = relocate(problem, poles);
+    const bool settled = distance(poles, next) < 1e-4;
+    poles = std::move(next);
+    if (settled) break;
+  }
   return pairs(poles, problem.highest_rad_s());
 }
 

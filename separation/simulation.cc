@@ -21,6 +21,43 @@ void check_rate(double sampling_rate_hz) {
                     " Hz is not positive and finite");
 }
 
+// Results that come too early by the whole-sample delay. Before the record they are as at its
+// start.
+void delay(std::vector<double>& moment, std::size_t n_samples) {
+  const std::size_t n = std::min(n_samples, moment.size());
+  const double first = moment[0];
+  std::shift_right(moment.begin(), moment.end(), static_cast<std::ptrdiff_t>(n));
+  std::fill_n(moment.begin(), n, first);
+}
+
+// Results that come too late: what follows the record is as it ended.
+void advance(ModalBank& bank, const ShapedInput& last, std::vector<double>& moment,
+             std::size_t n_samples) {
+  const std::vector<double> node(n_samples, last.node[0]), direct(n_samples, last.direct[0]);
+  const std::vector<double> midpoint(n_samples, last.midpoint.empty() ? 0. : last.midpoint[0]);
+  std::vector<double> later(n_samples);
+  bank.process(node.data(), last.midpoint.empty() ? nullptr : midpoint.data(), direct.data(),
+               later.data(), n_samples);
+  moment.insert(moment.end(), later.begin(), later.end());
+  moment.erase(moment.begin(), moment.begin() + static_cast<std::ptrdiff_t>(n_samples));
+}
+
+void run(ModalBank& bank, std::span<const double> input, Hold hold, double fraction,
+         std::vector<double>& moment) {
+  const std::size_t n = moment.size();
+  ShapedInput last{.node = {input.back()}, .midpoint = {}, .direct = {input.back()}};
+  if (hold == Hold::band_limited) {
+    const ShapedInput shaped = shape_input(input, hold, fraction);
+    bank.process(shaped.node.data(), shaped.midpoint.data(), shaped.direct.data(), moment.data(),
+                 n);
+    last = {{shaped.node.back()}, {shaped.midpoint.back()}, {shaped.direct.back()}};
+  } else {
+    bank.process(input.data(), nullptr, input.data(), moment.data(), n);
+  }
+  if (bank.shift() > 0) delay(moment, static_cast<std::size_t>(bank.shift()));
+  if (bank.shift() < 0) advance(bank, last, moment, static_cast<std::size_t>(-bank.shift()));
+}
+
 // Columns of the free responses of every mode (two each) and of the offset.
 Eigen::MatrixXd nuisance_columns(const Bvrm& model, std::size_t n_samples, double sampling_rate_hz,
                                  const Nuisance& nuisance) {
@@ -58,18 +95,8 @@ std::vector<double> simulate(const Bvrm& model, std::span<const double> base_acc
   bank.reset(initial_states);
   std::vector<double> moment(base_acceleration.size());
   if (moment.empty()) return moment;
-  const SampledDelay delay = sampled_delay(model.delay_s, sampling_rate_hz);
-  const auto n_late = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, -delay.shift));
-  ShapedInput shaped = shape_input(base_acceleration, hold, delay.fraction);
-  for (std::vector<double>* signal : {&shaped.node, &shaped.midpoint, &shaped.direct})
-    if (!signal->empty()) signal->insert(signal->end(), n_late, signal->back());
-  std::vector<double> late(shaped.node.size());
-  bank.process(shaped.node.data(), shaped.midpoint.empty() ? nullptr : shaped.midpoint.data(),
-               shaped.direct.data(), late.data(), late.size());
-  const auto last = static_cast<std::ptrdiff_t>(moment.size()) - 1;
-  for (std::ptrdiff_t i = 0; i <= last; ++i)
-    moment[static_cast<std::size_t>(i)] =
-        late[static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, i - delay.shift))];
+  run(bank, base_acceleration, hold, sampled_delay(model.delay_s, sampling_rate_hz).fraction,
+      moment);
   return moment;
 }
 

@@ -12,8 +12,7 @@ double cantilever_root(const std::size_t n) {
   double x = (static_cast<double>(n) - 0.5) * std::numbers::pi;
   for (int i = 0; i < 50; ++i) {
     const double inverse = 1. / std::cosh(x);
-    const double change =
-        (std::cos(x) + inverse) / (-std::sin(x) - std::tanh(x) * inverse);
+    const double change = (std::cos(x) + inverse) / (-std::sin(x) - std::tanh(x) * inverse);
     x -= change;
     if (std::abs(change) < 1e-15 * x) break;
   }

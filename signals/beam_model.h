@@ -7,8 +7,9 @@
 
 namespace vibrissa::signals {
 
-/// A uniform Euler-Bernoulli cantilever shaken at its clamp: the analytical base-vibration model of the
-/// reference paper, equations (3) to (12) as settled: EI y'''' + rho A y'' + damping = -rho A a_b.
+/// A uniform Euler-Bernoulli cantilever shaken at its clamp: the analytical base-vibration model of
+/// the reference paper, equations (3) to (12) as settled: EI y'''' + rho A y'' + damping = -rho A
+/// a_b.
 struct Beam {
   double length_m = 0.;
   double bending_stiffness_n_m2 = 0.;  // EI

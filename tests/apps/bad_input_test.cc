@@ -45,8 +45,9 @@ TEST_F(BadCase, UnknownSubsectionNamesTheKnownOnes) {
 }
 
 TEST_F(BadCase, TextInANumberNamesLineAndEntry) {
-  refuse(case_with("Geometry", "Wire diameter = thin"),
-         AllOf(HasSubstr("bad.prm"), HasSubstr("2"), HasSubstr("thin"), HasSubstr("Wire diameter")));
+  refuse(
+      case_with("Geometry", "Wire diameter = thin"),
+      AllOf(HasSubstr("bad.prm"), HasSubstr("2"), HasSubstr("thin"), HasSubstr("Wire diameter")));
 }
 
 TEST_F(BadCase, NegativeDensityIsRefused) {
@@ -140,16 +141,14 @@ TEST_F(BadRecord, NotANumberIsReportedWithItsPlace) {
 }
 
 TEST_F(BadRecord, GapInTimeIsReportedWithItsPlace) {
-  std::string text = record_text([](int i, std::string row) {
-    return i >= 100 && i < 107 ? std::string("DROP") : row;
-  });
+  std::string text = record_text(
+      [](int i, std::string row) { return i >= 100 && i < 107 ? std::string("DROP") : row; });
   for (std::size_t at; (at = text.find("DROP\n")) != std::string::npos;) text.erase(at, 5);
   refuse(text, "", AllOf(HasSubstr("gap"), HasSubstr("101")));
 }
 
 TEST_F(BadRecord, WrongColumnNameListsTheColumnsOfTheFile) {
-  refuse(record_text([](int, std::string row) { return row; }),
-         "--column base_acceleration=z_mps2",
+  refuse(record_text([](int, std::string row) { return row; }), "--column base_acceleration=z_mps2",
          AllOf(HasSubstr("z_mps2"), HasSubstr("base_acceleration_m_s2")));
 }
 

@@ -81,8 +81,8 @@ TEST(Identify, CleanRecordsOfBothSensorsFitHeldOutDataTo99Percent) {
                  "'Records/Moment noise=0'" +
                  quick.substr(0, quick.find(" --set 'Output")) + " --quiet");
     ASSERT_EQ(simulated.status, 0) << simulated.errors;
-    const auto identified = vibrissa("identify '" + record + "' --json -o '" +
-                                     folder.file("bvrm.json") + "'");
+    const auto identified =
+        vibrissa("identify '" + record + "' --json -o '" + folder.file("bvrm.json") + "'");
     ASSERT_EQ(identified.status, 0) << identified.errors;
     const json model = identified.json();
     EXPECT_GE(model["fit_percent"].get<double>(), 99.) << name;
@@ -116,19 +116,19 @@ TEST(Separate, GivesNullScoresWithoutTruthAndNumbersWithIt) {
 TEST(Bode, OfARecordAgreesWithThatOfItsModelAtThePeriodicLines) {
   const Folder folder;
   const std::string record = folder.file("clean.csv");
-  const std::string settings = " --set Wind/Kind=none --set 'Records/Accelerometer noise=0' --set "
-                               "'Records/Moment noise=0' --set 'Model/Mesh resolution=1'"
-                               " --set Model/Sensitivities=false --quiet";
+  const std::string settings =
+      " --set Wind/Kind=none --set 'Records/Accelerometer noise=0' --set "
+      "'Records/Moment noise=0' --set 'Model/Mesh resolution=1'"
+      " --set Model/Sensitivities=false --quiet";
   ASSERT_EQ(vibrissa("simulate '" + case_file("flow_sensor.prm") + "' --record '" + record + "'" +
                      settings)
                 .status,
             0);
   // The multisine has whole lines a second; the last 10 s are in steady state.
-  const auto result =
-      vibrissa("bode '" + record + "' --rows 5001:10000 --period 500 --json");
+  const auto result = vibrissa("bode '" + record + "' --rows 5001:10000 --period 500 --json");
   ASSERT_EQ(result.status, 0) << result.errors;
-  const auto model = vibrissa("bode '" + case_file("flow_sensor.prm") +
-                              "' --low 9 --high 9.000001 --json");
+  const auto model =
+      vibrissa("bode '" + case_file("flow_sensor.prm") + "' --low 9 --high 9.000001 --json");
   ASSERT_EQ(model.status, 0) << model.errors;
   const json expected = model.json()["points"][0];
   for (const auto& point : result.json()["points"]) {

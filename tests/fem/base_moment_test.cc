@@ -15,7 +15,9 @@ SolidState state_at_rest(const SolidSpace& space) {
   return {space.make_vector(), space.make_vector(), space.make_vector()};
 }
 
-SolidLoad no_load(const SolidSpace& space) { return {{}, space.make_vector(), space.make_vector()}; }
+SolidLoad no_load(const SolidSpace& space) {
+  return {{}, space.make_vector(), space.make_vector()};
+}
 
 /// Static state under a load, clamped.
 void balance(const Sensor& sensor, SolidState& state, const SolidLoad& load) {
@@ -28,7 +30,13 @@ void balance(const Sensor& sensor, SolidState& state, const SolidLoad& load) {
   force *= -1.;
   force += load.external_force;
   zero_entries(force, space.clamped());
-  CholeskySolver(*sensor.operators().clamped_stiffness).solve(force, state.displacement);
+  const CholeskySolver solver(*sensor.operators().clamped_stiffness,
+                              [&](const Vector& x, Vector& product) {
+                                product = 0.;
+                                sensor.operators().internal_force->add(1., x, product);
+                                zero_entries(product, space.clamped());
+                              });
+  solver.solve(force, state.displacement);
 }
 
 TEST(BaseMoment, ConstantAccelerationGivesMinusTheStaticMassMoment) {

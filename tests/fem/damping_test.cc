@@ -12,8 +12,8 @@ namespace {
 TEST(Damping, LossFactorOfEveryBodyGivesHalfOfItToEveryMode) {
   auto parameters = flow_sensor(1);
   parameters.model.damping = DampingKind::material;
-  for (auto* body : {&parameters.materials.silicone, &parameters.materials.wire,
-                     &parameters.materials.fin}) {
+  for (auto* body :
+       {&parameters.materials.silicone, &parameters.materials.wire, &parameters.materials.fin}) {
     body->loss_factor = 0.08;
   }
   const Sensor sensor(parameters);

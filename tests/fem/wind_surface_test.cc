@@ -30,8 +30,8 @@ TEST(WindSurface, ResultantOnTheFinIsTheDragOnItsFrontalArea) {
   const Sensor sensor(parameters);
   const auto& g = parameters.geometry;
   const double area = 0.5 * (g.fin_top_width + g.fin_bottom_width) * g.fin_height;
-  const double pressure = flow::drag_pressure(
-      flow::DragBody::blades, 0.5 * (g.fin_top_width + g.fin_bottom_width), 2., {});
+  const double pressure = flow::drag_pressure(flow::DragBody::blades,
+                                              0.5 * (g.fin_top_width + g.fin_bottom_width), 2., {});
   // The wire's own share of the upper face does not look into the wind.
   EXPECT_NEAR(drag(sensor, 2.), pressure * area, 1e-3 * pressure * area);
 }

@@ -68,15 +68,17 @@ TEST(MeshAudit, MeasuresABlockExactly) {
 }
 
 TEST(MeshAudit, CountsAnInterfaceOnceWhereOneSideIsRefined) {
-  dealii::Triangulation<3> mesh;
-  make_block(mesh);
-  for (const auto& cell : mesh.active_cell_iterators())
-    if (cell->center()[2] > 3. && cell->center()[0] > 1.) cell->set_refine_flag();
-  mesh.execute_coarsening_and_refinement();
-  ASSERT_TRUE(mesh.has_hanging_nodes());
-  const MeshAudit audit = audit_mesh(mesh, mapping);
-  EXPECT_NEAR((audit.interface_area_m2.at({"silicone", "wire"})), 6., 1e-12);
-  EXPECT_NEAR(audit.boundary_area_m2.at("silicone_surface"), 40., 1e-12);
+  for (const auto refined_region : {region::silicone, region::wire}) {
+    dealii::Triangulation<3> mesh;
+    make_block(mesh);
+    for (const auto& cell : mesh.active_cell_iterators())
+      if (cell->material_id() == refined_region) cell->set_refine_flag();
+    mesh.execute_coarsening_and_refinement();
+    ASSERT_TRUE(mesh.has_hanging_nodes());
+    const MeshAudit audit = audit_mesh(mesh, mapping);
+    EXPECT_NEAR((audit.interface_area_m2.at({"silicone", "wire"})), 6., 1e-12);
+    EXPECT_NEAR(audit.boundary_area_m2.at("silicone_surface"), 40., 1e-12);
+  }
 }
 
 TEST(MeshAudit, GivesNoMassWithoutDensities) {

@@ -1,8 +1,10 @@
 #include "report/child_process.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <fstream>
@@ -60,7 +62,15 @@ TEST(RunChild, CollectsMoreThanAPipeHolds) {
 }
 
 TEST(RunChild, GivesTheChildNothingToRead) {
-  EXPECT_EQ(run_child({"/bin/cat"}, 60.).output, "");
+  // Our own input is, for a moment, one from which nothing ever comes.
+  int silent[2];
+  ASSERT_EQ(::pipe2(silent, O_CLOEXEC), 0);
+  const int input = ::dup(STDIN_FILENO);
+  ::dup2(silent[0], STDIN_FILENO);
+  const ChildResult result = run_child({"/bin/cat"}, 5.);
+  ::dup2(input, STDIN_FILENO);
+  for (const int end : {silent[0], silent[1], input}) ::close(end);
+  EXPECT_TRUE(result.succeeded()) << result.what_happened();
 }
 
 TEST(RunChild, TellsTheSignalThatEndedTheChild) {

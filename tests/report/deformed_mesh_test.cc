@@ -65,6 +65,23 @@ TEST_F(DeformedMeshFile, HasTheOuterSurfaceAloneThoughCellsRepeatTheirPoints) {
   EXPECT_NEAR(area(*read().rest), 2. * width * width + 4. * width * height, 1e-8);
 }
 
+TEST_F(DeformedMeshFile, SharesPointsThatDifferByRoundingAlone) {
+  for (vtkIdType i = 0; i < grid_->GetNumberOfPoints(); ++i) {
+    double x[3];
+    grid_->GetPoint(i, x);
+    grid_->GetPoints()->SetPoint(i, x[0], x[1], x[2] + (i % 3) * 3e-9);
+  }
+  EXPECT_NEAR(area(*read().rest), 2. * width * width + 4. * width * height, 1e-8);
+}
+
+TEST_F(DeformedMeshFile, HasThePointsInTheMiddleOfQuadraticCells) {
+  const DeformedMesh mesh = read();
+  int n_in_the_middle = 0;
+  for (vtkIdType i = 0; i < mesh.rest->GetNumberOfPoints(); ++i)
+    n_in_the_middle += std::abs(mesh.rest->GetPoint(i)[2] - height / 10.) < 1e-6;
+  EXPECT_EQ(n_in_the_middle, 8) << "corners and middles of the four sides";
+}
+
 TEST_F(DeformedMeshFile, MovesByTheScaledDisplacement) {
   picture_.scale = 200.;
   const DeformedMesh mesh = read();
@@ -133,15 +150,18 @@ TEST_F(DeformedMeshFile, RefusesFilesThatAreNoMesh) {
   EXPECT_THAT([&] { read(); }, refusal("no cells"));
 }
 
-TEST_F(DeformedMeshFile, RefusesATruncatedFile) {
+TEST_F(DeformedMeshFile, RefusesADamagedFile) {
   read();
   const std::string whole = content_of(file_);
   for (const double part : {0.3, 0.6, 0.9}) {
-    folder_.file("mesh.vtu", whole.substr(0, static_cast<std::size_t>(part * whole.size())));
-    EXPECT_THAT([&] { read_deformed_mesh(file_, picture_); },
-                ThrowsMessage<UserError>(HasSubstr("mesh.vtu")))
-        << part;
+    const auto size = static_cast<std::size_t>(part * static_cast<double>(whole.size()));
+    folder_.file("mesh.vtu", whole.substr(0, size));
+    EXPECT_THAT([&] { read_deformed_mesh(file_, picture_); }, refusal("damaged")) << part;
   }
+  std::string changed = whole;
+  changed.replace(changed.find("<AppendedData") + 100, 20, 20, 'A');
+  folder_.file("mesh.vtu", changed);
+  EXPECT_THAT([&] { read_deformed_mesh(file_, picture_); }, refusal("damaged"));
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "report/child_process.h"
 #include "report/figure.h"
@@ -115,6 +118,12 @@ TEST_F(Draw, PutsEveryKindOfCurveWhereItBelongsInItsColour) {
   for (const double f : {2., 10., 50.})
     EXPECT_TRUE(seen(1, f, 1. / (f * f), palette_colour(0))) << f;
 
+  const Box plot = page.panels[0].plot;
+  EXPECT_TRUE(picture.has_near(plot.left, plot.bottom + 0.77 * plot.height, {110, 110, 110}));
+  EXPECT_TRUE(picture.has_near(plot.left + 0.33 * plot.width, plot.top(), {110, 110, 110}));
+  EXPECT_TRUE(seen(0, 5., 0.95, {221, 221, 221})) << "grid";
+  EXPECT_FALSE(seen(0, 5.5, 0.95, {221, 221, 221}));
+
   int n_dashed = 0, n_blank = 0;
   for (double x = 0.1; x < 9.9; x += 0.01)
     (seen(0, x, 0.1, palette_colour(5)) ? n_dashed : n_blank) += 1;
@@ -148,6 +157,24 @@ TEST_F(Draw, ShowsASpikeOfOneSampleInALongTrace) {
   EXPECT_LT(fs::file_size(file("trace.svg")), 300000u) << "thinned";
 }
 
+/// Points of all lines of a colour ("#rrggbb") in an SVG file.
+std::vector<Place> svg_points(const std::string& svg, const std::string& colour) {
+  std::vector<Place> points;
+  std::istringstream lines(svg);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("<polyline stroke=\"" + colour) != std::string::npos) {
+      inside = true;
+    } else if (line.starts_with("\"")) {
+      inside = false;
+    } else if (inside) {
+      const std::size_t comma = line.find(',');
+      points.push_back({std::stod(line.substr(0, comma)), std::stod(line.substr(comma + 1))});
+    }
+  }
+  return points;
+}
+
 TEST_F(Draw, ShowsNothingOutsideTheAxes) {
   Panel panel{.x_label = "x", .y_label = "y", .x_range = Range{0., 1.}, .y_range = Range{0., 1.}};
   panel.curves = {{.x = {-1., 2.}, .y = {-5., 6.}, .colour = 1},
@@ -169,6 +196,13 @@ TEST_F(Draw, ShowsNothingOutsideTheAxes) {
       ASSERT_FALSE(picture.has(x, y, tint(palette_colour(3), band_tint))) << x << " " << y;
     }
   EXPECT_GT(picture.count(palette_colour(1)), 100);
+  const auto points = svg_points(content_of(file("outside.svg")), "#d55e00");
+  EXPECT_EQ(points.size(), 2u);
+  for (const Place& point : points) {  // y counts downward there
+    EXPECT_NEAR(point.x, plot.left + plot.width / 2., plot.width / 2. + 0.01);
+    EXPECT_NEAR(picture.height() - point.y, plot.bottom + plot.height / 2.,
+                plot.height / 2. + 0.01);
+  }
 }
 
 TEST_F(Draw, ShowsADeformedMeshWithItsColours) {

@@ -29,9 +29,11 @@ TEST(JsonFile, ComesBackAsItWasWritten) {
 
 TEST(JsonFile, KeepsListsOfNumbersOnOneLine) {
   const TemporaryFolder folder;
-  write_json(folder.path() / "a.json", {{"x", {1, 2, 3}}, {"y", {{"z", 1}}}});
+  write_json(folder.path() / "a.json",
+             {{"w", {json{{"v", 4}}}}, {"x", {1, 2, 3}}, {"y", {{"z", 1}}}});
   EXPECT_EQ(content_of(folder.path() / "a.json"),
-            "{\n  \"x\": [1,2,3],\n  \"y\": {\n    \"z\": 1\n  }\n}\n");
+            "{\n  \"w\": [\n    {\n      \"v\": 4\n    }\n  ],\n"
+            "  \"x\": [1,2,3],\n  \"y\": {\n    \"z\": 1\n  }\n}\n");
 }
 
 TEST(JsonFile, RefusesWhatIsNoJsonWithItsPlace) {

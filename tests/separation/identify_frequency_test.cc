@@ -40,6 +40,36 @@ void expect_modes(const FittedBvrm& fit, const Bvrm& truth, double tolerance) {
   }
 }
 
+// Central differences of the cost, whose error falls with the square of the step.
+TEST(FrequencyProblem, HasTheGradientOfItsCost) {
+  const Bvrm model = test::sensor(2, -2e-7), other = test::sensor(1, 1e-7);
+  const auto measured = exact_response(other, grid(1., 240., 3.));
+  for (const std::optional<Sampling> sampling :
+       {std::optional<Sampling>{}, std::optional(Sampling{rate_hz, Hold::first_order}),
+        std::optional(Sampling{rate_hz, Hold::zero_order})}) {
+    const FrequencyProblem problem(measured, sampling, true, 0.0027);
+    const Eigen::VectorXd at = to_parameters(model, true);
+    NormalEquations here, there;
+    ASSERT_TRUE(problem.linearise(at, here));
+    EXPECT_NEAR(here.cost, problem.residual(at).squaredNorm(), 1e-12 * here.cost);
+    const auto difference = [&](Eigen::Index i, double step) {
+      Eigen::VectorXd moved = at;
+      moved[i] += step;
+      problem.linearise(moved, there);
+      const double up = there.cost;
+      moved[i] -= 2. * step;
+      problem.linearise(moved, there);
+      return -(up - there.cost) / (4. * step);
+    };
+    for (Eigen::Index i = 0; i < at.size(); ++i) {
+      const double step = 1e-3 * std::sqrt(here.cost / here.matrix(i, i));
+      const double size = std::sqrt(here.cost * here.matrix(i, i));
+      EXPECT_NEAR(difference(i, step), here.gradient[i], 1e-4 * size) << i;
+      EXPECT_NEAR(difference(i, step / 2.), here.gradient[i], 3e-5 * size) << i;
+    }
+  }
+}
+
 TEST(IdentifyFrequency, RecoversOneToThreeModesAndTheDirectTermWithoutStartingValues) {
   for (std::size_t n_modes = 1; n_modes <= 3; ++n_modes) {
     const Bvrm truth = test::sensor(n_modes, -2e-7);
