@@ -38,6 +38,8 @@ separation::Identification identify(const RigRecords& records, const Case& param
   const std::size_t n_fit = 2 * record.n_samples() / 3;
   separation::IdentifyOptions options;
   options.max_order = parameters.separation.largest_order;
+  // The rig's base motion is linear between samples by construction.
+  options.hold = separation::Hold::first_order;
   return separation::identify_bvrm(record.slice(0, n_fit),
                                    record.slice(n_fit, record.n_samples() - n_fit), options);
 }

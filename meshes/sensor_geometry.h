@@ -4,14 +4,12 @@
 
 namespace vibrissa::meshes {
 
-enum class FinShape {
-  none,
-  cross,
-  plate
-};  // whisker sensor; four blades; two blades across the wind
+/// none: whisker sensor; cross: four blades; plate: two blades across the wind.
+enum class FinShape { none, cross, plate };
 
 /// Dimensions of a whisker or flow sensor [m], base centre at the origin, wire along +z; the blades
-/// of a cross lie along x and y, a plate spans y (facing wind along x). geometry.md.
+/// of a cross lie along x and y, a plate spans y (facing wind along x).
+/// tests/meshes/sensor_geometry_test.cc.
 struct SensorGeometry {
   double base_diameter = 10e-3;
   double base_height = 8e-3;
@@ -27,6 +25,7 @@ struct SensorGeometry {
   double tip_height() const;  // of the highest point above the base
   /// Declares every entry with its unit, range and meaning in subsection "Geometry".
   static void declare(dealii::ParameterHandler& prm);
+  /// Reads what declare() declared; does not call check().
   void parse(dealii::ParameterHandler& prm);
   /// Throws UserError naming the entries when dimensions contradict each other.
   void check() const;

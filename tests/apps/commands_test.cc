@@ -50,7 +50,8 @@ TEST(Run, ResolvedCaseReadsBackToTheSameResults) {
 TEST(Run, SeparatesByTheIdentifiedModelAlmostAsWellAsByTheTrueResponse) {
   for (const std::string name : {"flow", "whisker"}) {
     std::map<std::string, double> sdr_db;
-    for (const auto& method : summary(name)["separation"]["methods"]) {
+    const json document = summary(name);
+    for (const auto& method : document["separation"]["methods"]) {
       sdr_db[method["name"]] = method["sdr_db"];
     }
     EXPECT_GT(sdr_db.at("bvrm"), sdr_db.at("true response") - 1.) << name;
@@ -99,7 +100,8 @@ TEST(Separate, GivesNullScoresWithoutTruthAndNumbersWithIt) {
   const std::string model = runs().file("flow/bvrm.json");
   const auto blind = vibrissa("separate '" + record + "' --model '" + model + "' --json");
   ASSERT_EQ(blind.status, 0) << blind.errors;
-  for (const auto& method : blind.json()["methods"]) EXPECT_TRUE(method["sdr_db"].is_null());
+  const json scores = blind.json();
+  for (const auto& method : scores["methods"]) EXPECT_TRUE(method["sdr_db"].is_null());
 
   const Folder folder;
   const auto written = vibrissa("separate '" + record + "' --model '" + model + "' -o '" +
@@ -131,7 +133,8 @@ TEST(Bode, OfARecordAgreesWithThatOfItsModelAtThePeriodicLines) {
       vibrissa("bode '" + case_file("flow_sensor.prm") + "' --low 9 --high 9.000001 --json");
   ASSERT_EQ(model.status, 0) << model.errors;
   const json expected = model.json()["points"][0];
-  for (const auto& point : result.json()["points"]) {
+  const json document = result.json();
+  for (const auto& point : document["points"]) {
     if (std::abs(point["frequency_hz"].get<double>() - 9.) > 1e-9) continue;
     EXPECT_NEAR(point["real"].get<double>() / expected["real"].get<double>(), 1., 5e-3);
     return;

@@ -267,6 +267,20 @@ TEST(SensorMesh, VerticesOfAResolutionAreAmongThoseOfTwiceTheResolution) {
     }
 }
 
+TEST(SensorMesh, StaysRoundWhenItIsRefined) {
+  const SensorGeometry g = flow_sensor();
+  dealii::Triangulation<3> mesh;
+  make_sensor_mesh(g, 1, mesh);
+  mesh.refine_global();
+  const MeshAudit audit = audit_mesh(mesh, dealii::MappingQ<3>(2));
+  const double wire_length = g.tip_height() - g.base_height + g.embedded_length;
+  EXPECT_NEAR(
+      audit.region_volume_m3.at("wire") / (meshed_circle_area(g.wire_diameter, 2) * wire_length),
+      1., 1e-12);
+  EXPECT_NEAR(audit.boundary_area_m2.at("clamp") / meshed_circle_area(g.base_diameter, 2), 1.,
+              1e-12);
+}
+
 TEST(SensorMesh, CellCountGrowsWithTheCubeOfTheResolution) {
   const unsigned int flow = audit_of(flow_sensor(), 1).n_cells;
   const unsigned int whisker = audit_of(whisker_sensor(), 1).n_cells;
