@@ -41,15 +41,14 @@ class ElementMatrices {
   static constexpr int n_nodes = SolidSpace::nodes_per_cell;
   static constexpr int n_unknowns = SolidSpace::dofs_per_cell;
   static constexpr int n_points = 27;
-  static constexpr int n_strains = 6;
 
-  void fill_strain_operator();
+  void fill_gradients();
   void fill_projection();
 
   dealii::FEValues<3> values_;
-  // Row-major, so that each quadrature point's rows lie together.
-  using TallMatrix = Eigen::Matrix<double, Eigen::Dynamic, n_unknowns, Eigen::RowMajor>;
-  TallMatrix strain_, stress_;                                        // [6 q + component][unknown]
+  // sqrt(JxW) d_c N_node at [point][27 c + node], and its Gram matrix: int d_c N_i d_d N_j.
+  Eigen::Matrix<double, n_points, n_unknowns> gradients_;
+  Eigen::Matrix<double, n_unknowns, n_unknowns> gram_;
   Eigen::Matrix<double, 4, n_unknowns, Eigen::RowMajor> divergence_;  // D
   Eigen::Matrix4d projection_mass_;                                   // P
 };

@@ -48,6 +48,49 @@ std::unique_ptr<Matrix> combine(const double a, const Matrix& x, const double b,
   return sum;
 }
 
+namespace {
+
+// A PETSc dense matrix over the columns' own memory.
+struct DenseView {
+  DenseView(const Columns& columns, MPI_Comm communicator) {
+    check_petsc(MatCreateDense(communicator, static_cast<PetscInt>(columns.rows()), PETSC_DECIDE,
+                               PETSC_DETERMINE, static_cast<PetscInt>(columns.cols()),
+                               const_cast<double*>(columns.data()), &matrix),
+                "MatCreateDense");
+  }
+  ~DenseView() { MatDestroy(&matrix); }
+  DenseView(const DenseView&) = delete;
+  DenseView& operator=(const DenseView&) = delete;
+  Mat matrix = nullptr;
+};
+
+}  // namespace
+
+Columns multiply(const Matrix& matrix, const Columns& x) {
+  const DenseView in(x, matrix.get_mpi_communicator());
+  const Mat raw = matrix;
+  Mat product = nullptr;
+  const double* values = nullptr;
+  PetscInt stride = 0;
+  check_petsc(MatMatMult(raw, in.matrix, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product),
+              "MatMatMult");
+  check_petsc(MatDenseGetLDA(product, &stride), "MatDenseGetLDA");
+  check_petsc(MatDenseGetArrayRead(product, &values), "MatDenseGetArrayRead");
+  const Columns copy = Eigen::Map<const Columns, 0, Eigen::OuterStride<>>(
+      values, x.rows(), x.cols(), Eigen::OuterStride<>(stride));
+  check_petsc(MatDenseRestoreArrayRead(product, &values), "MatDenseRestoreArrayRead");
+  check_petsc(MatDestroy(&product), "MatDestroy");
+  return copy;
+}
+
+Columns sum_over_processes(const Columns& part, MPI_Comm communicator) {
+  Columns total(part.rows(), part.cols());
+  const auto size = static_cast<std::size_t>(part.size());
+  dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(part.data(), size), communicator,
+                              dealii::ArrayView<double>(total.data(), size));
+  return total;
+}
+
 void use_mumps_cholesky(KSP solver) {
   PC preconditioner = nullptr;
   check_petsc(KSPSetType(solver, KSPPREONLY), "KSPSetType");
@@ -56,14 +99,14 @@ void use_mumps_cholesky(KSP solver) {
   check_petsc(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
 }
 
-void order_with_metis(KSP solver) {
+void order_by_nodes(KSP solver) {
   PC preconditioner = nullptr;
   Mat factors = nullptr;
   check_petsc(KSPGetPC(solver, &preconditioner), "KSPGetPC");
   check_petsc(PCFactorSetUpMatSolverType(preconditioner), "PCFactorSetUpMatSolverType");
   check_petsc(PCFactorGetMatrix(preconditioner, &factors), "PCFactorGetMatrix");
-  constexpr PetscInt ordering_control = 7, metis = 5;
-  check_petsc(MatMumpsSetIcntl(factors, ordering_control, metis), "MatMumpsSetIcntl");
+  constexpr PetscInt block_control = 15, three_a_node = -3;
+  check_petsc(MatMumpsSetIcntl(factors, block_control, three_a_node), "MatMumpsSetIcntl");
 }
 
 void check_factors(KSP solver) {
@@ -100,7 +143,7 @@ CholeskySolver::CholeskySolver(const Matrix& matrix, Product product)
   check_petsc(KSPCreate(matrix.get_mpi_communicator(), &factors_->solver), "KSPCreate");
   check_petsc(KSPSetOperators(factors_->solver, raw, raw), "KSPSetOperators");
   use_mumps_cholesky(factors_->solver);
-  order_with_metis(factors_->solver);
+  order_by_nodes(factors_->solver);
   check_petsc(KSPSetUp(factors_->solver), "KSPSetUp");
   check_factors(factors_->solver);
 }
@@ -119,6 +162,14 @@ void CholeskySolver::solve(const Vector& right_hand_side, Vector& solution) cons
   factors_->residual.sadd(-1., right_hand_side);
   back_substitute(factors_->residual, factors_->correction);
   solution += factors_->correction;
+}
+
+Columns CholeskySolver::solve(const Columns& right_hand_sides) const {
+  Columns solution(right_hand_sides.rows(), right_hand_sides.cols());
+  const DenseView in(right_hand_sides, matrix_.get_mpi_communicator());
+  const DenseView out(solution, matrix_.get_mpi_communicator());
+  check_petsc(KSPMatSolve(factors_->solver, in.matrix, out.matrix), "KSPMatSolve");
+  return solution;
 }
 
 void CholeskySolver::back_substitute(const Vector& right_hand_side, Vector& solution) const {

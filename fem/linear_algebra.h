@@ -4,6 +4,7 @@
 #include <deal.II/lac/petsc_sparse_matrix.h>
 #include <deal.II/lac/petsc_vector.h>
 
+#include <Eigen/Dense>
 #include <functional>
 #include <memory>
 
@@ -12,6 +13,9 @@ namespace vibrissa::fem {
 /// One back-end for one and for many processes. Vectors are not ghosted unless stated.
 using Matrix = dealii::PETScWrappers::MPI::SparseMatrix;
 using Vector = dealii::PETScWrappers::MPI::Vector;
+
+/// Several vectors side by side; each process holds its own rows.
+using Columns = Eigen::MatrixXd;
 
 /// Turns a PETSc or SLEPc error code into an exception that names the call.
 void check_petsc(int error_code, const char* call);
@@ -27,8 +31,14 @@ void zero_entries(Vector& vector, const dealii::IndexSet& entries);
 /// a x + b y; the pattern of y must lie within that of x.
 std::unique_ptr<Matrix> combine(double a, const Matrix& x, double b, const Matrix& y);
 
-/// Sparse Cholesky factors of a symmetric positive definite matrix (MUMPS, METIS ordering), kept
-/// for any number of solves, each with one step of iterative refinement. Throws signals::UserError
+/// A x for several vectors at once.
+Columns multiply(const Matrix& matrix, const Columns& x);
+
+/// The sum over all processes of a small matrix.
+Columns sum_over_processes(const Columns& part, MPI_Comm communicator);
+
+/// Sparse Cholesky factors of a symmetric positive definite matrix (MUMPS), kept for any number of
+/// solves, each of a single vector with one step of iterative refinement. Throws signals::UserError
 /// when the matrix is not positive definite or memory runs out. The matrix must outlive the
 /// factors.
 class CholeskySolver {
@@ -41,6 +51,8 @@ class CholeskySolver {
   CholeskySolver(const CholeskySolver&) = delete;
   CholeskySolver& operator=(const CholeskySolver&) = delete;
   void solve(const Vector& right_hand_side, Vector& solution) const;
+  /// Several right-hand sides at once, without refinement: about the price of two.
+  Columns solve(const Columns& right_hand_sides) const;
 
  private:
   void back_substitute(const Vector& right_hand_side, Vector& solution) const;

@@ -1,64 +1,17 @@
 #include "fem/modes.h"
 
 #include <deal.II/base/numbers.h>
-#include <slepceps.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "fem/cholesky_settings.h"
+#include "fem/block_lanczos.h"
 #include "signals/error.h"
 
 namespace vibrissa::fem {
 
 namespace {
-
-struct EigenSolver {
-  EPS eps = nullptr;
-  ~EigenSolver() { EPSDestroy(&eps); }
-};
-
-void set_up(EigenSolver& solver, const SolidOperators& operators, const unsigned int n_modes) {
-  const Mat stiffness = *operators.clamped_stiffness, mass = *operators.clamped_mass;
-  check_petsc(MatSetOption(stiffness, MAT_SPD, PETSC_TRUE), "MatSetOption");
-  check_petsc(MatSetOption(mass, MAT_SYMMETRIC, PETSC_TRUE), "MatSetOption");
-  check_petsc(EPSCreate(operators.stiffness->get_mpi_communicator(), &solver.eps), "EPSCreate");
-  check_petsc(EPSSetOperators(solver.eps, stiffness, mass), "EPSSetOperators");
-  check_petsc(EPSSetProblemType(solver.eps, EPS_GHEP), "EPSSetProblemType");
-  check_petsc(EPSSetType(solver.eps, EPSKRYLOVSCHUR), "EPSSetType");
-  check_petsc(EPSSetWhichEigenpairs(solver.eps, EPS_TARGET_MAGNITUDE), "EPSSetWhichEigenpairs");
-  check_petsc(EPSSetTarget(solver.eps, 0.), "EPSSetTarget");
-  check_petsc(
-      EPSSetDimensions(solver.eps, static_cast<PetscInt>(n_modes), PETSC_DEFAULT, PETSC_DEFAULT),
-      "EPSSetDimensions");
-  check_petsc(EPSSetTolerances(solver.eps, 1e-10, PETSC_DEFAULT), "EPSSetTolerances");
-
-  ST transform = nullptr;
-  KSP linear = nullptr;
-  check_petsc(EPSGetST(solver.eps, &transform), "EPSGetST");
-  check_petsc(STSetType(transform, STSINVERT), "STSetType");
-  check_petsc(STGetKSP(transform, &linear), "STGetKSP");
-  use_mumps_cholesky(linear);
-  check_petsc(KSPSetOperators(linear, stiffness, stiffness), "KSPSetOperators");
-  order_with_metis(linear);
-  check_petsc(EPSSetUp(solver.eps), "EPSSetUp");
-  check_factors(linear);
-}
-
-// Without a projection on the free unknowns the semi-definite mass leaves parts of the start vector
-// in the clamp, which the first inverse iteration removes.
-Mode read_mode(const EigenSolver& solver, const PetscInt index, const SolidSpace& space) {
-  Mode mode;
-  mode.shape = space.make_vector();
-  PetscScalar eigenvalue = 0.;
-  const Vec raw = mode.shape;
-  check_petsc(EPSGetEigenpair(solver.eps, index, &eigenvalue, nullptr, raw, nullptr),
-              "EPSGetEigenpair");
-  zero_entries(mode.shape, space.clamped());
-  mode.frequency_hz = std::sqrt(eigenvalue) / (2. * dealii::numbers::PI);
-  return mode;
-}
 
 double participation_along(const Mode& mode, const std::array<double, 3>& direction) {
   return mode.participation[0] * direction[0] + mode.participation[1] * direction[1] +
@@ -117,22 +70,20 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
                               const unsigned int n_modes,
                               const std::array<double, 3>& axial_direction) {
   if (n_modes == 0) throw signals::UserError("the number of modes must be at least 1");
-  EigenSolver solver;
+  const CholeskySolver stiffness(*operators.clamped_stiffness);
   // One more, so that the last one asked for is not torn from its pair.
-  set_up(solver, operators, n_modes + 1);
-  check_petsc(EPSSolve(solver.eps), "EPSSolve");
-  PetscInt n_converged = 0;
-  check_petsc(EPSGetConverged(solver.eps, &n_converged), "EPSGetConverged");
-  if (n_converged < static_cast<PetscInt>(n_modes)) {
-    throw signals::UserError("only " + std::to_string(n_converged) + " of " +
+  const auto pairs = smallest_eigenpairs(stiffness, *operators.clamped_mass, n_modes + 1);
+  if (pairs.size() < n_modes) {
+    throw signals::UserError("the mesh has only " + std::to_string(pairs.size()) + " of the " +
                              std::to_string(n_modes) +
-                             " modes converged; ask for fewer modes or refine the mesh");
+                             " modes asked for; ask for fewer or refine the mesh");
   }
   std::vector<Mode> modes;
-  const PetscInt n_read = std::min<PetscInt>(n_converged, n_modes + 1);
-  for (PetscInt i = 0; i < n_read; ++i) {
-    modes.push_back(read_mode(solver, i, space));
-    normalise_and_measure(modes.back(), space, operators);
+  for (const auto& pair : pairs) {
+    auto& mode = modes.emplace_back();
+    mode.frequency_hz = std::sqrt(pair.eigenvalue) / (2. * dealii::numbers::PI);
+    mode.shape = pair.vector;
+    normalise_and_measure(mode, space, operators);
   }
   std::sort(modes.begin(), modes.end(),
             [](const Mode& a, const Mode& b) { return a.frequency_hz < b.frequency_hz; });

@@ -20,7 +20,7 @@ struct Mode {
   std::array<double, 3> effective_mass_kg() const;
 };
 
-/// The lowest modes by shift-invert Krylov-Schur about zero (SLEPc, MUMPS Cholesky), ascending.
+/// The lowest modes by block Lanczos about zero, ascending.
 /// Pairs of equal frequency (within 1e-4) are turned so that the second has no participation along
 /// axial_direction; signs are such that the largest participation is positive. Throws UserError
 /// when n_modes is zero or not all converge.

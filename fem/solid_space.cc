@@ -1,6 +1,5 @@
 #include "fem/solid_space.h"
 
-#include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
 
 #include <map>
@@ -13,7 +12,6 @@ namespace vibrissa::fem {
 SolidSpace::SolidSpace(const dealii::Triangulation<3>& mesh)
     : mapping_(degree), scalar_element_(degree), element_(scalar_element_, 3), dofs_(mesh) {
   dofs_.distribute_dofs(element_);
-  dealii::DoFRenumbering::Cuthill_McKee(dofs_);
   dealii::DoFTools::extract_locally_relevant_dofs(dofs_, relevant_);
   for (unsigned int i = 0; i < dofs_per_cell; ++i) {
     const auto [component, node] = element_.system_to_component_index(i);
