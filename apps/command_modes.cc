@@ -60,7 +60,7 @@ void show_modes(const ModesOptions& options) {
   nlohmann::json document = modes_json(sensor);
   const bool refined = options.convergence && !parameters.sensor.model.mesh_file;
   const unsigned int own = parameters.sensor.model.mesh_resolution;
-  const unsigned int first = options.first_resolution.value_or(own > 1 ? own - 1 : 1);
+  const unsigned int first = options.first_resolution.value_or(own);
   if (refined) document["convergence"] = convergence_json(refine(sensor, first));
   const auto& note = parameters.sensor.model.calibration_note;
   if (note) document["calibration_note"] = *note;
@@ -86,7 +86,7 @@ void add_modes_command(CLI::App& app) {
   command
       ->add_option("--refine-from", options->first_resolution,
                    "Resolution of the first of the three meshes of the refinement table "
-                   "(default: one below the case's)")
+                   "(default: the case's)")
       ->check(CLI::Range(1, 6));
   add_common_options(*command, options->common);
   command->callback([options] { show_modes(*options); });
