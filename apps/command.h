@@ -28,6 +28,7 @@ void add_draw_command(CLI::App& app);
 void add_identify_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_modes_command(CLI::App& app);
+void add_reproduce_command(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_separate_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);

@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   vibrissa::apps::add_bode_command(app);
   vibrissa::apps::add_identify_command(app);
   vibrissa::apps::add_separate_command(app);
+  vibrissa::apps::add_reproduce_command(app);
   vibrissa::apps::add_draw_command(app);
   try {
     app.parse(argc, argv);

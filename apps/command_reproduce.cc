@@ -1,0 +1,99 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/command.h"
+#include "apps/paper_figures.h"
+#include "apps/paper_numbers.h"
+#include "report/pictures.h"
+#include "report/run_folder.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReproduceOptions {
+  CommonOptions common;
+  std::string flow_case = "cases/flow_sensor.prm", whisker_case = "cases/whisker_sensor.prm";
+  std::optional<std::string> folder;
+};
+
+Reproduction reproduce_paper(const ReproduceOptions& options, const bool show_progress) {
+  auto sensors = make_paper_sensors(options.flow_case, options.whisker_case, show_progress);
+  auto simulation = simulate_paper_simulation(sensors);
+  auto experiment = simulate_paper_experiment(sensors);
+  auto readings = compare_fdaf_readings(sensors, experiment);
+  const double whisker_fit = whisker_fit_percent(sensors);
+  return {std::move(sensors), std::move(simulation), std::move(experiment), whisker_fit,
+          std::move(readings)};
+}
+
+void write_figures(const fs::path& folder, const Reproduction& result) {
+  for (const auto& figure :
+       {step_responses(result.sensors.wire), steady_responses(result.sensors),
+        base_responses(result.sensors),
+        estimates(result.simulation, "figure_10_simulation",
+                  "Simulation: wind moment, true and separated"),
+        estimates(result.experiment, "figure_11_experiment",
+                  "Simulated experiment: wind moment, true and separated"),
+        experiment_spectra(result.experiment)}) {
+    report::write_figure(folder, figure);
+  }
+}
+
+std::string report_text(const Reproduction& result) {
+  return "The paper's numbers\n\n" + numbers_table(paper_numbers(result)).to_markdown() +
+         "\nThe \"experiment\" is simulated with the built sensor's published figures and noise.\n" +
+         "\nSettings of the adaptive filter, tried on the simulated experiment\n\n" +
+         readings_table(result.readings).to_markdown() + "\n" + explain(result.readings) + "\n" +
+         "\nSimulation\n\n" + separation_table(result.simulation.separated).to_markdown() +
+         "\nSimulated experiment\n\n" +
+         separation_table(result.experiment.separated).to_markdown() + "\n" + metric_notes(2.) +
+         "\n";
+}
+
+void reproduce(const ReproduceOptions& options) {
+  const bool quiet = options.common.quiet || options.common.json;
+  const Reproduction result = reproduce_paper(options, !quiet);
+  const report::RunFolder folder = options.folder
+                                       ? report::RunFolder(*options.folder)
+                                       : report::RunFolder::first_free(fs::path("runs/reproduce"));
+  folder.write_run({given_command_line(), {}, {}});
+  const std::string text = report_text(result);
+  folder.write_text("reproduction.md", text);
+  folder.write_text("numbers.csv", numbers_table(paper_numbers(result)).to_csv());
+  folder.write_text("fdaf_readings.csv", readings_table(result.readings).to_csv());
+  write_figures(folder.path(), result);
+  nlohmann::json document = reproduction_json(result);
+  document["folder"] = folder.path().string();
+  folder.write_json("summary.json", document);
+  const auto pictures = report::draw_pictures(folder.path());
+  if (options.common.json) {
+    print_json(document);
+    return;
+  }
+  std::cout << text << "\n" << pictures.message << "\nResults: " << folder.path().string() << "\n";
+}
+
+}  // namespace
+
+void add_reproduce_command(CLI::App& app) {
+  const auto options = std::make_shared<ReproduceOptions>();
+  auto* command = app.add_subcommand(
+      "reproduce",
+      "The reference paper's figures 7 to 12 and numbers beside ours, into a new results folder");
+  command->add_option("--flow-case", options->flow_case, "Case of the flow sensor")
+      ->capture_default_str();
+  command->add_option("--whisker-case", options->whisker_case, "Case of the whisker sensor")
+      ->capture_default_str();
+  command->add_option("-o,--output", options->folder,
+                      "Results folder; must be new or empty (default: runs/reproduce)");
+  add_common_options(*command, options->common);
+  command->callback([options] { reproduce(*options); });
+}
+
+}  // namespace vibrissa::apps

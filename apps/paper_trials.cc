@@ -1,0 +1,201 @@
+#include "apps/paper_trials.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "flow/wind.h"
+#include "separation/bvrm_separator.h"
+#include "separation/fdaf.h"
+#include "separation/identify_frequency.h"
+#include "separation/metrics.h"
+#include "separation/simulation.h"
+#include "signals/multisine.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+constexpr double g = 9.80665;
+constexpr double settling_s = 2.;
+constexpr double period_s = 1.;
+
+Case rig_case(const double rate_hz, const double duration_s) {
+  Case parameters;
+  parameters.records.sampling_rate_hz = rate_hz;
+  parameters.records.duration_s = duration_s;
+  return parameters;
+}
+
+std::vector<double> turbulent_wind(const Case& parameters, const double length_scale_m) {
+  flow::WindParameters wind;
+  wind.kind = flow::WindKind::turbulent;
+  wind.mean_speed = 2.;
+  wind.turbulence_intensity = 0.25;
+  wind.length_scale = length_scale_m;
+  const auto& records = parameters.records;
+  return flow::make_wind(wind, records.sampling_rate_hz, records.n_samples(), records.seed);
+}
+
+std::vector<double> multisine(const Case& parameters, const std::vector<double>& lines_hz,
+                              const double peak_m_s2, const signals::MultisinePhase phase) {
+  const auto& records = parameters.records;
+  return signals::make_multisine(lines_hz, peak_m_s2, phase)
+      .sample(records.sampling_rate_hz, records.n_samples());
+}
+
+// Ten lines on whole periods of one second, spread over the band, one beside the resonance.
+std::vector<double> simulation_lines() {
+  return signals::multisine_lines(1., 200., 10, 1. / period_s);
+}
+
+separation::Identification identify_in_time(const signals::Record& record) {
+  const std::size_t n_fit = 2 * record.n_samples() / 3;
+  separation::IdentifyOptions options;
+  options.hold = separation::Hold::first_order;  // as the rig interpolates its input
+  return separation::identify_bvrm(record.slice(0, n_fit),
+                                   record.slice(n_fit, record.n_samples() - n_fit), options);
+}
+
+// One mode and a direct term from the lines of whole periods; the last third is held out.
+separation::Identification identify_from_periods(const signals::Record& record) {
+  const double rate = record.sampling_rate_hz();
+  const auto period = static_cast<std::size_t>(period_s * rate);
+  const std::size_t n_fit = 2 * record.n_samples() / 3 / period * period;
+  const auto fit = record.slice(period, n_fit - period);  // the first period still settles
+  separation::FrequencyFitOptions options;
+  options.sampling = separation::Sampling{rate, separation::Hold::first_order};
+  separation::Identification identified;
+  identified.hold = separation::Hold::first_order;
+  identified.order = options.order;
+  identified.fit = separation::identify_frequency(
+      signals::periodic_response(fit.channel(signals::channel::base_acceleration),
+                                 fit.channel(signals::channel::base_moment), rate, period),
+      options);
+  const auto held_out = record.slice(n_fit, record.n_samples() - n_fit);
+  const auto moment = held_out.channel(signals::channel::base_moment);
+  identified.held_out_fit_percent = separation::fit_percent(
+      moment, separation::simulate_like(identified.fit.model,
+                                        held_out.channel(signals::channel::base_acceleration),
+                                        moment, rate, identified.hold));
+  return identified;
+}
+
+std::optional<double> convergence_s(const std::vector<double>& estimate,
+                                    const std::vector<double>& truth, const double rate_hz) {
+  std::vector<double> error(truth.size());
+  std::transform(truth.begin(), truth.end(), estimate.begin(), error.begin(), std::minus<>());
+  return separation::convergence_time_s(error, rate_hz);
+}
+
+double left_early_db(const std::vector<double>& estimate, const RigRecords& records) {
+  const double rate = records.both.sampling_rate_hz();
+  double left = 0., vibration = 0.;
+  for (auto i = static_cast<std::size_t>(0.25 * rate); i < static_cast<std::size_t>(0.5 * rate);
+       ++i) {
+    left += std::pow(estimate[i] - records.true_wind_moment_n_m[i], 2);
+    vibration += std::pow(records.true_vibration_moment_n_m[i], 2);
+  }
+  return 10. * std::log10(left / vibration);
+}
+
+PaperTrial separate(RigRecords records, separation::Identification identified,
+                    const separation::FdafOptions& fdaf_options) {
+  const auto& record = records.both;
+  const double rate = record.sampling_rate_hz();
+  separation::BvrmSeparator bvrm(identified.fit.model, rate, identified.hold);
+  separation::Fdaf fdaf(fdaf_options);
+  const auto scored = [&](separation::Separator& method) {
+    return score(method.name(), separation::separate_record(method, record), record,
+                 records.true_wind_moment_n_m, settling_s);
+  };
+  const auto measured = record.channel(signals::channel::base_moment);
+  std::vector<SeparatedSignal> separated = {
+      scored(bvrm), scored(fdaf),
+      score("nothing removed", {measured.begin(), measured.end()}, record,
+            records.true_wind_moment_n_m, settling_s)};
+  const auto convergence =
+      convergence_s(separated[1].wind_moment_n_m, records.true_wind_moment_n_m, rate);
+  const double early_db = left_early_db(separated[1].wind_moment_n_m, records);
+  return {std::move(records), std::move(identified), std::move(separated), convergence, early_db};
+}
+
+RigRecords simulation_records(const signals::ReducedModel& model) {
+  const Case parameters = rig_case(1000., 21.);
+  return measure_on_rig(model, parameters,
+                        {multisine(parameters, simulation_lines(), 1.5 * g,
+                                   signals::MultisinePhase::schroeder),
+                         turbulent_wind(parameters, 0.1)});
+}
+
+// Energy beyond so many taps of the sensor's response to one sample of acceleration.
+double missing_energy(const signals::ReducedModel& model, const double rate_hz,
+                      const std::size_t n_taps) {
+  std::vector<double> impulse(4096, 0.);
+  impulse[1] = 1.;
+  const auto response = signals::simulate(model, {rate_hz, impulse.size(), impulse}).base_moment;
+  const auto energy = [](const auto begin, const auto end) {
+    double sum = 0.;
+    for (auto i = begin; i != end; ++i) sum += *i * *i;
+    return sum;
+  };
+  const auto cut = response.begin() + static_cast<std::ptrdiff_t>(std::min(n_taps, impulse.size()));
+  return energy(cut, response.end()) / energy(response.begin(), response.end());
+}
+
+}  // namespace
+
+PaperTrial simulate_paper_simulation(const PaperSensors& sensors) {
+  auto records = simulation_records(sensors.flow);
+  auto identified = identify_in_time(records.vibration_only);
+  return separate(std::move(records), std::move(identified), separation::paper_simulation_fdaf());
+}
+
+double whisker_fit_percent(const PaperSensors& sensors) {
+  return identify_in_time(simulation_records(sensors.whisker).vibration_only).held_out_fit_percent;
+}
+
+PaperTrial simulate_paper_experiment(const PaperSensors& sensors) {
+  Case parameters = rig_case(500., 60.);
+  parameters.records.accelerometer_noise_m_s2 = 0.008 * g;
+  parameters.records.moment_noise_n_m = 1e-6;  // 5.43 uT
+  const std::vector<double> lines_hz = {12., 15., 19., 23., 26., 29.};
+  // n S(n) of von Karman's density is largest at n L / U = 0.146: this scale puts it at 1.6 Hz.
+  constexpr double length_scale_m = 0.146 * 2. / 1.6;
+  auto records = measure_on_rig(
+      sensors.built, parameters,
+      {multisine(parameters, lines_hz, 0.4 * g, signals::MultisinePhase::ascending),
+       turbulent_wind(parameters, length_scale_m)});
+  auto identified = identify_from_periods(records.vibration_only);
+  return separate(std::move(records), std::move(identified), separation::paper_experiment_fdaf());
+}
+
+std::vector<FdafReading> compare_fdaf_readings(const PaperSensors& sensors,
+                                               const PaperTrial& experiment) {
+  const auto& record = experiment.records.both;
+  const auto& truth = experiment.records.true_wind_moment_n_m;
+  const double rate = record.sampling_rate_hz();
+  std::vector<FdafReading> readings;
+  const auto add = [&](const std::string& name, const separation::FdafOptions& options) {
+    separation::Fdaf fdaf(options);
+    const auto scored =
+        score(name, separation::separate_record(fdaf, record), record, truth, settling_s);
+    readings.push_back({name, options.block_length, fdaf.n_taps(), options.step.step,
+                        *scored.sdr_db, *experiment.separated[2].sdr_db,
+                        convergence_s(scored.wind_moment_n_m, truth, rate),
+                        static_cast<double>(options.block_length) / (options.step.step * rate),
+                        missing_energy(sensors.built, rate, fdaf.n_taps())});
+  };
+  auto options = separation::paper_experiment_fdaf();
+  add("L = 200 the block, ring-down held", options);
+  options.filter_length = 200;
+  add("L = 200 block and filter", options);
+  options = separation::paper_simulation_fdaf();
+  add("L = 20 the block, ring-down held", options);
+  options.filter_length = 20;
+  add("L = 20 block and filter", options);
+  return readings;
+}
+
+}  // namespace vibrissa::apps
