@@ -33,21 +33,21 @@ Reproduction reproduce_paper(const ReproduceOptions& options, const bool show_pr
 }
 
 void write_figures(const fs::path& folder, const Reproduction& result) {
-  for (const auto& figure :
-       {step_responses(result.sensors.wire), steady_responses(result.sensors),
-        base_responses(result.sensors),
-        estimates(result.simulation, "figure_10_simulation",
-                  "Simulation: wind moment, true and separated"),
-        estimates(result.experiment, "figure_11_experiment",
-                  "Simulated experiment: wind moment, true and separated"),
-        experiment_spectra(result.experiment)}) {
+  for (const auto& figure : {step_responses(result.sensors.wire), steady_responses(result.sensors),
+                             base_responses(result.sensors),
+                             estimates(result.simulation, "figure_10_simulation",
+                                       "Simulation: wind moment, true and separated"),
+                             estimates(result.experiment, "figure_11_experiment",
+                                       "Simulated experiment: wind moment, true and separated"),
+                             experiment_spectra(result.experiment)}) {
     report::write_figure(folder, figure);
   }
 }
 
 std::string report_text(const Reproduction& result) {
   return "The paper's numbers\n\n" + numbers_table(paper_numbers(result)).to_markdown() +
-         "\nThe \"experiment\" is simulated with the built sensor's published figures and noise.\n" +
+         "\nThe \"experiment\" is simulated with the built sensor's published figures and "
+         "noise.\n" +
          "\nSettings of the adaptive filter, tried on the simulated experiment\n\n" +
          readings_table(result.readings).to_markdown() + "\n" + explain(result.readings) + "\n" +
          "\nSimulation\n\n" + separation_table(result.simulation.separated).to_markdown() +

@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   vibrissa::apps::add_identify_command(app);
   vibrissa::apps::add_separate_command(app);
   vibrissa::apps::add_reproduce_command(app);
+  vibrissa::apps::add_benchmark_command(app);
   vibrissa::apps::add_draw_command(app);
   try {
     app.parse(argc, argv);

@@ -13,7 +13,9 @@ namespace {
 constexpr double g = 9.80665;
 constexpr double mn_mm = 1e-6;  // N m
 
-std::string text(const double value) { return report::Cell(value).rounded(3); }
+std::string text(const double value) {
+  return report::Cell(value).rounded(3);
+}
 
 std::vector<double> logarithmic(const double low, const double high, const std::size_t n) {
   std::vector<double> values;

@@ -10,8 +10,12 @@ namespace vibrissa::apps {
 
 namespace {
 
-const SeparatedSignal& bvrm(const PaperTrial& trial) { return trial.separated[0]; }
-const SeparatedSignal& fdaf(const PaperTrial& trial) { return trial.separated[1]; }
+const SeparatedSignal& bvrm(const PaperTrial& trial) {
+  return trial.separated[0];
+}
+const SeparatedSignal& fdaf(const PaperTrial& trial) {
+  return trial.separated[1];
+}
 
 nlohmann::json json_or_null(const std::optional<double>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json();
@@ -26,7 +30,8 @@ std::string rounded(const double value, const int n_digits = 3) {
 }
 
 std::vector<PaperNumber> resonances(const Reproduction& r) {
-  const std::string calibrated = "free length chosen for it, so no prediction (geometry unpublished)";
+  const std::string calibrated =
+      "free length chosen for it, so no prediction (geometry unpublished)";
   return {{"resonance, simulated flow sensor", "Hz", 37.32, r.sensors.flow.modes[0].frequency_hz,
            calibrated},
           {"resonance, simulated whisker sensor", "Hz", 27.20,
@@ -85,18 +90,26 @@ std::vector<PaperNumber> paper_numbers(const Reproduction& r) {
 }
 
 report::Table numbers_table(const std::vector<PaperNumber>& numbers) {
-  report::Table table({{"number", ""}, {"paper said", ""}, {"we get", ""}, {"unit", ""},
+  report::Table table({{"number", ""},
+                       {"paper said", ""},
+                       {"we get", ""},
+                       {"unit", ""},
                        {"why they differ or agree", ""}});
   for (const auto& n : numbers) {
-    table.add_row(
-        {n.what, cell_or_nothing(n.paper), cell_or_nothing(n.ours), n.unit, n.why});
+    table.add_row({n.what, cell_or_nothing(n.paper), cell_or_nothing(n.ours), n.unit, n.why});
   }
   return table;
 }
 
 report::Table readings_table(const std::vector<FdafReading>& readings) {
-  report::Table table({{"reading of L", ""}, {"block", ""}, {"filter", ""}, {"mu", ""},
-                       {"1 / mu", "s", 3}, {"SDR", "dB"}, {"convergence", "s"}, {"response left out", "%", 3}});
+  report::Table table({{"reading of L", ""},
+                       {"block", ""},
+                       {"filter", ""},
+                       {"mu", ""},
+                       {"1 / mu", "s", 3},
+                       {"SDR", "dB"},
+                       {"convergence", "s"},
+                       {"response left out", "%", 3}});
   for (const auto& r : readings) {
     table.add_row({r.name, r.block_length, r.filter_length, r.step, r.learning_time_s, r.sdr_db,
                    cell_or_nothing(r.convergence_s), 100. * r.missing_energy});
@@ -109,8 +122,8 @@ std::string explain(const std::vector<FdafReading>& readings) {
       readings.begin(), readings.end(),
       [](const FdafReading& a, const FdafReading& b) { return a.sdr_db < b.sdr_db; });
   std::string text = "Best: \"" + best->name + "\", " + rounded(best->sdr_db) + " dB; worst: \"" +
-                     worst->name + "\", " + rounded(worst->sdr_db) + " dB; nothing removed: " +
-                     rounded(best->nothing_removed_sdr_db) + " dB. ";
+                     worst->name + "\", " + rounded(worst->sdr_db) +
+                     " dB; nothing removed: " + rounded(best->nothing_removed_sdr_db) + " dB. ";
   for (const auto& r : readings) {
     if (r.missing_energy > 0.01) {
       text += "\"" + r.name + "\" leaves out " + rounded(100. * r.missing_energy) +
@@ -119,7 +132,8 @@ std::string explain(const std::vector<FdafReading>& readings) {
               " ms after the cause. ";
     }
     if (!r.convergence_s) {
-      text += "\"" + r.name + "\" has not settled by three quarters of the record: 1 / mu blocks are " +
+      text += "\"" + r.name +
+              "\" has not settled by three quarters of the record: 1 / mu blocks are " +
               rounded(r.learning_time_s) + " s. ";
     }
   }

@@ -34,8 +34,8 @@ signals::Beam free_wire(const fem::SensorParameters& whisker) {
   const double radius = 0.5 * whisker.geometry.wire_diameter;
   const double area = std::numbers::pi * radius * radius;
   const auto& wire = whisker.materials.wire;
-  return {whisker.geometry.free_length, wire.youngs_modulus_at_rest() * 0.25 * area * radius * radius,
-          wire.density * area, 0.05};
+  return {whisker.geometry.free_length,
+          wire.youngs_modulus_at_rest() * 0.25 * area * radius * radius, wire.density * area, 0.05};
 }
 
 }  // namespace

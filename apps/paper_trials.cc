@@ -121,14 +121,6 @@ PaperTrial separate(RigRecords records, separation::Identification identified,
   return {std::move(records), std::move(identified), std::move(separated), convergence, early_db};
 }
 
-RigRecords simulation_records(const signals::ReducedModel& model) {
-  const Case parameters = rig_case(1000., 21.);
-  return measure_on_rig(model, parameters,
-                        {multisine(parameters, simulation_lines(), 1.5 * g,
-                                   signals::MultisinePhase::schroeder),
-                         turbulent_wind(parameters, 0.1)});
-}
-
 // Energy beyond so many taps of the sensor's response to one sample of acceleration.
 double missing_energy(const signals::ReducedModel& model, const double rate_hz,
                       const std::size_t n_taps) {
@@ -146,14 +138,23 @@ double missing_energy(const signals::ReducedModel& model, const double rate_hz,
 
 }  // namespace
 
+RigRecords paper_simulation_records(const signals::ReducedModel& model) {
+  const Case parameters = rig_case(1000., 21.);
+  return measure_on_rig(
+      model, parameters,
+      {multisine(parameters, simulation_lines(), 1.5 * g, signals::MultisinePhase::schroeder),
+       turbulent_wind(parameters, 0.1)});
+}
+
 PaperTrial simulate_paper_simulation(const PaperSensors& sensors) {
-  auto records = simulation_records(sensors.flow);
+  auto records = paper_simulation_records(sensors.flow);
   auto identified = identify_in_time(records.vibration_only);
   return separate(std::move(records), std::move(identified), separation::paper_simulation_fdaf());
 }
 
 double whisker_fit_percent(const PaperSensors& sensors) {
-  return identify_in_time(simulation_records(sensors.whisker).vibration_only).held_out_fit_percent;
+  return identify_in_time(paper_simulation_records(sensors.whisker).vibration_only)
+      .held_out_fit_percent;
 }
 
 PaperTrial simulate_paper_experiment(const PaperSensors& sensors) {
@@ -163,10 +164,10 @@ PaperTrial simulate_paper_experiment(const PaperSensors& sensors) {
   const std::vector<double> lines_hz = {12., 15., 19., 23., 26., 29.};
   // n S(n) of von Karman's density is largest at n L / U = 0.146: this scale puts it at 1.6 Hz.
   constexpr double length_scale_m = 0.146 * 2. / 1.6;
-  auto records = measure_on_rig(
-      sensors.built, parameters,
-      {multisine(parameters, lines_hz, 0.4 * g, signals::MultisinePhase::ascending),
-       turbulent_wind(parameters, length_scale_m)});
+  auto records =
+      measure_on_rig(sensors.built, parameters,
+                     {multisine(parameters, lines_hz, 0.4 * g, signals::MultisinePhase::ascending),
+                      turbulent_wind(parameters, length_scale_m)});
   auto identified = identify_from_periods(records.vibration_only);
   return separate(std::move(records), std::move(identified), separation::paper_experiment_fdaf());
 }

@@ -21,6 +21,9 @@ struct PaperTrial {
   double fdaf_left_early_db = 0.;
 };
 
+/// The records of the paper's simulation with this sensor: 1 kHz, no noise, 21 s.
+RigRecords paper_simulation_records(const signals::ReducedModel& model);
+
 /// Figure 10: the simulated flow sensor at 1 kHz without noise, ten lines within 1 .. 200 Hz up to
 /// 1.5 g, turbulent wind up to 4 m/s; FDAF with L = 20, mu = 0.1.
 PaperTrial simulate_paper_simulation(const PaperSensors& sensors);

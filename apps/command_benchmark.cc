@@ -1,0 +1,115 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/command.h"
+#include "apps/paper_sensors.h"
+#include "apps/record_options.h"
+#include "apps/separation_suite.h"
+#include "report/pictures.h"
+#include "report/run_folder.h"
+#include "signals/progress.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SuiteOptions {
+  CommonOptions common;
+  std::string flow_case = "cases/flow_sensor.prm", whisker_case = "cases/whisker_sensor.prm";
+  std::string recordings;
+  std::vector<std::string> datasets;
+  RecordOptions record;
+  std::optional<std::string> truth_column, folder;
+};
+
+Scenario dataset_scenario(const SuiteOptions& options, const std::string& file) {
+  Scenario scenario{fs::path(file).filename(), "given record", options.record.read(file), {}, {}};
+  if (options.truth_column) {
+    scenario.true_wind_moment_n_m = options.record.read_column(file, *options.truth_column);
+  }
+  return scenario;
+}
+
+std::vector<Scenario> scenarios_of(const SuiteOptions& options, const bool show_progress,
+                                   std::vector<std::string>& left_out) {
+  auto sensors = make_paper_sensors(options.flow_case, options.whisker_case, show_progress);
+  ScenarioRig rig;
+  rig.sensor = std::move(sensors.built);
+  rig.simulated_sensor = std::move(sensors.flow);
+  rig.recordings = options.recordings;
+  auto scenarios = make_scenarios(rig, left_out);
+  for (const auto& file : options.datasets) scenarios.push_back(dataset_scenario(options, file));
+  return scenarios;
+}
+
+std::string report_text(const std::vector<ScenarioResult>& results,
+                        const std::vector<std::string>& left_out) {
+  std::string text = sdr_table(results).to_markdown() + "\n" + suite_table(results).to_markdown() +
+                     "\n" + metric_notes(2.) + "\n";
+  for (const auto& line : left_out) text += "Left out: " + line + "\n";
+  return text;
+}
+
+void benchmark_separation(const SuiteOptions& options) {
+  const bool quiet = options.common.quiet || options.common.json;
+  std::vector<std::string> left_out;
+  const auto scenarios = scenarios_of(options, !quiet, left_out);
+  const report::RunFolder folder =
+      options.folder ? report::RunFolder(*options.folder)
+                     : report::RunFolder::first_free(fs::path("runs/benchmark_separation"));
+  folder.write_run({given_command_line(), {}, {}});
+  signals::Progress progress("scenarios", scenarios.size(), !quiet);
+  std::vector<ScenarioResult> results;
+  for (const auto& scenario : scenarios) {
+    results.push_back(separate_by_all(scenario));
+    progress.advance();
+  }
+  nlohmann::json document = suite_json(results);
+  document["left_out"] = left_out;
+  document["folder"] = folder.path().string();
+  folder.write_text("separation.md", report_text(results, left_out));
+  folder.write_text("separation.csv", suite_table(results).to_csv());
+  folder.write_json("summary.json", document);
+  report::write_figure(folder.path(), suite_figure(results));
+  const auto pictures = report::draw_pictures(folder.path());
+  if (options.common.json) {
+    print_json(document);
+    return;
+  }
+  std::cout << sdr_table(results).to_text();
+  for (const auto& line : left_out) std::cout << "Left out: " << line << "\n";
+  std::cout << pictures.message << "\nAll metrics: " << folder.path().string()
+            << "/separation.md\n";
+}
+
+}  // namespace
+
+void add_benchmark_command(CLI::App& app) {
+  const auto options = std::make_shared<SuiteOptions>();
+  auto* benchmark = app.add_subcommand("benchmark", "Compare methods on a suite of scenarios");
+  benchmark->require_subcommand(1);
+  auto* command = benchmark->add_subcommand(
+      "separation", "All separation methods on all scenarios: one table, one picture");
+  command->add_option("--flow-case", options->flow_case, "Case of the flow sensor")
+      ->capture_default_str();
+  command->add_option("--whisker-case", options->whisker_case, "Case of the whisker sensor")
+      ->capture_default_str();
+  command->add_option("--recordings", options->recordings,
+                      "Folder of recorded vibration and wind for the scenarios that need it");
+  command->add_option("--dataset", options->datasets,
+                      "Record file that becomes a scenario of its own (may be repeated)");
+  command->add_option("--truth-column", options->truth_column,
+                      "Column of the datasets that holds the true wind moment [N m]");
+  command->add_option("-o,--output", options->folder,
+                      "Results folder; must be new or empty (default: runs/benchmark_separation)");
+  options->record.add_to(*command);
+  add_common_options(*command, options->common);
+  command->callback([options] { benchmark_separation(*options); });
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,144 @@
+#include "apps/separation_suite.h"
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "separation/bvrm_separator.h"
+#include "separation/fdaf.h"
+#include "separation/identify.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+using signals::Record;
+
+constexpr double settling_s = 2.;
+
+std::vector<double> by_bvrm(const Scenario& scenario) {
+  const Record& record = scenario.vibration_only ? *scenario.vibration_only : scenario.record;
+  const std::size_t n_fit = 2 * record.n_samples() / 3;
+  const auto identified = separation::identify_bvrm(
+      record.slice(0, n_fit), record.slice(n_fit, record.n_samples() - n_fit));
+  separation::BvrmSeparator separator(identified.fit.model, record.sampling_rate_hz(),
+                                      identified.hold);
+  return separation::separate_record(separator, scenario.record);
+}
+
+std::vector<double> by_stream(separation::Separator& separator, const Scenario& scenario) {
+  return separation::separate_record(separator, scenario.record);
+}
+
+std::vector<double> by_nothing(const Scenario& scenario) {
+  const auto measured = scenario.record.channel(signals::channel::base_moment);
+  return {measured.begin(), measured.end()};
+}
+
+struct Method {
+  std::string name;
+  std::function<std::vector<double>(const Scenario&)> separate;
+};
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> list = {
+      {"nothing removed", by_nothing},
+      {"BVRM", by_bvrm},
+      {"FDAF", [](const Scenario& scenario) {
+         separation::Fdaf fdaf(separation::FdafOptions{});
+         return by_stream(fdaf, scenario);
+       }}};
+  return list;
+}
+
+report::Cell cell_or_nothing(const std::optional<double>& value) {
+  return value ? report::Cell(*value) : report::Cell();
+}
+
+}  // namespace
+
+std::size_t n_suite_methods() { return methods().size(); }
+
+ScenarioResult separate_by_all(const Scenario& scenario) {
+  ScenarioResult result{scenario.name,
+                        scenario.about,
+                        scenario.record.sampling_rate_hz(),
+                        scenario.record.duration_s(),
+                        {}};
+  for (const auto& method : methods()) {
+    result.methods.push_back(score(method.name, method.separate(scenario), scenario.record,
+                                   scenario.true_wind_moment_n_m, settling_s));
+  }
+  return result;
+}
+
+report::Table suite_table(const std::vector<ScenarioResult>& results) {
+  report::Table table({{"scenario", ""},
+                       {"method", ""},
+                       {"SDR", "dB"},
+                       {"mean square error", "N\u00b2 m\u00b2", 3},
+                       {"NRMSE", "", 3},
+                       {"wind band power", "dB", 3},
+                       {"DTW", "N m", 3},
+                       {"delay", "ms", 3},
+                       {"paper's ratio", "dB"}});
+  for (const auto& result : results) {
+    for (const auto& m : result.methods) {
+      table.add_row({result.name, m.name, cell_or_nothing(m.sdr_db), cell_or_nothing(m.mse_n2_m2),
+                     cell_or_nothing(m.nrmse), cell_or_nothing(m.band_difference_db),
+                     cell_or_nothing(m.dtw_n_m), cell_or_nothing(m.delay_ms),
+                     cell_or_nothing(m.paper_snr_db)});
+    }
+  }
+  return table;
+}
+
+report::Table sdr_table(const std::vector<ScenarioResult>& results) {
+  std::vector<report::Column> columns = {{"SDR [dB]", ""}};
+  for (const auto& method : methods()) columns.push_back({method.name, "", 3});
+  report::Table table(columns);
+  for (const auto& result : results) {
+    std::vector<report::Cell> row = {result.name};
+    for (const auto& method : result.methods) row.push_back(cell_or_nothing(method.sdr_db));
+    table.add_row(row);
+  }
+  return table;
+}
+
+report::Figure suite_figure(const std::vector<ScenarioResult>& results) {
+  report::Panel panel;
+  panel.x_label = "Scenario (number in the table)";
+  panel.y_label = "SDR [dB]";
+  for (std::size_t k = 0; k < methods().size(); ++k) {
+    report::Curve curve{.label = methods()[k].name, .style = report::CurveStyle::points};
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      curve.x.push_back(static_cast<double>(i + 1));
+      curve.y.push_back(results[i].methods[k].sdr_db.value_or(std::nan("")));
+    }
+    panel.curves.push_back(std::move(curve));
+  }
+  report::Figure figure;
+  figure.name = "separation_suite";
+  figure.title = "Signal to distortion of each method in each scenario";
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    figure.caption += std::to_string(i + 1) + ": " + results[i].name + ", " + results[i].about +
+                      (i + 1 < results.size() ? "; " : ".");
+  }
+  figure.panels = {panel};
+  return figure;
+}
+
+nlohmann::json suite_json(const std::vector<ScenarioResult>& results) {
+  nlohmann::json document{{"scenarios", nlohmann::json::array()}};
+  for (const auto& result : results) {
+    nlohmann::json entry = separation_json(result.methods);
+    entry["name"] = result.name;
+    entry["about"] = result.about;
+    entry["sampling_rate_hz"] = result.sampling_rate_hz;
+    entry["duration_s"] = result.duration_s;
+    document["scenarios"].push_back(entry);
+  }
+  return document;
+}
+
+}  // namespace vibrissa::apps
