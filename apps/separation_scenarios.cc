@@ -35,7 +35,9 @@ Case rig_case(const ScenarioRig& rig, const double noise_m_s2) {
   return parameters;
 }
 
-std::size_t n_samples(const ScenarioRig& rig) { return rig_case(rig, 0.).records.n_samples(); }
+std::size_t n_samples(const ScenarioRig& rig) {
+  return rig_case(rig, 0.).records.n_samples();
+}
 
 std::vector<double> turbulence(const ScenarioRig& rig) {
   flow::WindParameters wind;
@@ -58,8 +60,7 @@ std::vector<double> swept_sine(const ScenarioRig& rig) {
   std::vector<double> a(n_samples(rig));
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double t = std::fmod(static_cast<double>(i) / rate_hz, sweep_s);
-    a[i] = 0.4 * g *
-           std::sin(2. * std::numbers::pi * low_hz * std::expm1(growth * t) / growth);
+    a[i] = 0.4 * g * std::sin(2. * std::numbers::pi * low_hz * std::expm1(growth * t) / growth);
   }
   return a;
 }
@@ -94,7 +95,8 @@ std::vector<Scenario> noisy_references(const ScenarioRig& rig) {
   for (const int snr_db : {0, 10, 20, 30, 40}) {
     scenarios.push_back(measure(rig, "reference at " + std::to_string(snr_db) + " dB",
                                 "accelerometer noise so far below the vibration",
-                                {a, turbulence(rig)}, std::sqrt(power * std::pow(10., -0.1 * snr_db))));
+                                {a, turbulence(rig)},
+                                std::sqrt(power * std::pow(10., -0.1 * snr_db))));
   }
   return scenarios;
 }
@@ -114,9 +116,8 @@ void remove_high_band(signals::Record& record) {
 }
 
 Scenario missing_band(const ScenarioRig& rig) {
-  auto scenario =
-      measure(rig, "missing reference band", "the accelerometer is blind above 40 Hz",
-              {lines(rig, broad_lines_hz, 0.4), turbulence(rig)});
+  auto scenario = measure(rig, "missing reference band", "the accelerometer is blind above 40 Hz",
+                          {lines(rig, broad_lines_hz, 0.4), turbulence(rig)});
   remove_high_band(scenario.record);
   remove_high_band(*scenario.vibration_only);
   return scenario;
@@ -169,11 +170,11 @@ void add_recorded(const ScenarioRig& rig, std::vector<Scenario>& scenarios,
     auto u = load_input(wind, signals::channel::wind_speed, rate_hz, n_samples(short_rig));
     const double highest = *std::max_element(u.begin(), u.end());
     for (double& speed : u) speed *= 4. / highest;
-    scenarios.push_back(measure(
-        short_rig, "bus and tunnel", "recorded vibration of a bus, recorded wind up to 4 m/s",
-        {load_input(recording(rig.recordings / bus, "z_mps2", 500.), base_acceleration, rate_hz,
-                    n_samples(short_rig)),
-         std::move(u)}));
+    scenarios.push_back(measure(short_rig, "bus and tunnel",
+                                "recorded vibration of a bus, recorded wind up to 4 m/s",
+                                {load_input(recording(rig.recordings / bus, "z_mps2", 500.),
+                                            base_acceleration, rate_hz, n_samples(short_rig)),
+                                 std::move(u)}));
   }
   if (is_there(rig, drone, "drone", left_out)) {
     scenarios.push_back(measure(rig, "drone", "recorded vibration of a drone, turbulent wind",

@@ -14,8 +14,8 @@ namespace vibrissa::apps {
 /// A record to separate, with the truth behind it.
 struct Scenario {
   std::string name, about;
-  signals::Record record;                   // with base vibration and stimulus
-  std::vector<double> true_wind_moment_n_m; // empty: unknown
+  signals::Record record;                    // with base vibration and stimulus
+  std::vector<double> true_wind_moment_n_m;  // empty: unknown
   /// A record of the same rig without stimulus, to identify from; nothing: none was made.
   std::optional<signals::Record> vibration_only;
 };

@@ -41,13 +41,12 @@ struct Method {
 };
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> list = {
-      {"nothing removed", by_nothing},
-      {"BVRM", by_bvrm},
-      {"FDAF", [](const Scenario& scenario) {
-         separation::Fdaf fdaf(separation::FdafOptions{});
-         return by_stream(fdaf, scenario);
-       }}};
+  static const std::vector<Method> list = {{"nothing removed", by_nothing},
+                                           {"BVRM", by_bvrm},
+                                           {"FDAF", [](const Scenario& scenario) {
+                                              separation::Fdaf fdaf(separation::FdafOptions{});
+                                              return by_stream(fdaf, scenario);
+                                            }}};
   return list;
 }
 
@@ -57,7 +56,9 @@ report::Cell cell_or_nothing(const std::optional<double>& value) {
 
 }  // namespace
 
-std::size_t n_suite_methods() { return methods().size(); }
+std::size_t n_suite_methods() {
+  return methods().size();
+}
 
 ScenarioResult separate_by_all(const Scenario& scenario) {
   ScenarioResult result{scenario.name,
