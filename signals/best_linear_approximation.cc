@@ -92,8 +92,12 @@ std::vector<DetectedOutput> of_role(const std::vector<DetectedOutput>& all, Line
   return chosen;
 }
 
-// Mean distortion of the n lines nearest to an order; of equally near ones the lower counts first.
-double level_about(const std::vector<DetectedOutput>& lines, std::size_t order, std::size_t n) {
+struct Level {
+  double power = 0., distortion = 0.;
+};
+
+// Mean of the n lines nearest to an order; of equally near ones the lower counts first.
+Level level_about(const std::vector<DetectedOutput>& lines, std::size_t order, std::size_t n) {
   const auto distance = [&](const DetectedOutput& line) {
     return line.order < order ? order - line.order : line.order - order;
   };
@@ -104,9 +108,12 @@ double level_about(const std::vector<DetectedOutput>& lines, std::size_t order, 
     else
       --last;
   }
-  double sum = 0.;
-  for (auto line = first; line != last; ++line) sum += line->power - line->noise_power;
-  return sum / static_cast<double>(n);
+  Level level;
+  for (auto line = first; line != last; ++line) {
+    level.power += line->power / static_cast<double>(n);
+    level.distortion += (line->power - line->noise_power) / static_cast<double>(n);
+  }
+  return level;
 }
 
 std::vector<std::size_t> checked_excited(const PeriodAverage& average, const FastOptions& options) {
@@ -119,8 +126,8 @@ std::vector<std::size_t> checked_excited(const PeriodAverage& average, const Fas
   for (const std::size_t k : excited)
     if (k % 2 == 0)
       throw UserError("fast method: even line " + std::to_string(k) +
-                      " is excited; it needs a random-odd grid (or, for full grids, the robust "
-                      "method)");
+                      " is excited; it needs a random-odd grid (full grids need the robust "
+                      "method). If only noise made it look excited, name the excited lines");
   return excited;
 }
 
@@ -159,10 +166,16 @@ FastApproximation fast_approximation(const PeriodAverage& average, const FastOpt
     const double input_power = std::norm(average.input[k - 1]);
     const double noise = average.residual_variance(k, response);
     result.noise_power.push_back(noise);
-    result.even_power.push_back(level_about(even, k, options.n_averaged));
-    if (!odd.empty()) result.odd_power.push_back(level_about(odd, k, options.n_averaged));
-    const double distortion = odd.empty() ? 0. : std::max(0., result.odd_power.back());
-    const double variance = (noise + distortion) / input_power;
+    result.even_power.push_back(level_about(even, k, options.n_averaged).distortion);
+    // The whole power of the odd detection lines is noise and distortion without bias; noise plus
+    // a distortion that must not be negative would be too much.
+    double error_power = noise;
+    if (!odd.empty()) {
+      const Level level = level_about(odd, k, options.n_averaged);
+      result.odd_power.push_back(level.distortion);
+      error_power = level.power;
+    }
+    const double variance = error_power / input_power;
     result.noise_variance.push_back(noise / input_power);
     result.response.frequency_hz.push_back(average.frequency_hz(k));
     result.response.value.push_back(response);

@@ -110,7 +110,8 @@ class LocalFit {
     const VectorXcd row = r.adjoint().solve(unit);
     point.value = solution[0] / scale_[0];
     point.variance = point.noise * row.squaredNorm() / (scale_[0] * scale_[0]);
-    const double explained = std::norm(point.value) *
+    // Noise adds its variance to the squared magnitude.
+    const double explained = std::max(0., std::norm(point.value) - point.variance) *
                              input.segment(first, window_.width).squaredNorm() /
                              static_cast<double>(window_.width);
     point.coherence = explained > 0. ? explained / (explained + point.noise) : 0.;
