@@ -24,6 +24,16 @@ if(VIBRISSA_NATIVE)
   endif()
 endif()
 
+if(VIBRISSA_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "VIBRISSA_FUZZ needs Clang: add -DCMAKE_CXX_COMPILER=clang++-14")
+  endif()
+  set(VIBRISSA_FUZZ_FLAGS -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined
+                          -fno-sanitize-recover=undefined)
+  add_compile_options(${VIBRISSA_FUZZ_FLAGS} -UNDEBUG)
+  add_link_options(${VIBRISSA_FUZZ_FLAGS})
+endif()
+
 find_program(VIBRISSA_CCACHE ccache)
 if(VIBRISSA_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${VIBRISSA_CCACHE})
