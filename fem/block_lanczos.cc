@@ -12,11 +12,11 @@ namespace vibrissa::fem {
 namespace {
 
 constexpr Eigen::Index block_size = 4;
-constexpr Eigen::Index columns_each = 16;     // the basis may grow to this many for each pair
+constexpr Eigen::Index columns_each = 16;    // the basis may grow to this many for each pair
 constexpr double residual_tolerance = 1e-9;  // relative to the pair's own 1 / lambda
-constexpr double rounding = 1e-15;            // relative to the largest 1 / lambda
-constexpr double lost = 1e-13;        // part of a column's length below which it is rounding
-constexpr double dependence = 1e-13;  // squared part of a scaled column, likewise
+constexpr double rounding = 1e-15;           // relative to the largest 1 / lambda
+constexpr double lost = 1e-13;               // part of a column's length below which it is rounding
+constexpr double dependence = 1e-13;         // squared part of a scaled column, likewise
 
 class Lanczos {
  public:
@@ -43,9 +43,9 @@ class Lanczos {
 
   const CholeskySolver& stiffness_;
   const Matrix& mass_;
-  Columns basis_, mass_basis_;          // V with V^T M V = I, and M V
-  Columns projected_;                   // V^T M K^-1 M V
-  Eigen::Index newest_ = 0;             // columns of the newest block
+  Columns basis_, mass_basis_;                   // V with V^T M V = I, and M V
+  Columns projected_;                            // V^T M K^-1 M V
+  Eigen::Index newest_ = 0;                      // columns of the newest block
   Eigen::SelfAdjointEigenSolver<Columns> ritz_;  // of projected_: 1 / lambda, ascending
 };
 
