@@ -61,6 +61,11 @@ void PartitionedKalman::process_block(std::span<const double> base_acceleration,
   filter_.apply(input_, error_);
   spectrum = error_;
   fft_.inverse();
+  guard_.hear(base_moment.data(), base_moment.size());
+  if (!guard_.accepts(time.data() + n, base_moment.size())) {
+    forget();
+    time.tail(n).setZero();
+  }
   time.tail(n) = Eigen::Map<const Eigen::ArrayXd>(base_moment.data(), n) - time.tail(n);
   time.head(n).setZero();
   const bool teaches = !silent(base_moment) && !silent(base_acceleration);
@@ -93,8 +98,7 @@ void PartitionedKalman::learn() {
   for (std::size_t p = 0; p < input_.n_partitions(); ++p)
     expected_power_ += 0.5 * input_.power(p) * covariance_.col(static_cast<Eigen::Index>(p));
   // Where nothing is heard and nothing expected there is nothing to learn either.
-  const Eigen::ArrayXd share =
-      (expected_power_ > 1e-290).select(expected_power_.inverse(), 0.);
+  const Eigen::ArrayXd share = (expected_power_ > 1e-290).select(expected_power_.inverse(), 0.);
   for (std::size_t p = 0; p < input_.n_partitions(); ++p) {
     const auto j = static_cast<Eigen::Index>(p);
     gain_.col(j) = covariance_.col(j) * share;
@@ -105,6 +109,11 @@ void PartitionedKalman::learn() {
 
 void PartitionedKalman::reset_blocks() {
   input_.clear();
+  guard_.clear();
+  forget();
+}
+
+void PartitionedKalman::forget() {
   filter_.clear();
   covariance_.setZero();
   wind_power_.setZero();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "separation/block_separator.h"
+#include "separation/output_guard.h"
 #include "separation/partitioned_filter.h"
 #include "separation/spectra_buffer.h"
 #include "signals/fft.h"
@@ -33,8 +34,8 @@ struct KalmanOptions {
 /// samples in a transform twice as long. With them C falls as the covariance of least squares does
 /// for white input. The first C is the moment's power over the acceleration's: no units, no floor.
 /// A block without any moment or any acceleration (a gap given as zeros) teaches nothing.
-/// e is M_s_hat; latency block_length - 1. Proven by tests/separation/kalman_filter_test.cc
-/// against the least-squares solution.
+/// e is M_s_hat (see OutputGuard for what it never exceeds); latency block_length - 1. Proven by
+/// tests/separation/kalman_filter_test.cc against the least-squares solution.
 class PartitionedKalman : public BlockSeparator {
  public:
   /// Throws UserError for options out of range, with the option's name.
@@ -50,6 +51,7 @@ class PartitionedKalman : public BlockSeparator {
                      std::span<double> wind_moment) override;
   void reset_blocks() override;
   void learn();
+  void forget();
   /// Sets the prior when there is none yet or the moment is far beyond it.
   void renew_prior(const Eigen::ArrayXd& error_power);
 
@@ -60,6 +62,7 @@ class PartitionedKalman : public BlockSeparator {
   Spectrum error_;
   Eigen::ArrayXXd covariance_, gain_;  // [bin][partition]
   Eigen::ArrayXd wind_power_, expected_power_;
+  OutputGuard guard_;
   double prior_ = 0.;
   bool has_wind_power_ = false;
 };

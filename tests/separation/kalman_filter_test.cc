@@ -27,8 +27,7 @@ TEST(PartitionedKalman, ComesNearTheLeastSquaresLimitOnWhiteAndColouredInput) {
   for (const auto& [memory, within_db] : {std::pair{0., 3.}, std::pair{0.9, 6.}}) {
     const Signal x = test::coloured_noise(n, memory, 1), y = test::convolve(taps, x);
     const Signal d = test::plus_noise(y, test::rms(y) * std::pow(10., -1.5), 3);
-    const double limit_db =
-        test::misalignment_db(test::least_squares_taps(x, d, n_taps), taps);
+    const double limit_db = test::misalignment_db(test::least_squares_taps(x, d, n_taps), taps);
     for (const std::size_t block : {20u, 64u, 200u}) {
       KalmanOptions options;
       options.block_length = block;

@@ -45,8 +45,7 @@ inline Signal least_squares_taps(const Signal& x, const Signal& d, std::size_t n
     target[i] *= std::pow(forgetting, 0.5 * static_cast<double>(n - 1 - i));
   Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(m, m) * ridge;
   normal.selfadjointView<Eigen::Lower>().rankUpdate(lagged);
-  const Eigen::VectorXd taps =
-      normal.selfadjointView<Eigen::Lower>().ldlt().solve(lagged * target);
+  const Eigen::VectorXd taps = normal.selfadjointView<Eigen::Lower>().ldlt().solve(lagged * target);
   return {taps.begin(), taps.end()};
 }
 
