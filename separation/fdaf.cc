@@ -60,6 +60,11 @@ void Fdaf::process_block(std::span<const double> base_acceleration,
   filter_.apply(input_, error_);
   spectrum = error_;
   fft_.inverse();
+  guard_.hear(base_moment.data(), base_moment.size());
+  if (!guard_.accepts(time.data() + n, base_moment.size())) {
+    filter_.clear();
+    time.tail(n).setZero();
+  }
   time.tail(n) = moment - time.tail(n);
   time.head(n).setZero();
   std::ranges::copy(fft_.time().last(wind_moment.size()), wind_moment.begin());
@@ -74,6 +79,7 @@ void Fdaf::reset_blocks() {
   input_.clear();
   filter_.clear();
   step_rule_.clear();
+  guard_.clear();
 }
 
 }  // namespace vibrissa::separation

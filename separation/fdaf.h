@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "separation/block_separator.h"
+#include "separation/output_guard.h"
 #include "separation/partitioned_filter.h"
 #include "separation/spectra_buffer.h"
 #include "separation/step_rule.h"
@@ -34,7 +35,8 @@ FdafOptions paper_experiment_fdaf();
 /// overlap-save with transforms of 2 block_length. For each block
 ///   Y = sum_p X_p W_p,  e = M_r - y (last half),  W_p += conj(X_p) mu E   (constrained, see
 /// Constraint; mu by bin, see StepOptions);
-/// e, the error before the block's own update, is M_s_hat. Latency block_length - 1.
+/// e, the error before the block's own update, is M_s_hat (see OutputGuard for what it never
+/// exceeds). Latency block_length - 1.
 /// Proven by tests/separation/fdaf_test.cc against block LMS in the time domain.
 class Fdaf : public BlockSeparator {
  public:
@@ -58,6 +60,7 @@ class Fdaf : public BlockSeparator {
   SpectraBuffer input_;
   PartitionedFilter filter_;
   StepRule step_rule_;
+  OutputGuard guard_;
   Spectrum error_;
 };
 

@@ -39,20 +39,37 @@ void PartitionedFilter::constrain(signals::RealFft& fft) const {
   fft.forward();
 }
 
-void PartitionedFilter::adapt(const SpectraBuffer& input, const Spectrum& scaled_error,
-                              signals::RealFft& fft) {
+template <typename ErrorOf>
+void PartitionedFilter::adapt_each(const SpectraBuffer& input, const ErrorOf& error_of,
+                                   signals::RealFft& fft) {
   auto work = spectrum_of(fft);
   for (std::size_t p = 0; p < input.n_partitions(); ++p) {
-    auto weight = weights_.col(static_cast<Eigen::Index>(p));
+    const auto j = static_cast<Eigen::Index>(p);
     if (constraint_ == Constraint::constrained) {
-      work = input.spectrum(p).conjugate() * scaled_error;
+      work = input.spectrum(p).conjugate() * error_of(j);
       constrain(fft);
-      weight += work;
+      weights_.col(j) += work;
     } else {
-      weight += input.spectrum(p).conjugate() * scaled_error;
+      weights_.col(j) += input.spectrum(p).conjugate() * error_of(j);
     }
   }
-  if (constraint_ != Constraint::alternating) return;
+  if (constraint_ == Constraint::alternating) constrain_in_turn(fft);
+}
+
+void PartitionedFilter::adapt(const SpectraBuffer& input, const Spectrum& scaled_error,
+                              signals::RealFft& fft) {
+  adapt_each(
+      input, [&](Eigen::Index) -> const Spectrum& { return scaled_error; }, fft);
+}
+
+void PartitionedFilter::adapt(const SpectraBuffer& input, const Spectrum& error,
+                              const Eigen::ArrayXXd& step, signals::RealFft& fft) {
+  adapt_each(
+      input, [&](Eigen::Index p) { return step.col(p) * error; }, fft);
+}
+
+void PartitionedFilter::constrain_in_turn(signals::RealFft& fft) {
+  auto work = spectrum_of(fft);
   work = weights_.col(next_constrained_);
   constrain(fft);
   weights_.col(next_constrained_) = work;

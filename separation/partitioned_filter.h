@@ -29,12 +29,20 @@ class PartitionedFilter {
   void apply(const SpectraBuffer& input, Spectrum& output) const;
   /// W_p += conj(X_p) scaled_error, then the constraint; fft: length 2 block_length.
   void adapt(const SpectraBuffer& input, const Spectrum& scaled_error, signals::RealFft& fft);
+  /// The same with a step for each bin and partition: W_p += conj(X_p) step_p error.
+  void adapt(const SpectraBuffer& input, const Spectrum& error, const Eigen::ArrayXXd& step,
+             signals::RealFft& fft);
+  /// |W_p|^2, [bin][partition].
+  auto power() const { return weights_.abs2(); }
   void scale(double factor) { weights_ *= factor; }
   /// The filter's taps in time.
   std::vector<double> impulse_response(signals::RealFft& fft) const;
 
  private:
   void constrain(signals::RealFft& fft) const;
+  void constrain_in_turn(signals::RealFft& fft);
+  template <typename ErrorOf>
+  void adapt_each(const SpectraBuffer& input, const ErrorOf& error_of, signals::RealFft& fft);
 
   std::size_t block_length_;
   Constraint constraint_;

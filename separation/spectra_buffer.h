@@ -25,6 +25,8 @@ class SpectraBuffer {
   Eigen::Index n_bins() const { return spectra_.rows(); }
   /// 0: the newest.
   auto spectrum(std::size_t partition) const { return spectra_.col(place(partition)); }
+  /// |X_p|^2 by bin.
+  auto power(std::size_t partition) const { return powers_.col(place(partition)); }
   /// Sum over the partitions of |X_p|^2, by bin.
   const Eigen::ArrayXd& power() const { return power_; }
 

@@ -42,8 +42,9 @@ void StepRule::clear() {
 
 const Eigen::ArrayXd& StepRule::update(const Eigen::ArrayXd& power) {
   if (options_.normalisation == StepNormalisation::fixed) return step_;
-  const double lambda = options_.power_forgetting;
-  power_ = power.max(lambda * power_ + (1. - lambda) * power);
+  const double lambda = options_.smoothing == PowerSmoothing::none ? 0. : options_.power_forgetting;
+  power_ = lambda * power_ + (1. - lambda) * power;
+  if (options_.smoothing == PowerSmoothing::guarded) power_ = power.max(power_);
   sum_of_means_ += power.mean();
   n_blocks_ += 1.;
   const double floor = options_.regularisation * sum_of_means_ / n_blocks_;

@@ -14,11 +14,22 @@ enum class StepNormalisation {
   fixed
 };
 
+/// What P the power rule divides by, from the present power p and lambda per block. P <- lambda P +
+/// (1 - lambda) p throughout.
+enum class PowerSmoothing {
+  /// max(p, P): never below p, so that a burst after silence makes no step above mu.
+  guarded,
+  /// P itself (the textbook's rule). A burst after silence makes a step far above mu.
+  mean,
+  /// p itself: no memory; with few partitions it follows the scatter of single spectra.
+  none
+};
+
 struct StepOptions {
   double step = 0.1;  // mu
   StepNormalisation normalisation = StepNormalisation::power;
-  /// lambda of the power rule, per block: P = max(p, lambda P + (1 - lambda) p) with p the present
-  /// power; never below p, so that a burst after silence makes no step above mu.
+  PowerSmoothing smoothing = PowerSmoothing::guarded;
+  /// lambda of the power rule, per block.
   double power_forgetting = 0.9;
   /// Added to P as this share of the mean power over all bins and blocks so far: bins and times
   /// without input hardly learn. Relative, so that units do not matter.

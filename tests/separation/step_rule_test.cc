@@ -33,6 +33,19 @@ TEST(StepRule, ForgetsAPowerAtItsRate) {
   EXPECT_NEAR(1. / rule.update(Eigen::ArrayXd::Constant(1, 10.))[0], 82., 1e-10);
 }
 
+TEST(StepRule, DividesByTheMeanOrThePresentPowerAlone) {
+  StepRule mean({.step = 1.,
+                 .smoothing = PowerSmoothing::mean,
+                 .power_forgetting = 0.75,
+                 .regularisation = 0.},
+                1);
+  mean.update(Eigen::ArrayXd::Constant(1, 4.));  // P = 1
+  EXPECT_NEAR(1. / mean.update(Eigen::ArrayXd::Constant(1, 5.))[0], 2., 1e-12);
+  StepRule present({.step = 1., .smoothing = PowerSmoothing::none, .regularisation = 0.}, 1);
+  present.update(Eigen::ArrayXd::Constant(1, 100.));
+  EXPECT_NEAR(1. / present.update(Eigen::ArrayXd::Constant(1, 3.))[0], 3., 1e-12);
+}
+
 TEST(StepRule, HardlyLearnsInBinsWithoutInput) {
   StepRule rule({.step = 1., .regularisation = 0.01}, 2);
   const Eigen::ArrayXd step = rule.update(Eigen::Array2d(2., 0.));
