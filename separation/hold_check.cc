@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "separation/significance.h"
 #include "separation/simulation.h"
 #include "signals/error.h"
 
@@ -54,28 +55,12 @@ Candidate try_hold(const Bvrm& model, std::span<const Segment> segments, double 
   return result;
 }
 
-// Mean of a - b over its standard deviation, from the scatter between pieces.
-double significance(const std::vector<double>& a, const std::vector<double>& b) {
-  constexpr std::size_t n_pieces = 40;
-  const std::size_t length = std::max<std::size_t>(1, a.size() / n_pieces);
-  std::vector<double> difference;
-  for (std::size_t first = 0; first + length <= a.size(); first += length) {
-    double sum = 0.;
-    for (std::size_t i = first; i < first + length; ++i) sum += a[i] - b[i];
-    difference.push_back(sum);
-  }
-  const Eigen::Map<const Eigen::ArrayXd> d(difference.data(),
-                                           static_cast<Eigen::Index>(difference.size()));
-  const double deviation = std::sqrt((d - d.mean()).square().sum());
-  return deviation > 0. ? d.mean() * static_cast<double>(d.size()) / deviation : 0.;
-}
-
 // Differences below this share of the squared moment are rounding.
 bool smaller_residual(const Candidate& told, const Candidate& other, double mean_square_moment) {
   const double gain =
       std::pow(told.trial.residual_rms_n_m, 2) - std::pow(other.trial.residual_rms_n_m, 2);
   return gain > 1e-12 * mean_square_moment &&
-         significance(told.squared_residual, other.squared_residual) > significant;
+         mean_difference_significance(told.squared_residual, other.squared_residual) > significant;
 }
 
 bool delayed(const HoldTrial& told, const HoldTrial& other, double rate_hz) {
