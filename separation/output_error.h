@@ -3,18 +3,13 @@
 #include <span>
 #include <vector>
 
+#include "separation/aligned_segment.h"
 #include "separation/fitted_bvrm.h"
 #include "separation/input_hold.h"
 #include "separation/rational_model.h"
 #include "separation/simulation.h"
 
 namespace vibrissa::separation {
-
-/// A piece of a record without interruption.
-struct Segment {
-  std::span<const double> base_acceleration;  // m/s^2
-  std::span<const double> base_moment;        // N m, as many samples
-};
 
 struct OutputErrorOptions {
   Hold hold = Hold::first_order;

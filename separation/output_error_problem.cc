@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "separation/all_pole_filter.h"
-#include "separation/input_shaper.h"
 #include "signals/error.h"
 
 namespace vibrissa::separation {
@@ -29,13 +27,6 @@ auto moving_sum(const std::array<double, 3>& taps, const double* x, Eigen::Index
 
 void keep_history(Memory& memory, Eigen::Index n) {
   for (std::size_t j = 0; j < history; ++j) memory[j] = memory[static_cast<std::size_t>(n) + j];
-}
-
-void check_values(std::span<const double> x, std::size_t segment, const std::string& name) {
-  const auto bad = std::ranges::find_if_not(x, [](double value) { return std::isfinite(value); });
-  if (bad != x.end())
-    throw UserError("output-error fit: segment " + std::to_string(segment + 1) + ", sample " +
-                    std::to_string(bad - x.begin()) + " of the " + name + " is not finite");
 }
 
 }  // namespace
@@ -95,53 +86,23 @@ OutputErrorProblem::OutputErrorProblem(std::size_t n_modes, double delay_s,
       sampling_rate_hz_(sampling_rate_hz),
       options_(options),
       delay_(sampled_delay(delay_s, sampling_rate_hz)),
-      between_(delay_.fraction > 0. && options.hold != Hold::band_limited),
+      between_(lies_between(delay_, options.hold)),
       n_model_(n_parameters(n_modes, options.direct_term)),
       n_nuisance_((options.nuisance.offset ? 1 : 0) +
                   (options.nuisance.initial_state ? 2 * static_cast<Eigen::Index>(n_modes) : 0)),
+      segments_(align_segments(segments, delay_, options.hold, "output-error fit")),
       modes_(n_modes),
       gram_(n_model_ + 1 + n_nuisance_) {
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    check_values(segments[i].base_acceleration, i, "base acceleration");
-    check_values(segments[i].base_moment, i, "base moment");
-    if (segments[i].base_acceleration.size() != segments[i].base_moment.size())
-      throw UserError("output-error fit: segment " + std::to_string(i + 1) + " has " +
-                      std::to_string(segments[i].base_acceleration.size()) +
-                      " samples of base acceleration, but " +
-                      std::to_string(segments[i].base_moment.size()) + " of base moment");
-    segments_.push_back(align(segments[i]));
-    const Aligned& aligned = segments_.back();
-    for (std::size_t n = aligned.first; n < aligned.output.size(); ++n)
-      total_ += aligned.output[n] * aligned.output[n];
-    n_samples_ += static_cast<double>(aligned.output.size() - aligned.first);
+  for (const AlignedSegment& segment : segments_) {
+    for (std::size_t n = segment.first; n < segment.output.size(); ++n)
+      total_ += segment.output[n] * segment.output[n];
+    n_samples_ += static_cast<double>(segment.output.size() - segment.first);
   }
   n_unknowns_ = n_model_ + n_nuisance_ * static_cast<Eigen::Index>(segments_.size());
   if (n_samples_ < 2. * static_cast<double>(n_unknowns_))
     throw UserError("output-error fit: " + std::to_string(static_cast<long>(n_samples_)) +
                     " samples are too few for " + std::to_string(n_unknowns_) +
                     " unknowns; take a longer record or a lower order");
-}
-
-OutputErrorProblem::Aligned OutputErrorProblem::align(const Segment& segment) const {
-  const auto n = static_cast<std::ptrdiff_t>(segment.base_moment.size());
-  const std::ptrdiff_t length =
-      std::max<std::ptrdiff_t>(0, n - std::max<std::ptrdiff_t>(0, delay_.shift));
-  ShapedInput shaped = shape_input(segment.base_acceleration, options_.hold, delay_.fraction);
-  Aligned aligned{.node = std::move(shaped.node),
-                  .midpoint = std::move(shaped.midpoint),
-                  .direct = std::move(shaped.direct),
-                  .output = {}};
-  if (between_) {
-    const double older = options_.hold == Hold::zero_order ? 1. : delay_.fraction;
-    for (std::size_t i = 1; i < aligned.direct.size(); ++i)
-      aligned.direct[i] = (1. - older) * aligned.node[i] + older * aligned.node[i - 1];
-  }
-  const std::ptrdiff_t first = std::max<std::ptrdiff_t>(between_ ? 1 : 0, -delay_.shift);
-  aligned.first = static_cast<std::size_t>(std::min(first, length));
-  for (std::ptrdiff_t i = 0; i < length; ++i)
-    aligned.output.push_back(
-        i < first ? 0. : segment.base_moment[static_cast<std::size_t>(i + delay_.shift)]);
-  return aligned;
 }
 
 bool OutputErrorProblem::admissible(const ModalTerm& mode) const {
@@ -162,7 +123,7 @@ bool OutputErrorProblem::linearise(const Eigen::VectorXd& unknowns, NormalEquati
   equations.gradient.setZero(n_unknowns_);
   equations.cost = 0.;
   Eigen::Index first_nuisance = n_model_;
-  for (const Aligned& segment : segments_) {
+  for (const AlignedSegment& segment : segments_) {
     add_segment(segment, first_nuisance, unknowns);
     scatter(first_nuisance, equations);
     first_nuisance += n_nuisance_;
@@ -172,7 +133,7 @@ bool OutputErrorProblem::linearise(const Eigen::VectorXd& unknowns, NormalEquati
 
 // Columns of the Gram matrix: model parameters, error, offset, free responses. The last die out,
 // and are then left out.
-void OutputErrorProblem::add_segment(const Aligned& segment, Eigen::Index first_nuisance,
+void OutputErrorProblem::add_segment(const AlignedSegment& segment, Eigen::Index first_nuisance,
                                      const Eigen::VectorXd& unknowns) {
   gram_.clear();
   for (Mode& mode : modes_) mode.start();
@@ -206,7 +167,7 @@ void OutputErrorProblem::add_segment(const Aligned& segment, Eigen::Index first_
   }
 }
 
-void OutputErrorProblem::advance(std::size_t k, const Aligned& segment, Eigen::Index start,
+void OutputErrorProblem::advance(std::size_t k, const AlignedSegment& segment, Eigen::Index start,
                                  Eigen::Index n, const double* free) {
   Mode& mode = modes_[k];
   fill_forced_columns(k, segment, start, n);
@@ -232,7 +193,7 @@ Eigen::Map<Eigen::ArrayXd> OutputErrorProblem::column(std::size_t mode, Eigen::I
 
 // What the input does through the numerators; the poles' own share follows once the output is
 // known.
-void OutputErrorProblem::fill_forced_columns(std::size_t k, const Aligned& segment,
+void OutputErrorProblem::fill_forced_columns(std::size_t k, const AlignedSegment& segment,
                                              Eigen::Index start, Eigen::Index n) {
   Mode& mode = modes_[k];
   const bool midpoints = !segment.midpoint.empty();

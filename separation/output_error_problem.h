@@ -31,21 +31,15 @@ class OutputErrorProblem {
   bool linearise(const Eigen::VectorXd& unknowns, NormalEquations& equations);
 
  private:
-  // Aligned: output[n] is what the model says at the time (n - fraction) / rate.
-  struct Aligned {
-    std::vector<double> node, midpoint, direct, output;
-    std::size_t first = 0;  // samples before it are not used
-  };
   struct Mode;
 
-  Aligned align(const Segment& segment) const;
-  void add_segment(const Aligned& segment, Eigen::Index first_nuisance,
+  void add_segment(const AlignedSegment& segment, Eigen::Index first_nuisance,
                    const Eigen::VectorXd& unknowns);
   // Output and sensitivities of one mode over a block of samples; free: its two numbers, or none.
-  void advance(std::size_t k, const Aligned& segment, Eigen::Index start, Eigen::Index n,
+  void advance(std::size_t k, const AlignedSegment& segment, Eigen::Index start, Eigen::Index n,
                const double* free);
   Eigen::Map<Eigen::ArrayXd> column(std::size_t mode, Eigen::Index parameter, Eigen::Index n);
-  void fill_forced_columns(std::size_t k, const Aligned& segment, Eigen::Index start,
+  void fill_forced_columns(std::size_t k, const AlignedSegment& segment, Eigen::Index start,
                            Eigen::Index n);
   void add_start_at_rest(std::size_t k, double first_node, Eigen::Index n);
   void fill_free_columns(std::size_t k, const double* free, Eigen::Index n);
@@ -60,7 +54,7 @@ class OutputErrorProblem {
   bool between_;  // outputs lie between samples
   Eigen::Index n_model_, n_nuisance_, n_unknowns_ = 0;
   double n_samples_ = 0., total_ = 0.;
-  std::vector<Aligned> segments_;
+  std::vector<AlignedSegment> segments_;
   std::vector<Mode> modes_;
   GramMatrix gram_;
 };

@@ -1,0 +1,143 @@
+#include "separation/srivc.h"
+
+#include <gmock/gmock.h>
+
+#include "separation/output_error.h"
+#include "signals/error.h"
+#include "signals/frequency_response.h"
+#include "test_signals.h"
+
+namespace vibrissa::separation {
+namespace {
+
+using signals::UserError;
+using test::Signal;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double rate_hz = 500.;
+
+Bvrm disturbed(Bvrm model) {
+  double sign = 1.;
+  for (ModalTerm& mode : model.modes) {
+    mode = make_modal_term(mode.frequency_hz() * (1. + 0.01 * sign),
+                           mode.damping_ratio() * (1. + 0.3 * sign), 0.7 * mode.b0 / mode.a0);
+    sign = -sign;
+  }
+  model.direct_term_kg_m = 0.;
+  return model;
+}
+
+void expect_equal_models(const FittedBvrm& fit, Bvrm truth, double tolerance) {
+  std::ranges::sort(truth.modes, {}, &ModalTerm::a0);
+  ASSERT_EQ(fit.model.modes.size(), truth.modes.size());
+  for (std::size_t k = 0; k < truth.modes.size(); ++k) {
+    const ModalTerm &found = fit.model.modes[k], &mode = truth.modes[k];
+    EXPECT_NEAR(found.a0 / mode.a0, 1., tolerance);
+    EXPECT_NEAR(found.a1 / mode.a1, 1., tolerance);
+    EXPECT_NEAR(found.b0 / mode.b0, 1., tolerance);
+    EXPECT_NEAR(found.b1, mode.b1, tolerance * std::abs(mode.b0) / std::sqrt(mode.a0));
+  }
+  EXPECT_NEAR(fit.model.direct_term_kg_m, truth.direct_term_kg_m, tolerance * 1e-6);
+}
+
+TEST(Srivc, RecoversOneToThreeModesAndTheDirectTermFromACleanRecord) {
+  const std::vector<ModalState> states{{1e-3, 0.1}, {-2e-4, 0.05}, {1e-4, -0.02}};
+  const Signal input = test::white_noise(3000, 3., 1);
+  for (std::size_t n_modes = 1; n_modes <= 3; ++n_modes)
+    for (const Hold hold : {Hold::first_order, Hold::zero_order, Hold::band_limited})
+      for (const double delay_s : {0., 0.0027, -0.004}) {
+        Bvrm truth = test::sensor(n_modes, -2e-7);
+        truth.delay_s = delay_s;
+        Signal output = simulate(truth, input, rate_hz, hold, std::span(states).first(n_modes));
+        for (double& m : output) m += 2e-5;
+        const Segment segment{input, output};
+        const FittedBvrm fit =
+            refine_srivc(disturbed(truth), std::span(&segment, 1), rate_hz, {.hold = hold});
+        EXPECT_EQ(fit.end, FitEnd::converged);
+        EXPECT_EQ(fit.model.delay_s, delay_s);
+        expect_equal_models(fit, truth, 1e-7);
+      }
+}
+
+TEST(Srivc, KnowsASensorAtRestWhenItIsTold) {
+  const Signal input = test::white_noise(300, 3., 2);
+  const Bvrm truth = test::sensor(1, -2e-7);
+  for (const Hold hold : {Hold::first_order, Hold::zero_order, Hold::band_limited}) {
+    const Signal output = simulate(truth, input, rate_hz, hold);
+    const Segment segment{input, output};
+    const SrivcOptions options{.hold = hold, .nuisance = {.initial_state = false, .offset = false}};
+    expect_equal_models(refine_srivc(disturbed(truth), std::span(&segment, 1), rate_hz, options),
+                        truth, 1e-8);
+  }
+}
+
+TEST(Srivc, FitsAModelWithoutADirectTerm) {
+  const Bvrm truth = test::sensor(2);
+  const Signal input = test::white_noise(2000, 3., 2), output = simulate(truth, input, rate_hz);
+  const Segment segment{input, output};
+  expect_equal_models(
+      refine_srivc(disturbed(truth), std::span(&segment, 1), rate_hz, {.direct_term = false}),
+      truth, 1e-8);
+}
+
+// Both have the same answer where the noise on the moment is white: the stationary point of the
+// output error. SRIVC reaches it by linear steps that share no formula with Gauss and Newton's.
+TEST(Srivc, EndsWhereTheOutputErrorFitEnds) {
+  const Bvrm truth = test::sensor(2, -2e-7);
+  std::vector<Signal> inputs, outputs;
+  std::vector<Segment> segments;
+  for (const std::uint64_t seed : {1u, 2u}) {
+    inputs.push_back(test::white_noise(1500 + 500 * seed, 3., seed));
+    const Signal clean = simulate(truth, inputs.back(), rate_hz);
+    outputs.push_back(test::plus_noise(clean, 0.1 * test::rms(clean), 10 + seed));
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i) segments.push_back({inputs[i], outputs[i]});
+  const FittedBvrm srivc = refine_srivc(disturbed(truth), segments, rate_hz);
+  const FittedBvrm output_error = refine_output_error(disturbed(truth), segments, rate_hz);
+  EXPECT_EQ(srivc.end, FitEnd::converged);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Estimate &f = srivc.modes[k].frequency_hz, &expected = output_error.modes[k].frequency_hz;
+    EXPECT_NEAR(f.value, expected.value, 0.01 * expected.standard_deviation);
+    EXPECT_NEAR(f.standard_deviation / expected.standard_deviation, 1., 1e-3);
+  }
+  EXPECT_NEAR(srivc.residual_variance / output_error.residual_variance, 1., 1e-6);
+}
+
+TEST(Srivc, StartsFromAFrequencyResponse) {
+  const Bvrm truth = test::sensor(2, -2e-7);
+  const Signal input = test::white_noise(10000, 3., 4), output = simulate(truth, input, rate_hz);
+  const Segment segment{input, output};
+  expect_equal_models(
+      refine_srivc(signals::welch_response(input, output, rate_hz, {.segment_samples = 1024}), 4,
+                   std::span(&segment, 1), rate_hz),
+      truth, 1e-6);
+}
+
+TEST(Srivc, RefusesWhatItCannotFit) {
+  const Signal input = test::white_noise(100, 3., 12), output(100, 0.5);
+  const Bvrm model = test::sensor(2);
+  const auto fit = [&](const Bvrm& start, const Signal& u, const Signal& y, double rate = rate_hz) {
+    const Segment segment{u, y};
+    return refine_srivc(start, std::span(&segment, 1), rate);
+  };
+  EXPECT_THAT([&] { fit(model, input, Signal(99, 0.)); },
+              ThrowsMessage<UserError>(HasSubstr("segment 1 has 100 samples")));
+  EXPECT_THAT([&] { fit(model, Signal(20, 1.), Signal(20, 1.)); },
+              ThrowsMessage<UserError>(HasSubstr("20 samples are too few for 14 unknowns")));
+  EXPECT_THAT([&] { fit(model, input, output, 300.); },
+              ThrowsMessage<UserError>(HasSubstr("beyond half the sampling rate")));
+  EXPECT_THAT([&] { fit(model, input, output, -1.); },
+              ThrowsMessage<UserError>(HasSubstr("rate -1")));
+}
+
+TEST(Srivc, SaysWhenNothingMoves) {
+  const Signal input = test::white_noise(500, 3., 12);
+  const Signal silent(500, 0.);
+  const Segment segment{silent, input};
+  EXPECT_EQ(refine_srivc(test::sensor(1), std::span(&segment, 1), rate_hz).end,
+            FitEnd::poor_excitation);
+}
+
+}  // namespace
+}  // namespace vibrissa::separation
