@@ -5,6 +5,7 @@
 #include "apps/command.h"
 #include "apps/identification_report.h"
 #include "apps/record_options.h"
+#include "separation/c_header.h"
 #include "separation/identify.h"
 #include "signals/error.h"
 
@@ -16,7 +17,7 @@ struct IdentifyCommandOptions {
   CommonOptions common;
   RecordOptions record;
   std::string record_file;
-  std::optional<std::string> held_out_file, model_file;
+  std::optional<std::string> held_out_file, model_file, c_header_file;
   separation::IdentifyOptions identify;
   std::optional<std::string> hold;
   bool no_direct_term = false;
@@ -35,8 +36,15 @@ void identify(const IdentifyCommandOptions& options) {
                                        : all.slice(n_fit, all.n_samples() - n_fit);
   const auto result = separation::identify_bvrm(fit, held_out, identify);
   if (options.model_file) separation::write_bvrm(*options.model_file, result.fit.model);
+  if (options.c_header_file) {
+    separation::write_c_header(*options.c_header_file, result.fit.model,
+                               {all.sampling_rate_hz(), result.hold});
+  }
+  const ModelEvidence evidence = examine(result, fit, held_out);
   if (options.common.json) {
-    print_json(identification_json(result));
+    nlohmann::json document = identification_json(result);
+    document.update(evidence_json(evidence));
+    print_json(document);
     return;
   }
   std::cout << identification_table(result).to_text() << "direct term "
@@ -44,7 +52,8 @@ void identify(const IdentifyCommandOptions& options) {
             << separation::to_string(result.hold) << " input, "
             << separation::to_string(result.fit.end)
             << "\nfit on held-out data, free simulation: " << result.held_out_fit_percent << " % ("
-            << result.held_out_vaf_percent << " % of the variance)\n";
+            << result.held_out_vaf_percent << " % of the variance)\n"
+            << evidence_text(evidence);
   if (!options.held_out_file && !options.common.quiet) {
     std::cout << "Held out: the last third of the record.\n";
   }
@@ -70,6 +79,8 @@ void add_identify_command(CLI::App& app) {
                       "first_order or band_limited, whichever fits better)");
   command->add_flag("--no-direct-term", options->no_direct_term, "Strictly proper model");
   command->add_option("-o,--output", options->model_file, "Model written as JSON");
+  command->add_option("--c-header", options->c_header_file,
+                      "Model written as C header for a microcontroller, at the record's rate");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
   command->callback([options] { identify(*options); });

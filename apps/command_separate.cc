@@ -5,11 +5,14 @@
 #include "apps/command.h"
 #include "apps/record_options.h"
 #include "apps/separation_methods.h"
+#include "apps/stream_methods.h"
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
 #include "separation/input_hold.h"
+#include "separation/wind_speed.h"
 #include "signals/error.h"
 #include "signals/record_io.h"
+#include "signals/reduced_model.h"
 
 namespace vibrissa::apps {
 
@@ -22,6 +25,9 @@ struct SeparateOptions {
   std::optional<std::string> model_file, truth_column, output_file;
   std::string hold = "first_order";
   separation::FdafOptions fdaf = {64, 512, {}, {}, 0.};
+  std::vector<std::string> methods = {"fdaf"};
+  std::optional<std::string> sensor_model_file;
+  double moment_deviation_n_m = 1e-6;
   double settling_s = 2.;
 };
 
@@ -40,9 +46,11 @@ std::vector<SeparatedSignal> separate_all(const SeparateOptions& options,
     signals.push_back(score("bvrm", separation::separate_record(bvrm, record), record, truth,
                             options.settling_s));
   }
-  separation::Fdaf fdaf(options.fdaf);
-  signals.push_back(
-      score("fdaf", separation::separate_record(fdaf, record), record, truth, options.settling_s));
+  for (const auto& name : options.methods) {
+    const auto separator = stream_method(name).make(options.fdaf);
+    signals.push_back(score(name, separation::separate_record(*separator, record), record, truth,
+                            options.settling_s));
+  }
   return signals;
 }
 
@@ -60,11 +68,41 @@ signals::Record output_record(const signals::Record& record,
   return output;
 }
 
+constexpr double fastest_wind_m_s = 30.;
+
+// Adds the speed of the wind and the ends of its interval for each method, by the sensor model's
+// steady drag.
+void add_wind_speeds(const SeparateOptions& options, const std::vector<SeparatedSignal>& signals,
+                     signals::Record& output) {
+  const auto model = signals::read_reduced_model(*options.sensor_model_file);
+  const separation::DragCalibration calibration(
+      [&model](const double speed) { return signals::steady_wind_moment(model, speed); },
+      fastest_wind_m_s);
+  for (const auto& signal : signals) {
+    if (signal.name == "nothing removed") continue;
+    std::vector<double> value, low, high;
+    for (const auto& speed : separation::wind_speed(calibration, signal.wind_moment_n_m,
+                                                    options.moment_deviation_n_m)) {
+      value.push_back(speed.value_m_s);
+      low.push_back(speed.low_m_s);
+      high.push_back(speed.high_m_s);
+    }
+    output.set_channel("wind_speed_" + signal.name + "_m_s", std::move(value));
+    output.set_channel("wind_speed_low_" + signal.name + "_m_s", std::move(low));
+    output.set_channel("wind_speed_high_" + signal.name + "_m_s", std::move(high));
+  }
+}
+
 void separate(const SeparateOptions& options) {
+  if (options.sensor_model_file && !options.output_file) {
+    throw signals::UserError("--sensor-model adds wind speeds to the output record: name it (-o)");
+  }
   const signals::Record record = options.record.read(options.record_file);
   const auto signals = separate_all(options, record);
   if (options.output_file) {
-    signals::write_record(*options.output_file, output_record(record, signals));
+    signals::Record output = output_record(record, signals);
+    if (options.sensor_model_file) add_wind_speeds(options, signals, output);
+    signals::write_record(*options.output_file, output);
   }
   if (options.common.json) {
     print_json(separation_json(signals));
@@ -90,6 +128,20 @@ void add_separate_command(CLI::App& app) {
   command
       ->add_option("--hold", options->hold,
                    "Base acceleration between samples: first_order, zero_order or band_limited")
+      ->capture_default_str();
+  std::string known;
+  for (const auto& method : stream_methods()) known += "\n  " + method.name + ": " + method.about;
+  command
+      ->add_option("--method", options->methods,
+                   "Methods that need no model (may be repeated):" + known)
+      ->capture_default_str();
+  command->add_option(
+      "--sensor-model", options->sensor_model_file,
+      "model.json of a run: adds the wind speed, by its steady drag, to the output");
+  command
+      ->add_option("--moment-deviation", options->moment_deviation_n_m,
+                   "Standard deviation of the separated moment, for the speed's interval [N m]")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--truth", options->truth_column,
                       "Column with the true wind moment [N m], for the scores");

@@ -1,8 +1,45 @@
 #include "apps/identification_report.h"
 
+#include <algorithm>
+#include <array>
+#include <functional>
 #include <nlohmann/json.hpp>
 
+#include "separation/simulation.h"
+
 namespace vibrissa::apps {
+
+namespace {
+
+using signals::channel::base_acceleration;
+using signals::channel::base_moment;
+
+nlohmann::json plane_json(const std::vector<separation::PlaneEstimate>& points) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& point : points) {
+    list.push_back({{"real_rad_s", point.value.real()},
+                    {"imaginary_rad_s", point.value.imag()},
+                    {"real_sd_rad_s", point.real_deviation},
+                    {"imaginary_sd_rad_s", point.imaginary_deviation}});
+  }
+  return list;
+}
+
+std::string plane_text(const std::vector<separation::PlaneEstimate>& points) {
+  const auto number = [](const double value) { return report::Cell(value).rounded(4); };
+  std::string text;
+  for (const auto& point : points) {
+    text += (text.empty() ? "" : "; ") + number(point.value.real()) + " +- " +
+            number(point.real_deviation);
+    if (point.value.imag() != 0.) {
+      text +=
+          ", j(" + number(point.value.imag()) + " +- " + number(point.imaginary_deviation) + ")";
+    }
+  }
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
 
 nlohmann::json identification_json(const separation::Identification& identification) {
   nlohmann::json modes = nlohmann::json::array();
@@ -39,6 +76,40 @@ report::Table identification_table(const separation::Identification& identificat
                    mode.static_gain_kg_m.value, mode.static_gain_kg_m.standard_deviation});
   }
   return table;
+}
+
+ModelEvidence examine(const separation::Identification& identification,
+                      const signals::Record& fitted, const signals::Record& held_out) {
+  const auto& model = identification.fit.model;
+  const auto input = held_out.channel(base_acceleration);
+  const auto moment = held_out.channel(base_moment);
+  std::vector<double> residual = separation::simulate_like(
+      model, input, moment, held_out.sampling_rate_hz(), identification.hold);
+  std::transform(moment.begin(), moment.end(), residual.begin(), residual.begin(), std::minus<>());
+  const std::array<separation::Segment, 1> segments = {
+      {{fitted.channel(base_acceleration), fitted.channel(base_moment)}}};
+  separation::SrivcOptions told;
+  told.hold = identification.hold;
+  told.direct_term = model.direct_term_kg_m != 0.;
+  return {separation::poles_and_zeros(identification.fit),
+          separation::test_residual(residual, input),
+          separation::check_hold(model, segments, fitted.sampling_rate_hz(), told)};
+}
+
+nlohmann::json evidence_json(const ModelEvidence& evidence) {
+  return {{"poles", plane_json(evidence.poles_zeros.poles)},
+          {"zeros", plane_json(evidence.poles_zeros.zeros)},
+          {"residual_white", evidence.residual.whiteness.passed()},
+          {"residual_independent_of_input", evidence.residual.independence.passed()},
+          {"residual_words", evidence.residual.words},
+          {"hold_words", evidence.hold.words}};
+}
+
+std::string evidence_text(const ModelEvidence& evidence) {
+  return "poles [rad/s]: " + plane_text(evidence.poles_zeros.poles) +
+         "\nzeros [rad/s]: " + plane_text(evidence.poles_zeros.zeros) +
+         "\nresidual on held-out data: " + evidence.residual.words +
+         (evidence.hold.words.empty() ? "" : "\n" + evidence.hold.words) + "\n";
 }
 
 }  // namespace vibrissa::apps

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "report/table.h"
+#include "separation/hold_check.h"
 #include "separation/identify.h"
+#include "separation/poles_zeros.h"
+#include "separation/residual_tests.h"
 
 namespace vibrissa::apps {
 
@@ -13,5 +17,22 @@ namespace vibrissa::apps {
 ///  "order", "hold", "end"}.
 nlohmann::json identification_json(const separation::Identification& identification);
 report::Table identification_table(const separation::Identification& identification);
+
+/// What a record says about a model beyond its fit.
+struct ModelEvidence {
+  separation::PolesAndZeros poles_zeros;
+  separation::ResidualTests residual;
+  separation::HoldDiagnosis hold;  // of the input between its samples
+};
+
+/// Tests the residual on the held-out record and the hold on the record that was fitted.
+ModelEvidence examine(const separation::Identification& identification,
+                      const signals::Record& fitted, const signals::Record& held_out);
+
+/// {"poles": [{"real_rad_s", "imaginary_rad_s", "real_sd_rad_s", "imaginary_sd_rad_s"}], "zeros",
+///  "residual_white", "residual_independent_of_input", "residual_words", "hold_words"}.
+nlohmann::json evidence_json(const ModelEvidence& evidence);
+/// The same in words.
+std::string evidence_text(const ModelEvidence& evidence);
 
 }  // namespace vibrissa::apps

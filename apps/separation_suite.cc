@@ -4,9 +4,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/stream_methods.h"
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
 #include "separation/identify.h"
+#include "separation/wiener.h"
 
 namespace vibrissa::apps {
 
@@ -26,10 +28,6 @@ std::vector<double> by_bvrm(const Scenario& scenario) {
   return separation::separate_record(separator, scenario.record);
 }
 
-std::vector<double> by_stream(separation::Separator& separator, const Scenario& scenario) {
-  return separation::separate_record(separator, scenario.record);
-}
-
 std::vector<double> by_nothing(const Scenario& scenario) {
   const auto measured = scenario.record.channel(signals::channel::base_moment);
   return {measured.begin(), measured.end()};
@@ -40,13 +38,25 @@ struct Method {
   std::function<std::vector<double>(const Scenario&)> separate;
 };
 
+// The best FIR filter in hindsight, as long as the adaptive ones: their bound.
+std::vector<double> by_wiener(const Scenario& scenario) {
+  return separation::wiener_filter(scenario.record, {}).wind_moment;
+}
+
+std::vector<Method> make_methods() {
+  std::vector<Method> list = {{"nothing removed", by_nothing}, {"bvrm", by_bvrm}};
+  for (const auto& method : stream_methods()) {
+    list.push_back({method.name, [&method](const Scenario& scenario) {
+                      const auto separator = method.make(separation::FdafOptions{});
+                      return separation::separate_record(*separator, scenario.record);
+                    }});
+  }
+  list.push_back({"wiener (bound)", by_wiener});
+  return list;
+}
+
 const std::vector<Method>& methods() {
-  static const std::vector<Method> list = {{"nothing removed", by_nothing},
-                                           {"BVRM", by_bvrm},
-                                           {"FDAF", [](const Scenario& scenario) {
-                                              separation::Fdaf fdaf(separation::FdafOptions{});
-                                              return by_stream(fdaf, scenario);
-                                            }}};
+  static const std::vector<Method> list = make_methods();
   return list;
 }
 

@@ -26,7 +26,9 @@ const Folder& reproduction() {
   return folder;
 }
 
-json document() { return json::parse(content(reproduction().file("r/summary.json"))); }
+json document() {
+  return json::parse(content(reproduction().file("r/summary.json")));
+}
 
 double ours(const std::string& what) {
   const json found = document();
@@ -41,8 +43,7 @@ TEST(Reproduce, LeavesEveryFigureAsDataAndTheTableOfNumbers) {
   for (const std::string figure :
        {"figure_07_step_responses", "figure_08_steady_responses", "figure_09_bode",
         "figure_10_simulation", "figure_11_experiment", "figure_12_spectra"}) {
-    EXPECT_TRUE(
-        std::filesystem::exists(reproduction().file("r/figures/" + figure + ".csv")))
+    EXPECT_TRUE(std::filesystem::exists(reproduction().file("r/figures/" + figure + ".csv")))
         << figure;
   }
   EXPECT_THAT(content(reproduction().file("r/reproduction.md")), testing::HasSubstr("31.47"));
@@ -69,8 +70,8 @@ TEST(Reproduce, FindsThatThePapersSettingInTheExperimentRemovesAlmostNothing) {
 
 TEST(BenchmarkSeparation, ScoresEveryMethodInEveryScenarioAndSaysWhatIsLeftOut) {
   const Folder folder;
-  const auto result = vibrissa("benchmark separation" + cases() + " -o '" + folder.file("b") +
-                               "' --json");
+  const auto result =
+      vibrissa("benchmark separation" + cases() + " -o '" + folder.file("b") + "' --json");
   ASSERT_EQ(result.status, 0) << result.errors;
   const json found = result.json();
   EXPECT_GE(found["scenarios"].size(), 12u);

@@ -1,0 +1,57 @@
+#include "apps/stream_methods.h"
+
+#include "separation/kalman_filter.h"
+#include "separation/line_canceller.h"
+#include "separation/nlms.h"
+#include "separation/rls.h"
+#include "signals/error.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+using separation::FdafOptions;
+using Made = std::unique_ptr<separation::Separator>;
+
+Made make_kalman(const FdafOptions& options) {
+  separation::KalmanOptions kalman;
+  kalman.block_length = options.block_length;
+  kalman.filter_length = options.filter_length;
+  return std::make_unique<separation::PartitionedKalman>(kalman);
+}
+
+Made make_nlms(const FdafOptions& options) {
+  separation::NlmsOptions nlms;
+  nlms.filter_length = options.filter_length;
+  return std::make_unique<separation::Nlms>(nlms);
+}
+
+}  // namespace
+
+const std::vector<StreamMethod>& stream_methods() {
+  static const std::vector<StreamMethod> methods = {
+      {"fdaf", "partitioned frequency-domain adaptive filter",
+       [](const FdafOptions& o) -> Made { return std::make_unique<separation::Fdaf>(o); }},
+      {"kalman", "partitioned frequency-domain Kalman filter", make_kalman},
+      {"nlms", "normalised least mean squares in the time domain", make_nlms},
+      {"rls", "recursive least squares, 64 taps",
+       [](const FdafOptions&) -> Made {
+         return std::make_unique<separation::Rls>(separation::RlsOptions{});
+       }},
+      {"line_canceller", "delay-based canceller of lines, without accelerometer",
+       [](const FdafOptions&) -> Made {
+         return std::make_unique<separation::LineCanceller>(separation::LineCancellerOptions{});
+       }}};
+  return methods;
+}
+
+const StreamMethod& stream_method(const std::string& name) {
+  std::string known;
+  for (const auto& method : stream_methods()) {
+    if (method.name == name) return method;
+    known += (known.empty() ? "" : ", ") + method.name;
+  }
+  throw signals::UserError("unknown separation method '" + name + "'; known: " + known);
+}
+
+}  // namespace vibrissa::apps
