@@ -108,5 +108,21 @@ TEST(WavFile, RefusesASampleThatIsNotFiniteAndSurvivesAFileCutShort) {
   }
 }
 
+TEST(WavFile, RefusesAChunkThatIsLongerThanTheFile) {
+  const TemporaryFolder folder;
+  const std::vector<double> x{0., 1., -0.5};
+  write_wav(folder.path() / "drive.wav", {x, 500., 1., "A"});
+  const std::string bytes = content_of(folder.path() / "drive.wav");
+  const auto comment = bytes.find("ICMT"), list = bytes.find("LIST");
+  ASSERT_NE(comment, std::string::npos);
+  for (const auto chunk : {list, comment}) {
+    std::string damaged = bytes;
+    damaged.replace(chunk + 4, 4, "\xff\xff\xff\xff");
+    EXPECT_THAT([&] { parse_wav(damaged, "a.wav"); },
+                ThrowsMessage<UserError>(HasSubstr("a.wav: is damaged: the chunk at byte " +
+                                                   std::to_string(chunk) + " states 4294967295")));
+  }
+}
+
 }  // namespace
 }  // namespace vibrissa::signals
