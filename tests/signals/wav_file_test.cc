@@ -64,6 +64,8 @@ TEST(WavFile, EqualDrivesGiveEqualBytes) {
   write_wav(folder.path() / "a.wav", {x, 500., 3.2, "m/s^2"});
   write_wav(folder.path() / "b.wav", {x, 500., 3.2, "m/s^2"});
   EXPECT_EQ(content_of(folder.path() / "a.wav"), content_of(folder.path() / "b.wav"));
+  // The chunk that holds the time of day, which differs in another second alone.
+  EXPECT_EQ(content_of(folder.path() / "a.wav").find("PEAK"), std::string::npos);
 }
 
 TEST(WavFile, RefusesADriveThatTheFormatCannotHold) {
