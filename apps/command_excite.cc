@@ -98,21 +98,30 @@ std::string drive_name(const signals::Excitation& excitation, const signals::Dri
   return name;
 }
 
-void check_levels(const std::vector<double>& levels) {
+std::string channel_of(const ExciteOptions& options) {
+  return full_channel_name(options.channel);
+}
+
+// Before the design, which may take seconds.
+void check_options(const ExciteOptions& options) {
+  const auto& levels = options.design.levels;
+  const double rate = options.design.sampling_rate_hz;
   if (std::set<double>(levels.begin(), levels.end()).size() != levels.size())
     throw signals::UserError("--levels: a level is given twice");
+  if (options.wav && !options.folder)
+    throw signals::UserError("--wav: name the folder for the files with -o");
+  if (options.wav && rate != std::floor(rate))
+    throw signals::UserError("--wav: a sound file's rate is a whole number of hertz, not " +
+                             signals::to_text(rate) + "; choose another --rate");
+  channel_of(options);
+  chosen(formats, options.wav_format, "--wav-format");
 }
 
 void write_files(const ExciteOptions& options, const signals::Excitation& excitation,
                  nlohmann::json& document) {
   const fs::path folder(*options.folder);
-  const std::string channel =
-      options.channel == "coil_current" ? "coil_current_A" : full_channel_name(options.channel);
+  const std::string channel = channel_of(options);
   const WavFormat format = chosen(formats, options.wav_format, "--wav-format");
-  const double rate = excitation.design.sampling_rate_hz;
-  if (options.wav && rate != std::floor(rate))
-    throw signals::UserError("--wav: a sound file's rate is a whole number of hertz, not " +
-                             signals::to_text(rate) + "; choose another --rate");
   signals::make_new_folder(folder);
   for (std::size_t i = 0; i < excitation.drives.size(); ++i) {
     const auto& drive = excitation.drives[i];
@@ -175,9 +184,7 @@ void print_text(const ExciteOptions& options, const signals::Excitation& excitat
 }
 
 void excite(const ExciteOptions& options) {
-  if (options.wav && !options.folder)
-    throw signals::UserError("--wav: name the folder for the files with -o");
-  check_levels(options.design.levels);
+  check_options(options);
   const auto excitation = signals::design_excitation(resolved(options));
   nlohmann::json document = signals::to_json(excitation);
   if (options.folder) write_files(options, excitation, document);
