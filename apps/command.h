@@ -26,6 +26,7 @@ void print_json(const nlohmann::json& document);
 void add_benchmark_command(CLI::App& app);
 void add_bode_command(CLI::App& app);
 void add_draw_command(CLI::App& app);
+void add_excite_command(CLI::App& app);
 void add_identify_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_modes_command(CLI::App& app);

@@ -44,10 +44,11 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   text << in.rdbuf();
   try {
     return nlohmann::json::parse(text.str());
-  } catch (const nlohmann::json::parse_error& error) {
+  } catch (const nlohmann::json::exception& error) {
     const std::string what = error.what();
+    const auto reason = what.find("parse error");
     throw signals::UserError(file.string() + ": " +
-                             what.substr(std::min(what.find("parse error"), what.size())));
+                             what.substr(reason == std::string::npos ? 0 : reason));
   }
 }
 

@@ -110,7 +110,7 @@ Bvrm read_bvrm(const std::filesystem::path& file) {
   json value;
   try {
     value = json::parse(stream);
-  } catch (const json::parse_error& error) {
+  } catch (const json::exception& error) {
     throw UserError(file.string() + ": is not JSON: " + error.what());
   }
   return bvrm_from_json(value, file.string());

@@ -151,10 +151,7 @@ double Excitation::resolution_hz() const {
 }
 
 double Excitation::full_scale() const {
-  double largest = 0.;
-  for (const Drive& drive : drives)
-    for (const double x : drive.period) largest = std::max(largest, std::abs(x));
-  return largest;
+  return design.peak * std::ranges::max(design.levels);
 }
 
 std::vector<double> Excitation::samples(const Drive& drive) const {

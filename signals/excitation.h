@@ -67,7 +67,7 @@ struct Excitation {
   std::vector<Drive> drives;         // [level][realisation], realisation fastest
 
   double resolution_hz() const;
-  /// Largest absolute value of all drives.
+  /// Peak of the largest level, also between the samples: what a sound card's 1.0 must reach.
   double full_scale() const;
   /// All periods of one drive, the lead-in first.
   std::vector<double> samples(const Drive& drive) const;

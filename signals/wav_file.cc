@@ -131,6 +131,34 @@ std::vector<std::vector<double>> read_channels(SNDFILE* sound, std::size_t n_cha
   }
 }
 
+std::size_t size_at(const std::string& bytes, std::size_t position) {
+  std::size_t size = 0;
+  for (std::size_t i = 4; i-- > 0;)
+    size = 256 * size + static_cast<unsigned char>(bytes[position + i]);
+  return size;
+}
+
+// libsndfile 1.2 can search for ever behind a chunk that claims to be longer than its surroundings.
+// Only the samples may be cut short, as they are when a recorder loses power.
+void check_chunks(const std::string& bytes, std::size_t position, std::size_t end,
+                  const std::string& name) {
+  constexpr std::size_t header = 8, list_type = 4;
+  while (position + header <= end) {
+    const std::string kind = bytes.substr(position, 4);
+    const std::size_t size = size_at(bytes, position + 4);
+    const std::size_t first = position + header;
+    if (size > end - first) {
+      if (kind == "data") return;
+      throw UserError(name + ": is damaged: the chunk at byte " + std::to_string(position) +
+                      " states " + std::to_string(size) + " bytes, " + std::to_string(end - first) +
+                      " are left");
+    }
+    if (kind == "LIST" && size >= list_type)
+      check_chunks(bytes, first + list_type, first + size, name);
+    position = first + size + size % 2;
+  }
+}
+
 }  // namespace
 
 void write_wav(const std::filesystem::path& file, const WavDrive& drive) {
@@ -145,6 +173,7 @@ WavContent parse_wav(std::string bytes, const std::string& name) {
   // libsndfile knows many containers; only this one is promised and tested.
   if (bytes.size() < 12 || bytes.compare(0, 4, "RIFF") != 0 || bytes.compare(8, 4, "WAVE") != 0)
     throw UserError(name + ": is no WAV file (does not begin with RIFF .. WAVE)");
+  check_chunks(bytes, 12, bytes.size(), name);
   MemoryFile source{std::move(bytes)};
   SF_VIRTUAL_IO io = memory_io();
   SF_INFO info{};

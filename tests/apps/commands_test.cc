@@ -123,6 +123,53 @@ TEST(Separate, GivesNullScoresWithoutTruthAndNumbersWithIt) {
   EXPECT_TRUE(scored.json()["methods"][1]["sdr_db"].is_number());
 }
 
+TEST(Excite, LeavesDrivesInProportionAndTheirDescription) {
+  const Folder folder;
+  const std::string drives = folder.file("drives");
+  const auto result =
+      vibrissa("excite --levels 0.5,1 --realisations 2 --peak 3.9 --high 60 --wav -o '" + drives +
+               "' --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json document = result.json();
+  EXPECT_EQ(document, json::parse(content(drives + "/excitation.json")));
+  EXPECT_EQ(document["full_scale"], 3.9);
+  EXPECT_EQ(document["wav_scale"], "1.0 in the file is 3.9 m/s^2");
+  ASSERT_EQ(document["drives"].size(), 4u);
+  for (const auto& drive : document["drives"]) {
+    EXPECT_LT(drive["crest_factor"].get<double>(), 1.55);
+    EXPECT_EQ(content(drives + "/" + drive["wav"].get<std::string>()).substr(0, 4), "RIFF");
+    EXPECT_THAT(content(drives + "/" + drive["csv"].get<std::string>()).substr(0, 40),
+                testing::HasSubstr("time_s,base_acceleration_m_s2"));
+  }
+}
+
+TEST(Excite, SaysInWordsWhatTheDetectionLinesReveal) {
+  const auto result = vibrissa("excite --period 512");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  for (const std::string text :
+       {"even detection", "even distortion", "odd detection", "odd distortion", "crest factor"})
+    EXPECT_THAT(result.output, testing::HasSubstr(text));
+}
+
+TEST(Excite, RefusesBadInputAndWritesNothing) {
+  const Folder folder;
+  const std::map<std::string, std::string> refused{
+      {"--kind chirp", "--kind: unknown choice 'chirp'"},
+      {"--high 250", "half the rate"},
+      {"--resolution 0.3", "no whole number of samples"},
+      {"--resolution 0.5 --period 1000", "give one of them"},
+      {"--levels 1,1", "given twice"},
+      {"--channel nonsense", "unknown channel"},
+      {"--rate 500.5 --wav", "whole number of hertz"}};
+  for (const auto& [options, message] : refused) {
+    const auto result = vibrissa("excite " + options + " -o '" + folder.file("drives") + "'");
+    EXPECT_EQ(result.status, 2) << options;
+    EXPECT_THAT(result.errors, testing::HasSubstr(message));
+  }
+  EXPECT_EQ(folder.n_entries(), 0u);
+  EXPECT_EQ(vibrissa("excite --wav").status, 2);
+}
+
 TEST(Bode, OfARecordAgreesWithThatOfItsModelAtThePeriodicLines) {
   const Folder folder;
   const std::string record = folder.file("clean.csv");

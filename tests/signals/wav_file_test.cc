@@ -64,6 +64,8 @@ TEST(WavFile, EqualDrivesGiveEqualBytes) {
   write_wav(folder.path() / "a.wav", {x, 500., 3.2, "m/s^2"});
   write_wav(folder.path() / "b.wav", {x, 500., 3.2, "m/s^2"});
   EXPECT_EQ(content_of(folder.path() / "a.wav"), content_of(folder.path() / "b.wav"));
+  // The chunk that holds the time of day, which differs in another second alone.
+  EXPECT_EQ(content_of(folder.path() / "a.wav").find("PEAK"), std::string::npos);
 }
 
 TEST(WavFile, RefusesADriveThatTheFormatCannotHold) {
@@ -105,6 +107,22 @@ TEST(WavFile, RefusesASampleThatIsNotFiniteAndSurvivesAFileCutShort) {
       EXPECT_LE(parse_wav(bytes.substr(0, n), "cut.wav").channels[0].size(), 3u);
     } catch (const UserError&) {
     }
+  }
+}
+
+TEST(WavFile, RefusesAChunkThatIsLongerThanTheFile) {
+  const TemporaryFolder folder;
+  const std::vector<double> x{0., 1., -0.5};
+  write_wav(folder.path() / "drive.wav", {x, 500., 1., "A"});
+  const std::string bytes = content_of(folder.path() / "drive.wav");
+  const auto comment = bytes.find("ICMT"), list = bytes.find("LIST");
+  ASSERT_NE(comment, std::string::npos);
+  for (const auto chunk : {list, comment}) {
+    std::string damaged = bytes;
+    damaged.replace(chunk + 4, 4, "\xff\xff\xff\xff");
+    EXPECT_THAT([&] { parse_wav(damaged, "a.wav"); },
+                ThrowsMessage<UserError>(HasSubstr("a.wav: is damaged: the chunk at byte " +
+                                                   std::to_string(chunk) + " states 4294967295")));
   }
 }
 
