@@ -12,6 +12,7 @@
 #include "separation/identify_frequency.h"
 #include "separation/output_error.h"
 #include "separation/simulation.h"
+#include "separation/srivc.h"
 
 namespace {
 
@@ -53,6 +54,11 @@ FittedBvrm refine(const Experiment& data, const Bvrm& start) {
   return refine_output_error(start, std::span(&segment, 1), rate_hz);
 }
 
+FittedBvrm srivc(const Experiment& data, const Bvrm& start) {
+  const Segment segment = data.segment();
+  return refine_srivc(start, std::span(&segment, 1), rate_hz);
+}
+
 void count(benchmark::State& state, const FittedBvrm& fit) {
   state.counters["evaluations"] = fit.n_iterations;
   state.counters["frequency_hz"] = fit.modes[0].frequency_hz.value;
@@ -74,6 +80,14 @@ void output_error_refine(benchmark::State& state, std::size_t n_modes, std::size
   count(state, fit);
 }
 
+void srivc_refine(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
+  const Experiment data = experiment(n_modes, n_samples);
+  const Bvrm start = start_of(data).model;
+  FittedBvrm fit;
+  for (auto _ : state) benchmark::DoNotOptimize(fit = srivc(data, start));
+  count(state, fit);
+}
+
 void output_error_whole(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
   const Experiment data = experiment(n_modes, n_samples);
   FittedBvrm fit;
@@ -85,6 +99,7 @@ void output_error_whole(benchmark::State& state, std::size_t n_modes, std::size_
   BENCHMARK_CAPTURE(name, one_mode_5000_samples, 1, 5000)->Unit(benchmark::kMillisecond); \
   BENCHMARK_CAPTURE(name, two_modes_30000_samples, 2, 30000)->Unit(benchmark::kMillisecond)
 VIBRISSA_IDENTIFICATION(output_error_refine);
+VIBRISSA_IDENTIFICATION(srivc_refine);
 VIBRISSA_IDENTIFICATION(start);
 VIBRISSA_IDENTIFICATION(output_error_whole);
 
