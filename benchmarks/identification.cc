@@ -59,7 +59,10 @@ FittedBvrm srivc(const Experiment& data, const Bvrm& start) {
   return refine_srivc(start, std::span(&segment, 1), rate_hz);
 }
 
-void count(benchmark::State& state, const FittedBvrm& fit) {
+void count(benchmark::State& state, const FittedBvrm& fit, std::size_t n_samples) {
+  state.counters["ns_per_sample"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * static_cast<double>(n_samples) * 1e-9,
+      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["evaluations"] = fit.n_iterations;
   state.counters["frequency_hz"] = fit.modes[0].frequency_hz.value;
   state.counters["sd_hz"] = fit.modes[0].frequency_hz.standard_deviation;
@@ -69,7 +72,7 @@ void start(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) 
   const Experiment data = experiment(n_modes, n_samples);
   FittedBvrm fit;
   for (auto _ : state) benchmark::DoNotOptimize(fit = start_of(data));
-  count(state, fit);
+  count(state, fit, n_samples);
 }
 
 void output_error_refine(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
@@ -77,7 +80,7 @@ void output_error_refine(benchmark::State& state, std::size_t n_modes, std::size
   const Bvrm start = start_of(data).model;
   FittedBvrm fit;
   for (auto _ : state) benchmark::DoNotOptimize(fit = refine(data, start));
-  count(state, fit);
+  count(state, fit, n_samples);
 }
 
 void srivc_refine(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
@@ -85,14 +88,14 @@ void srivc_refine(benchmark::State& state, std::size_t n_modes, std::size_t n_sa
   const Bvrm start = start_of(data).model;
   FittedBvrm fit;
   for (auto _ : state) benchmark::DoNotOptimize(fit = srivc(data, start));
-  count(state, fit);
+  count(state, fit, n_samples);
 }
 
 void output_error_whole(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
   const Experiment data = experiment(n_modes, n_samples);
   FittedBvrm fit;
   for (auto _ : state) benchmark::DoNotOptimize(fit = refine(data, start_of(data).model));
-  count(state, fit);
+  count(state, fit, n_samples);
 }
 
 #define VIBRISSA_IDENTIFICATION(name)                                                     \
