@@ -74,10 +74,10 @@ struct Share {
   double cross_validation = 0., information = 0.;
 };
 
-// Share of 20 records for which the right order was found.
+// Share of 12 records for which the right order was found.
 Share right(std::size_t n_modes, double moment_noise, double accelerometer_noise) {
   Share share;
-  constexpr int n_draws = 20;
+  constexpr int n_draws = 12;
   for (std::uint64_t seed = 1; seed <= n_draws; ++seed) {
     const OrderSelection selection = select(
         measure(test::sensor(n_modes, -2e-7), 6000, moment_noise, accelerometer_noise, seed));
