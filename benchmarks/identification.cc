@@ -12,6 +12,7 @@
 #include "separation/identify_frequency.h"
 #include "separation/output_error.h"
 #include "separation/simulation.h"
+#include "separation/srivc.h"
 
 namespace {
 
@@ -53,7 +54,15 @@ FittedBvrm refine(const Experiment& data, const Bvrm& start) {
   return refine_output_error(start, std::span(&segment, 1), rate_hz);
 }
 
-void count(benchmark::State& state, const FittedBvrm& fit) {
+FittedBvrm srivc(const Experiment& data, const Bvrm& start) {
+  const Segment segment = data.segment();
+  return refine_srivc(start, std::span(&segment, 1), rate_hz);
+}
+
+void count(benchmark::State& state, const FittedBvrm& fit, std::size_t n_samples) {
+  state.counters["ns_per_sample"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * static_cast<double>(n_samples) * 1e-9,
+      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["evaluations"] = fit.n_iterations;
   state.counters["frequency_hz"] = fit.modes[0].frequency_hz.value;
   state.counters["sd_hz"] = fit.modes[0].frequency_hz.standard_deviation;
@@ -63,7 +72,7 @@ void start(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) 
   const Experiment data = experiment(n_modes, n_samples);
   FittedBvrm fit;
   for (auto _ : state) benchmark::DoNotOptimize(fit = start_of(data));
-  count(state, fit);
+  count(state, fit, n_samples);
 }
 
 void output_error_refine(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
@@ -71,20 +80,29 @@ void output_error_refine(benchmark::State& state, std::size_t n_modes, std::size
   const Bvrm start = start_of(data).model;
   FittedBvrm fit;
   for (auto _ : state) benchmark::DoNotOptimize(fit = refine(data, start));
-  count(state, fit);
+  count(state, fit, n_samples);
+}
+
+void srivc_refine(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
+  const Experiment data = experiment(n_modes, n_samples);
+  const Bvrm start = start_of(data).model;
+  FittedBvrm fit;
+  for (auto _ : state) benchmark::DoNotOptimize(fit = srivc(data, start));
+  count(state, fit, n_samples);
 }
 
 void output_error_whole(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
   const Experiment data = experiment(n_modes, n_samples);
   FittedBvrm fit;
   for (auto _ : state) benchmark::DoNotOptimize(fit = refine(data, start_of(data).model));
-  count(state, fit);
+  count(state, fit, n_samples);
 }
 
 #define VIBRISSA_IDENTIFICATION(name)                                                     \
   BENCHMARK_CAPTURE(name, one_mode_5000_samples, 1, 5000)->Unit(benchmark::kMillisecond); \
   BENCHMARK_CAPTURE(name, two_modes_30000_samples, 2, 30000)->Unit(benchmark::kMillisecond)
 VIBRISSA_IDENTIFICATION(output_error_refine);
+VIBRISSA_IDENTIFICATION(srivc_refine);
 VIBRISSA_IDENTIFICATION(start);
 VIBRISSA_IDENTIFICATION(output_error_whole);
 

@@ -43,6 +43,12 @@ std::vector<double> averaged_variance(const std::vector<double>& standard_deviat
   return variance;
 }
 
+// Without the care for overflow that a complex division takes: these values lie near one, or near
+// squares of angular frequencies.
+Eigen::ArrayXcd reciprocal(const Eigen::ArrayXcd& z) {
+  return z.conjugate() * z.abs2().inverse();
+}
+
 // Real parts above imaginary parts.
 template <typename Column>
 void stack(const Eigen::ArrayXcd& values, Column&& column) {
@@ -134,7 +140,7 @@ FrequencyProblem::ModeResponse FrequencyProblem::mode_response(const ModalTerm& 
                                                                bool derivatives) const {
   ModeResponse g;
   if (!sampling_) {
-    const Eigen::ArrayXcd receptance = 1. / (s_ * (s_ + mode.a1) + mode.a0);
+    const Eigen::ArrayXcd receptance = reciprocal(s_ * (s_ + mode.a1) + mode.a0);
     g.by_b0 = gain_weight_ * receptance;
     g.by_b1 = s_ * g.by_b0;
     g.value = mode.b1 * g.by_b1 + mode.b0 * g.by_b0;
@@ -145,7 +151,7 @@ FrequencyProblem::ModeResponse FrequencyProblem::mode_response(const ModalTerm& 
   }
   const ModeStep step(mode.a1, mode.a0, sampling_->rate_hz, sampling_->hold, delay_.fraction);
   const Eigen::ArrayXcd inverse =
-      1. / (1. + step.pole1.value * late_[0] + step.pole2.value * late_[1]);
+      reciprocal(1. + step.pole1.value * late_[0] + step.pole2.value * late_[1]);
   const Eigen::ArrayXcd weighted = gain_weight_ * inverse;
   const auto polynomial = [&](const auto& tap) {
     return tap(0) + tap(1) * late_[0] + tap(2) * late_[1] + tap(3) * late_[2];

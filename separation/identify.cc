@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "separation/identify_frequency.h"
 #include "separation/metrics.h"
+#include "separation/order_selection.h"
 #include "separation/output_error.h"
 #include "signals/error.h"
 #include "signals/frequency_response.h"
@@ -146,32 +146,40 @@ class Identifier {
     return trials;
   }
 
- private:
-  void try_hold(Hold hold, std::vector<Trial>& trials) const {
-    const auto starts = identify_frequency_orders(response_, {.order = order_,
-                                                              .direct_term = options_.direct_term,
-                                                              .delay_s = options_.delay_s,
-                                                              .sampling = Sampling{rate_, hold}});
-    for (const FittedBvrm& start : starts) {
-      const std::size_t order = start.model.order();
-      if (options_.order && order != *options_.order) continue;
-      trials.push_back(refine(start.model, hold));
-    }
+  /// Nothing when the order was given, or the records are too short to hold a part out.
+  std::optional<OrderSelection> select(Hold hold) const {
+    constexpr std::size_t fewest_samples = 400;
+    const auto too_short = [](const Segment& s) { return s.base_moment.size() < fewest_samples; };
+    if (options_.order || order_ == 2 || std::ranges::any_of(segments_, too_short)) return {};
+    return select_order(segments_, rate_,
+                        {.max_order = order_,
+                         .delay_s = options_.delay_s,
+                         .fit = fit_options(hold),
+                         .period_samples = options_.period_samples});
   }
 
-  Trial refine(const Bvrm& start, Hold hold) const {
-    Trial trial;
-    trial.fit = refine_output_error(
-        start, segments_, rate_,
-        {.hold = hold, .direct_term = options_.direct_term, .nuisance = options_.nuisance});
-    const auto unknowns = static_cast<double>(n_unknowns(start.order(), records_.size(), options_));
-    trial.summary = {.order = start.order(),
-                     .hold = hold,
-                     .residual_rms_n_m = std::sqrt(trial.fit.residual_variance),
-                     .information_criterion = information_criterion(trial.fit, n_samples_, unknowns,
-                                                                    mean_square_moment_),
-                     .end = trial.fit.end};
-    return trial;
+ private:
+  void try_hold(Hold hold, std::vector<Trial>& trials) const {
+    for (FittedBvrm& fit :
+         fit_orders(response_, segments_, rate_, order_, options_.delay_s, fit_options(hold)))
+      if (!options_.order || fit.model.order() == *options_.order)
+        trials.push_back(summarise(std::move(fit), hold));
+  }
+
+  OutputErrorOptions fit_options(Hold hold) const {
+    return {.hold = hold, .direct_term = options_.direct_term, .nuisance = options_.nuisance};
+  }
+
+  Trial summarise(FittedBvrm fit, Hold hold) const {
+    const std::size_t order = fit.model.order();
+    const auto unknowns = static_cast<double>(n_unknowns(order, records_.size(), options_));
+    IdentificationTrial summary{.order = order,
+                                .hold = hold,
+                                .residual_rms_n_m = std::sqrt(fit.residual_variance),
+                                .information_criterion = information_criterion(
+                                    fit, n_samples_, unknowns, mean_square_moment_),
+                                .end = fit.end};
+    return {std::move(fit), summary};
   }
 
   std::span<const Record> records_;
@@ -191,6 +199,15 @@ const Trial& choose(const std::vector<Trial>& trials) {
   return *std::ranges::min_element(trials, {}, rank);
 }
 
+// The one with the hold of the first choice and this order; the first choice when there is none.
+const Trial& of_order(const std::vector<Trial>& trials, const Trial& first, std::size_t order) {
+  const auto found = std::ranges::find_if(trials, [&](const Trial& trial) {
+    return trial.summary.hold == first.summary.hold && trial.summary.order == order &&
+           trial.fit.end == FitEnd::converged;
+  });
+  return found == trials.end() ? first : *found;
+}
+
 std::vector<double> free_simulation(const Bvrm& model, const Record& record, Hold hold,
                                     const Nuisance& nuisance) {
   return simulate_like(model, record.channel(channel::base_acceleration),
@@ -203,9 +220,17 @@ std::vector<double> free_simulation(const Bvrm& model, const Record& record, Hol
 Identification identify_bvrm(std::span<const Record> fit_records, const Record& held_out,
                              const IdentifyOptions& options) {
   check_all(fit_records, held_out, options);
-  const std::vector<Trial> trials = Identifier(fit_records, options).run();
-  const Trial& best = choose(trials);
+  const Identifier identifier(fit_records, options);
+  const std::vector<Trial> trials = identifier.run();
+  const Trial& first = choose(trials);
+  const std::optional<OrderSelection> selection = identifier.select(first.summary.hold);
+  const bool held_out_rules = options.order_rule == OrderRule::cross_validation;
+  const Trial& best = !selection ? first
+                                 : of_order(trials, first,
+                                            held_out_rules ? selection->by_cross_validation
+                                                           : selection->by_information);
   Identification result;
+  if (selection) result.order_words = selection->words;
   result.fit = best.fit;
   result.hold = best.summary.hold;
   result.order = best.summary.order;
@@ -214,10 +239,10 @@ Identification identify_bvrm(std::span<const Record> fit_records, const Record& 
   const auto simulated = free_simulation(result.fit.model, held_out, result.hold, options.nuisance);
   result.held_out_fit_percent = fit_percent(held_out_moment, simulated);
   result.held_out_vaf_percent = vaf_percent(held_out_moment, simulated);
-  const Record& first = fit_records[0];
+  const Record& shown = fit_records[0];
   result.fit_record_fit_percent =
-      fit_percent(first.channel(channel::base_moment),
-                  free_simulation(result.fit.model, first, result.hold, options.nuisance));
+      fit_percent(shown.channel(channel::base_moment),
+                  free_simulation(result.fit.model, shown, result.hold, options.nuisance));
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "separation/fitted_bvrm.h"
@@ -12,11 +13,15 @@
 
 namespace vibrissa::separation {
 
+/// What chooses the order: see OrderSelection.
+enum class OrderRule { information, cross_validation };
+
 struct IdentifyOptions {
-  /// Number of poles, even. Nothing: chosen by the Bayesian information criterion on the fit
-  /// records.
+  /// Number of poles, even. Nothing: chosen on the fit records, after whitening; on records of less
+  /// than 400 samples by the criterion of the trials.
   std::optional<std::size_t> order = std::nullopt;
   std::size_t max_order = 6;
+  OrderRule order_rule = OrderRule::information;
   /// Of periodic records in steady state; 0: not periodic.
   std::size_t period_samples = 0;
   /// Nothing: first_order or band_limited, whichever fits the fit records better.
@@ -31,7 +36,7 @@ struct IdentificationTrial {
   std::size_t order = 0;
   Hold hold = Hold::first_order;
   double residual_rms_n_m = 0.;  // on the fit records
-  /// n ln(mean e^2) + n_parameters ln n; the lowest wins.
+  /// n ln(mean e^2) + n_parameters ln n: right for a white error; chooses the hold.
   double information_criterion = 0.;
   FitEnd end = FitEnd::converged;
 };
@@ -45,13 +50,15 @@ struct Identification {
   double held_out_vaf_percent = 0.;
   double fit_record_fit_percent = 0.;  // of the first fit record, likewise
   std::vector<IdentificationTrial> trials;
+  std::string order_words;  // how sure the order is; empty when it was given
 };
 
 /// Identifies the base-vibration response model from base_acceleration to base_moment. The
 /// frequency response of the longest fit record (from whole periods, or Welch's) gives the start of
-/// every order, the output-error fit to all fit records the model; the held-out record only scores
-/// it. Throws UserError: no such channel, a constant or not finite one, unequal rates, a record too
-/// short for the order, an odd order. Proven by tests/separation/identify_test.cc.
+/// every order, the output-error fit to all fit records the model, its error never rising with the
+/// order (see fit_orders()); the held-out record only scores it. Throws UserError: no such channel,
+/// a constant or not finite one, unequal rates, a record too short for the order, an odd order.
+/// Proven by tests/separation/identify_test.cc.
 Identification identify_bvrm(std::span<const signals::Record> fit_records,
                              const signals::Record& held_out, const IdentifyOptions& options = {});
 Identification identify_bvrm(const signals::Record& fit_record, const signals::Record& held_out,

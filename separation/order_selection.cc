@@ -37,9 +37,13 @@ Parts split(std::span<const Segment> segments, double held_out_share) {
   return parts;
 }
 
-signals::FrequencyResponse response_of(std::span<const Segment> segments, double rate_hz) {
+signals::FrequencyResponse response_of(std::span<const Segment> segments, double rate_hz,
+                                       std::size_t period_samples) {
   const Segment& longest = *std::ranges::max_element(
       segments, {}, [](const Segment& segment) { return segment.base_moment.size(); });
+  if (period_samples > 0 && longest.base_moment.size() >= period_samples)
+    return signals::periodic_response(longest.base_acceleration, longest.base_moment, rate_hz,
+                                      period_samples);
   constexpr std::size_t shortest = 32, longest_window = 2048;
   const std::size_t window =
       std::clamp(std::bit_floor(longest.base_moment.size() / 4), shortest, longest_window);
@@ -89,15 +93,16 @@ std::string verdict(const OrderSelection& selection) {
          ": the record hardly determines what lies between; take the lower one, or a longer record";
 }
 
-void choose(const std::vector<std::vector<double>>& held_out_squares, OrderSelection& selection) {
+void choose(const std::vector<std::vector<double>>& held_out_squares, double rounding,
+            OrderSelection& selection) {
   const auto& best = *std::ranges::min_element(
       held_out_squares, {}, [](const std::vector<double>& x) { return mean(x); });
   for (std::size_t i = 0; i < selection.trials.size(); ++i)
     selection.trials[i].worse_than_best = mean_difference_significance(held_out_squares[i], best);
   // The first one: trials ascend.
   selection.by_cross_validation =
-      std::ranges::find_if(selection.trials, [](const OrderTrial& trial) {
-        return trial.worse_than_best <= 2.;
+      std::ranges::find_if(selection.trials, [&](const OrderTrial& trial) {
+        return trial.worse_than_best <= 2. || trial.held_out_mean_square <= rounding;
       })->order;
   selection.by_information =
       std::ranges::min_element(selection.trials, {}, &OrderTrial::information_criterion)->order;
@@ -166,8 +171,14 @@ OrderSelection select_order(std::span<const Segment> segments, double sampling_r
   check_options(segments, options);
   const Parts raw = split(segments, options.held_out_share);
   const auto fit_parts = [&](std::span<const Segment> parts) {
-    return fit_orders(response_of(parts, sampling_rate_hz), parts, sampling_rate_hz,
-                      options.max_order, options.delay_s, options.fit);
+    auto fits = fit_orders(response_of(parts, sampling_rate_hz, options.period_samples), parts,
+                           sampling_rate_hz, options.max_order, options.delay_s, options.fit);
+    if (fits.empty())
+      throw UserError(
+          "order selection: the frequency response of the fitting parts does not determine even "
+          "two "
+          "poles; excite more lines");
+    return fits;
   };
   const auto errors_of = [&](const FittedBvrm& fit, std::span<const Segment> parts) {
     return errors(fit.model, parts, sampling_rate_hz, options.fit);
@@ -175,6 +186,12 @@ OrderSelection select_order(std::span<const Segment> segments, double sampling_r
   const Whitener whitener(errors_of(fit_parts(raw.fitting).back(), raw.fitting),
                           options.whitening_taps);
   const WhitenedSegments fitting(raw.fitting, whitener), held_out(raw.held_out, whitener);
+
+  // Errors that are rounding are not told apart.
+  double moment = 0.;
+  for (const Segment& segment : fitting.segments())
+    moment = std::max(moment, mean_square(segment.base_moment));
+  const double rounding = 1e-20 * moment;
 
   OrderSelection selection;
   std::vector<std::vector<double>> held_out_squares;
@@ -186,11 +203,11 @@ OrderSelection select_order(std::span<const Segment> segments, double sampling_r
     trial.fitted_mean_square = mean_square(error);
     trial.held_out_mean_square = mean(held_out_squares.back());
     trial.information_criterion =
-        n * std::log(trial.fitted_mean_square) +
+        n * std::log(std::max(trial.fitted_mean_square, rounding)) +
         static_cast<double>(n_unknowns(trial.fit, segments.size(), options.fit)) * std::log(n);
     selection.trials.push_back(std::move(trial));
   }
-  choose(held_out_squares, selection);
+  choose(held_out_squares, rounding, selection);
   return selection;
 }
 

@@ -27,6 +27,7 @@ struct OrderOptions {
   std::size_t max_order = 6;  // number of poles, even
   double delay_s = 0.;
   OutputErrorOptions fit = {};
+  std::size_t period_samples = 0;   // of periodic segments in steady state; 0: not periodic
   double held_out_share = 0.3;      // of each segment, at its end
   std::size_t whitening_taps = 30;  // of the autoregression
 };
@@ -45,7 +46,7 @@ struct OrderTrial {
 struct OrderSelection {
   std::vector<OrderTrial> trials;  // ascending order
   /// The lowest order whose held-out error is not worse than the smallest by more than two standard
-  /// deviations.
+  /// deviations, or no more than rounding.
   std::size_t by_cross_validation = 0;
   std::size_t by_information = 0;  // the smallest criterion
   std::string words;               // both, and whether they agree

@@ -27,8 +27,9 @@ struct SrivcOptions {
 /// is solved with the noise-free sensitivities of the present model as instruments, and A0 replaced
 /// by A, until the simulated moment moves by less than a thousandth of what the noise allows.
 /// Written in partial fractions over the poles of A0, which spans the same regression as powers of
-/// s and stays well conditioned. The input is filtered exactly for the hold; the moment is filtered
-/// as straight lines, which matters only on the way: at the end A / A0 = 1. Unstable poles are
+/// s and stays well conditioned. The input, and with it what the present model explains of
+/// the moment, is filtered exactly for the hold; the rest of the moment as straight lines, which
+/// matters only on the way: at the end A / A0 = 1. Unstable poles are
 /// reflected. Covariance: residual variance times the inverse of the instruments' inner products.
 /// end is step_limit when it still moves, unstable when a pole goes beyond what the grid tells from
 /// its aliases. Throws UserError as refine_output_error does. Proven by

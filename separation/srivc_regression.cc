@@ -78,6 +78,22 @@ struct Drive {
   }
 };
 
+// (p1, p0, q1, q0) of s^i (b1 s + b0) / (D D') = (p1 s + p0) / D' + (q1 s + q0) / D, i = 1 for the
+// rate; b and D are the mode's, D' the other's.
+Eigen::Vector4d separate(const ModalTerm& mode, const ModalTerm& other, bool rate) {
+  const double unit = std::sqrt(std::sqrt(mode.a0 * other.a0)), square = unit * unit;
+  Eigen::Matrix4d matrix;
+  matrix << 1., 0., 1., 0.,                                                  //
+      mode.a1 / unit, 1., other.a1 / unit, 1.,                               //
+      mode.a0 / square, mode.a1 / unit, other.a0 / square, other.a1 / unit,  //
+      0., mode.a0 / square, 0., other.a0 / square;
+  const Eigen::Vector4d right =
+      rate ? Eigen::Vector4d(0., mode.b1 / unit, mode.b0 / square, 0.)
+           : Eigen::Vector4d(0., 0., mode.b1 / square, mode.b0 / (square * unit));
+  const Eigen::Vector4d share = matrix.fullPivLu().solve(right);
+  return {share[0], unit * share[1], share[2], unit * share[3]};
+}
+
 Eigen::VectorXd inverse_length(const Eigen::MatrixXd& columns) {
   Eigen::VectorXd length = columns.colwise().norm();
   for (double& value : length) value = value > 0. ? 1. / value : 1.;
@@ -131,18 +147,18 @@ void SrivcRegression::prepare(const Bvrm& model) {
   model_ = model;
   const Eigen::VectorXd before = simulated_;
   simulated_.setZero();
+  unexplained_ = measured_;
   const Eigen::Index n_free =
       options_.nuisance.initial_state ? 2 * static_cast<Eigen::Index>(n_modes_) : 0;
   Eigen::Index row = 0, nuisance = n_model_;
   for (const AlignedSegment& segment : segments_) {
     const auto n = static_cast<Eigen::Index>(segment.output.size() - segment.first);
-    for (std::size_t k = 0; k < n_modes_; ++k) {
-      const Eigen::Index free = n_free > 0 ? nuisance + 2 * static_cast<Eigen::Index>(k) : nuisance;
-      fill_instruments(k, model.modes[k], segment, row, free);
-      fill_denominator(k, model.modes[k], segment, row);
-    }
     const Eigen::Map<const Eigen::VectorXd> direct(segment.direct.data() + segment.first, n);
-    simulated_.segment(row, n) += model.direct_term_kg_m * direct;
+    simulated_.segment(row, n) = model.direct_term_kg_m * direct;
+    unexplained_.segment(row, n) -= simulated_.segment(row, n);
+    for (std::size_t k = 0; k < n_modes_; ++k)
+      fill_instruments(k, model.modes[k], segment, row,
+                       n_free > 0 ? nuisance + 2 * static_cast<Eigen::Index>(k) : nuisance);
     if (options_.direct_term) instruments_.col(n_model_ - 1).segment(row, n) = direct;
     if (options_.nuisance.offset) instruments_.col(nuisance + n_free).segment(row, n).setOnes();
     row += n;
@@ -152,6 +168,12 @@ void SrivcRegression::prepare(const Bvrm& model) {
   for (Eigen::Index j = 0; j < instruments_.cols(); ++j)
     if (j >= 4 * static_cast<Eigen::Index>(n_modes_) || j % 4 < 2)
       regressors_.col(j) = instruments_.col(j);
+  Eigen::Index first_row = 0;
+  for (const AlignedSegment& segment : segments_) {
+    const auto n = static_cast<Eigen::Index>(segment.output.size() - segment.first);
+    for (std::size_t k = 0; k < n_modes_; ++k) fill_denominator(k, first_row, n);
+    first_row += n;
+  }
   movement_ = (simulated_ - before).squaredNorm();
 }
 
@@ -184,6 +206,7 @@ void SrivcRegression::fill_instruments(std::size_t k, const ModalTerm& mode,
     instruments_.col(first_nuisance + j).segment(first_row, n) = response.tail(n).matrix();
     answer.col(4) += nuisance_[first_nuisance - n_model_ + j] * response;
   }
+  unexplained_.segment(first_row, n) -= answer.matrix().col(4).tail(n);
   const Padded again =
       filtered(step, {answer.col(4).data(), static_cast<std::size_t>(answer.rows())});
   answer.col(2) -= step.pole1.by_a1 * again.late(1) + step.pole2.by_a1 * again.late(2);
@@ -192,19 +215,31 @@ void SrivcRegression::fill_instruments(std::size_t k, const ModalTerm& mode,
       answer.matrix().block(first, 0, n, 4);
 }
 
-void SrivcRegression::fill_denominator(std::size_t k, const ModalTerm& mode,
-                                       const AlignedSegment& segment, Eigen::Index first_row) {
-  const bool free = options_.nuisance.initial_state;
-  const std::span<const double> moment = std::span(segment.output).subspan(segment.first);
-  const auto n = static_cast<Eigen::Index>(moment.size());
+// -(s, 1) / D_k of the moment. Of the part that the present model explains, its own mode's share is
+// the derivative by a1 and a0; the others' follow by partial fractions; what a free response adds
+// beyond lies in the columns of the free responses. The rest is filtered as straight lines.
+void SrivcRegression::fill_denominator(std::size_t k, Eigen::Index first_row, Eigen::Index n) {
+  const auto columns = [&](std::size_t mode, Eigen::Index first) {
+    return instruments_.block(first_row, 4 * static_cast<Eigen::Index>(mode) + first, n, 2);
+  };
+  auto target = regressors_.block(first_row, 4 * static_cast<Eigen::Index>(k) + 2, n, 2);
+  target = columns(k, 2) - model_.direct_term_kg_m * columns(k, 0);
+  for (std::size_t j = 0; j < n_modes_; ++j) {
+    if (j == k) continue;
+    for (const bool rate : {true, false}) {
+      const Eigen::Vector4d share = separate(model_.modes[j], model_.modes[k], rate);
+      target.col(rate ? 0 : 1) -= columns(k, 0) * share.head<2>() + columns(j, 0) * share.tail<2>();
+    }
+  }
+  const ModalTerm& mode = model_.modes[k];
   const ModeStep lines(mode.a1, mode.a0, sampling_rate_hz_, Hold::first_order);
-  const Drive output{filtered(lines, moment), Padded(0), impulse_response(lines, n),
-                     free || moment.empty() ? 0. : moment[0]};
+  const std::span<const double> rest(unexplained_.data() + first_row, static_cast<std::size_t>(n));
+  const bool at_rest = !options_.nuisance.initial_state && n > 0;
+  const Drive output{filtered(lines, rest), Padded(0), impulse_response(lines, n),
+                     at_rest ? rest[0] : 0.};
   for (const bool rate : {true, false}) {
-    const Eigen::Index column = 4 * static_cast<Eigen::Index>(k) + (rate ? 2 : 3);
-    auto target = regressors_.col(column).segment(first_row, n).array();
-    target.setZero();
-    output.add(lines, rate, &Sensitive::value, -1., target);
+    auto column = target.col(rate ? 0 : 1).array();
+    output.add(lines, rate, &Sensitive::value, -1., column);
   }
 }
 

@@ -48,8 +48,7 @@ class SrivcRegression {
  private:
   void fill_instruments(std::size_t k, const ModalTerm& mode, const AlignedSegment& segment,
                         Eigen::Index first_row, Eigen::Index first_nuisance);
-  void fill_denominator(std::size_t k, const ModalTerm& mode, const AlignedSegment& segment,
-                        Eigen::Index first_row);
+  void fill_denominator(std::size_t k, Eigen::Index first_row, Eigen::Index n);
 
   std::size_t n_modes_;
   double sampling_rate_hz_;
@@ -59,7 +58,7 @@ class SrivcRegression {
   Eigen::Index n_rows_ = 0, n_model_;
   Bvrm model_;
   Eigen::MatrixXd instruments_, regressors_;
-  Eigen::VectorXd measured_, simulated_;
+  Eigen::VectorXd measured_, simulated_, unexplained_;
   Eigen::VectorXd nuisance_;  // free responses and offsets of the last solution
   double movement_ = 0.;
 };

@@ -77,6 +77,22 @@ TEST(Identify, TellsASmoothDriveFromStraightLinesAndFitsIt) {
   }
 }
 
+// Noise of the accelerometer is carried through the model by whoever identifies it.
+TEST(Identify, ChoosesTheOrderInTheNoiseOfAnAccelerometer) {
+  const Bvrm truth = test::sensor(2, -2e-7);
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    Record fit = held_record(truth, 8000, seed, 1e-7);
+    const auto motion = fit.channel(channel::base_acceleration);
+    fit.set_channel(channel::base_acceleration,
+                    test::plus_noise({motion.begin(), motion.end()}, 0.3, 50 + seed));
+    for (const OrderRule rule : {OrderRule::information, OrderRule::cross_validation}) {
+      const Identification found =
+          identify_bvrm(fit, held_record(truth, 3000, 10 + seed), {.order_rule = rule});
+      EXPECT_EQ(found.order, 4u) << seed << ": " << found.order_words;
+    }
+  }
+}
+
 TEST(Identify, SeesAModeAboveTheBandAsADirectTerm) {
   Bvrm truth;
   truth.modes = {make_modal_term(27.2, 0.05, -9e-6, -3e-9), make_modal_term(172., 0.05, -8e-7),

@@ -38,7 +38,7 @@ OrderSelection select(const Rig& rig, const OrderOptions& options = {}) {
 TEST(OrderSelection, FittedErrorNeverRisesWithTheOrder) {
   for (const std::size_t n_modes : {1u, 2u, 3u})
     for (const double accelerometer_noise : {0., 0.1})
-      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      for (std::uint64_t seed = 1; seed <= 2; ++seed) {
         const Rig rig =
             measure(test::sensor(n_modes, -2e-7), 3000, 0.03, accelerometer_noise, seed);
         const OrderSelection selection = select(rig, {.max_order = 8});
@@ -50,20 +50,44 @@ TEST(OrderSelection, FittedErrorNeverRisesWithTheOrder) {
       }
 }
 
+// Starts from a response too coarse to show the modes lead astray now and then; the fit below does
+// not.
+TEST(OrderSelection, FittedErrorNeverRisesWhereTheResponseTellsLittle) {
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    const Rig rig = measure(test::sensor(3, -2e-7), 2000, 0.03, 0., seed);
+    const Segment segment = rig.segment();
+    const auto response =
+        signals::welch_response(segment.base_acceleration.first(160),
+                                segment.base_moment.first(160), rate_hz, {.segment_samples = 64});
+    double below = std::numeric_limits<double>::infinity();
+    for (const FittedBvrm& fit : fit_orders(response, std::span(&segment, 1), rate_hz, 8, 0., {})) {
+      const auto n_unknowns = static_cast<double>(n_parameters(fit.model.modes.size(), true) +
+                                                  2 * fit.model.modes.size() + 1);
+      const double squares = fit.residual_variance * (2000. - n_unknowns);
+      EXPECT_LE(squares, below * (1. + 1e-9)) << seed << ", order " << fit.model.order();
+      below = squares;
+    }
+  }
+}
+
 struct Share {
   double cross_validation = 0., information = 0.;
 };
 
-// Share of 30 records for which the right order was found.
+// Share of 12 records for which the right order was found.
 Share right(std::size_t n_modes, double moment_noise, double accelerometer_noise) {
   Share share;
-  constexpr int n_draws = 30;
+  constexpr int n_draws = 12;
   for (std::uint64_t seed = 1; seed <= n_draws; ++seed) {
     const OrderSelection selection = select(
-        measure(test::sensor(n_modes, -2e-7), 8000, moment_noise, accelerometer_noise, seed));
+        measure(test::sensor(n_modes, -2e-7), 6000, moment_noise, accelerometer_noise, seed));
     share.cross_validation += (selection.by_cross_validation == 2 * n_modes) / double{n_draws};
     share.information += (selection.by_information == 2 * n_modes) / double{n_draws};
   }
+  const std::string label = std::to_string(n_modes) + (accelerometer_noise > 0. ? "_noisy" : "");
+  testing::Test::RecordProperty("cross_validation_" + label,
+                                std::to_string(share.cross_validation));
+  testing::Test::RecordProperty("information_" + label, std::to_string(share.information));
   return share;
 }
 
