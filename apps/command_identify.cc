@@ -20,7 +20,7 @@ struct IdentifyCommandOptions {
   std::optional<std::string> held_out_file, model_file, c_header_file;
   separation::IdentifyOptions identify;
   std::optional<std::string> hold;
-  bool no_direct_term = false;
+  bool no_direct_term = false, cross_validation = false;
 };
 
 void identify(const IdentifyCommandOptions& options) {
@@ -28,6 +28,7 @@ void identify(const IdentifyCommandOptions& options) {
   separation::IdentifyOptions identify = options.identify;
   if (options.hold) identify.hold = separation::parse_hold(*options.hold);
   identify.direct_term = !options.no_direct_term;
+  if (options.cross_validation) identify.order_rule = separation::OrderRule::cross_validation;
   // Without a second file the last third is held out, never used to fit.
   const std::size_t n_fit = options.held_out_file ? all.n_samples() : 2 * all.n_samples() / 3;
   const signals::Record fit = all.slice(0, n_fit);
@@ -44,6 +45,7 @@ void identify(const IdentifyCommandOptions& options) {
   if (options.common.json) {
     nlohmann::json document = identification_json(result);
     document.update(evidence_json(evidence));
+    document["order_words"] = result.order_words;
     print_json(document);
     return;
   }
@@ -53,6 +55,7 @@ void identify(const IdentifyCommandOptions& options) {
             << separation::to_string(result.fit.end)
             << "\nfit on held-out data, free simulation: " << result.held_out_fit_percent << " % ("
             << result.held_out_vaf_percent << " % of the variance)\n"
+            << (result.order_words.empty() ? "" : "order: " + result.order_words + "\n")
             << evidence_text(evidence);
   if (!options.held_out_file && !options.common.quiet) {
     std::cout << "Held out: the last third of the record.\n";
@@ -72,6 +75,8 @@ void add_identify_command(CLI::App& app) {
                       "Number of poles, two for each mode (default: by information criterion)");
   command->add_option("--max-order", options->identify.max_order, "Highest order tried")
       ->capture_default_str();
+  command->add_flag("--cross-validation", options->cross_validation,
+                    "Choose the order by a held-out part of the fit record instead");
   command->add_option("--period", options->identify.period_samples,
                       "Period of a periodic record [samples]");
   command->add_option("--hold", options->hold,
