@@ -172,9 +172,7 @@ void time_warping(benchmark::State& state) {
   const bool with_length = state.range(1) != 0;
   Stopwatch ours;
   for (auto _ : state)
-    ours.time([&] {
-      benchmark::DoNotOptimize(with_length ? dtw(x, y).cost : dtw_cost(x, y));
-    });
+    ours.time([&] { benchmark::DoNotOptimize(with_length ? dtw(x, y).cost : dtw_cost(x, y)); });
   state.counters["Mcells_per_s"] = 1e-6 * static_cast<double>(n * n) / ours.shortest_s();
 }
 

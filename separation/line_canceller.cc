@@ -11,7 +11,8 @@ namespace {
 std::size_t checked_delay(const LineCancellerOptions& options) {
   if (options.delay_samples == 0)
     throw signals::UserError(
-        "line canceller: delay_samples = 0 must be at least 1; without a delay the moment foretells "
+        "line canceller: delay_samples = 0 must be at least 1; without a delay the moment "
+        "foretells "
         "itself and nothing is left");
   return options.delay_samples;
 }

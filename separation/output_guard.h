@@ -7,10 +7,9 @@ namespace vibrissa::separation {
 
 /// Tells when an adaptive filter has learnt nonsense: its vibration estimate exceeds four times the
 /// largest moment so far, which no part of the moment does. The filter then hands the moment
-/// on (and, if it goes by gradients, forgets its weights), so that |M_s_hat| <= 5 max |M_r| whatever
-/// comes in (typically: taps learnt in near-silence meet a loud input). Relative: units do not
-/// matter.
-/// Proven by tests/separation/stability_test.cc.
+/// on (and, if it goes by gradients, forgets its weights), so that |M_s_hat| <= 5 max |M_r|
+/// whatever comes in (typically: taps learnt in near-silence meet a loud input). Relative: units do
+/// not matter. Proven by tests/separation/stability_test.cc.
 class OutputGuard {
  public:
   static constexpr double largest_share = 4.;

@@ -12,8 +12,8 @@ namespace {
 
 std::size_t checked_length(const RlsOptions& options) {
   const auto refuse = [](const std::string& name, double value, const std::string& rule) {
-    throw signals::UserError("RLS filter: " + name + " = " + signals::to_text(value) +
-                             " must be " + rule);
+    throw signals::UserError("RLS filter: " + name + " = " + signals::to_text(value) + " must be " +
+                             rule);
   };
   if (options.filter_length == 0) refuse("filter_length", 0., "at least 1");
   if (!(options.forgetting > 0. && options.forgetting <= 1.))

@@ -19,12 +19,12 @@ struct RlsOptions {
 };
 
 /// Recursive least squares from base acceleration to base moment: the taps before each sample
-/// minimise sum_i lambda^(n - i) (M_r[i] - w . x[i])^2 exactly. Kept as the triangular factor of the
-/// weighted data, into which Givens rotations bring each sample (Haykin, Adaptive Filter Theory,
-/// QR-RLS): no covariance that could lose its sign. One tap in turn is pulled towards zero at each
-/// sample, by sqrt(regularisation n_taps mean x^2), so that a base at rest or a pure tone leaves no
-/// tap undetermined. Cost of order n_taps^2 a sample; no latency.
-/// Proven by tests/separation/rls_test.cc against the normal equations.
+/// minimise sum_i lambda^(n - i) (M_r[i] - w . x[i])^2 exactly. Kept as the triangular factor of
+/// the weighted data, into which Givens rotations bring each sample (Haykin, Adaptive Filter
+/// Theory, QR-RLS): no covariance that could lose its sign. One tap in turn is pulled towards zero
+/// at each sample, by sqrt(regularisation n_taps mean x^2), so that a base at rest or a pure tone
+/// leaves no tap undetermined. Cost of order n_taps^2 a sample; no latency. Proven by
+/// tests/separation/rls_test.cc against the normal equations.
 class Rls : public Separator {
  public:
   /// Throws UserError for options out of range, with the option's name.

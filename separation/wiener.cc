@@ -157,8 +157,7 @@ Solution conjugate_gradients(DelayMatrix& matrix, const Eigen::VectorXd& moment,
   constexpr int most_iterations = 2000;
   constexpr double near_enough = 1e-10;
   while (solution.n_iterations < most_iterations && gradient.norm() > near_enough * start) {
-    const Eigen::VectorXd image =
-        matrix.correlate(matrix.filter(direction)) + ridge * direction;
+    const Eigen::VectorXd image = matrix.correlate(matrix.filter(direction)) + ridge * direction;
     const double length = product / direction.dot(image);
     solution.taps += length * direction;
     gradient -= length * image;

@@ -27,8 +27,8 @@ struct WienerResult {
 ///   minimise sum_i (M_r[i] - sum_k w[k] a[i - k])^2 + n regularisation mean(a^2) |w|^2,
 /// a at rest before its first sample: what no causal FIR filter of this length can go below, hence
 /// the bound for those that learn it. Conjugate gradients on the normal equations, products by
-/// transforms of the record, preconditioned by the circulant nearest to the autocorrelation (T. Chan
-/// 1988). It sees the future and the wind that it is tested on: a bound, not a method for
+/// transforms of the record, preconditioned by the circulant nearest to the autocorrelation (T.
+/// Chan 1988). It sees the future and the wind that it is tested on: a bound, not a method for
 /// streams. Throws UserError for a filter_length of zero or above the number of samples, a negative
 /// regularisation, unequal lengths or values that are not finite.
 /// Proven by tests/separation/wiener_test.cc against the normal equations.

@@ -61,7 +61,8 @@ double factor_of(const DragCalibration::Point& point) {
 }
 
 double interpolate(const std::vector<DragCalibration::Point>& points, double speed) {
-  const auto above = std::ranges::lower_bound(points, speed, {}, &DragCalibration::Point::speed_m_s);
+  const auto above =
+      std::ranges::lower_bound(points, speed, {}, &DragCalibration::Point::speed_m_s);
   if (above == points.begin()) return factor_of(points.front()) * speed * speed;
   if (above == points.end()) return factor_of(points.back()) * speed * speed;
   const auto below = above - 1;

@@ -43,8 +43,7 @@ WavSound read_wav(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw UserError(file.string() + ": no such file");
   SF_INFO info{};
   const std::unique_ptr<SNDFILE, CloseSound> sound(sf_open(file.c_str(), SFM_READ, &info));
-  if (!sound)
-    throw UserError(file.string() + ": not a sound file (" + sf_strerror(nullptr) + ")");
+  if (!sound) throw UserError(file.string() + ": not a sound file (" + sf_strerror(nullptr) + ")");
   check_log(file, sound.get());
   const auto n_channels = static_cast<std::size_t>(info.channels);
   std::vector<double> samples(static_cast<std::size_t>(info.frames) * n_channels);

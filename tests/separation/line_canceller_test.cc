@@ -41,8 +41,8 @@ TEST(LineCanceller, LeavesTheShareOfALineThatTheOptimumLeaves) {
   constexpr std::size_t n = 400000, n_taps = 100;
   for (const double amplitude : {0.2, 0.5}) {
     const Signal moment = test::plus_noise(tone(n, amplitude), 1., 1);
-    LineCanceller filter(
-        {.delay_samples = 10, .lms = {.filter_length = n_taps, .step = 0.002, .regularisation = 0.}});
+    LineCanceller filter({.delay_samples = 10,
+                          .lms = {.filter_length = n_taps, .step = 0.002, .regularisation = 0.}});
     const Signal wind = run(filter, moment);
     const double gain = amplitude * amplitude * n_taps / 4.;
     EXPECT_NEAR(amplitude_of(std::span(wind).last(n / 2)) / amplitude, 1. / (1. + gain), 0.03);
@@ -68,7 +68,8 @@ TEST(LineCanceller, KeepsNoiseThatForgetsItselfWithinTheDelay) {
 }
 
 TEST(LineCanceller, TakesNothingFromTheAcceleration) {
-  const Signal moment = test::white_noise(2000, 1., 3), acceleration = test::white_noise(2000, 9., 4);
+  const Signal moment = test::white_noise(2000, 1., 3),
+               acceleration = test::white_noise(2000, 9., 4);
   LineCanceller filter(LineCancellerOptions{});
   const Signal without = run(filter, moment);
   filter.reset();

@@ -29,8 +29,7 @@ TEST(Rls, SolvesTheWeightedNormalEquationsAtEveryTime) {
       const Signal begin_x(x.begin(), x.begin() + n), begin_d(d.begin(), d.begin() + n);
       run(filter, begin_x, begin_d);
       const Signal oracle = test::least_squares_taps(begin_x, begin_d, n_taps, forgetting);
-      EXPECT_LT(test::rms(test::minus(filter.impulse_response(), oracle)),
-                1e-9 * test::rms(oracle))
+      EXPECT_LT(test::rms(test::minus(filter.impulse_response(), oracle)), 1e-9 * test::rms(oracle))
           << forgetting << ", " << n;
     }
 }

@@ -53,20 +53,35 @@ class Vandal {
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
-  std::size_t any(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
+  std::size_t any(std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_);
+  }
 
   void damage(Signal& x) {
     const std::size_t first = any(x.size()), last = first + any(x.size() - first) + 1;
     const std::span part = std::span(x).subspan(first, last - first);
     const double level = test::rms(x);
     switch (any(7)) {
-      case 0: std::ranges::fill(part, 0.); break;                             // gap
-      case 1: scale(part, std::pow(10., uniform(-15., -6.))); break;          // near-silence
-      case 2: scale(part, std::pow(10., uniform(1., 6.))); break;             // burst
-      case 3: add(part, [&](double) { return 30. * level; }); break;          // offset
-      case 4: add(part, [&](double share) { return 30. * level * share; }); break;  // drift
-      case 5: clip(part, 0.3 * level); break;
-      default: std::ranges::fill(part, part[0]);  // a channel that hangs
+      case 0:
+        std::ranges::fill(part, 0.);
+        break;  // gap
+      case 1:
+        scale(part, std::pow(10., uniform(-15., -6.)));
+        break;  // near-silence
+      case 2:
+        scale(part, std::pow(10., uniform(1., 6.)));
+        break;  // burst
+      case 3:
+        add(part, [&](double) { return 30. * level; });
+        break;  // offset
+      case 4:
+        add(part, [&](double share) { return 30. * level * share; });
+        break;  // drift
+      case 5:
+        clip(part, 0.3 * level);
+        break;
+      default:
+        std::ranges::fill(part, part[0]);  // a channel that hangs
     }
   }
 
@@ -76,8 +91,7 @@ class Vandal {
     const double pole = uniform(-0.9, 0.9);
     pair.moment.assign(n, 0.);
     for (std::size_t i = 1; i < n; ++i)
-      pair.moment[i] =
-          pole * pair.moment[i - 1] + (i < delay ? 0. : pair.acceleration[i - delay]);
+      pair.moment[i] = pole * pair.moment[i - 1] + (i < delay ? 0. : pair.acceleration[i - delay]);
     const double wind = std::pow(10., uniform(-3., 1.)) * test::rms(pair.moment);
     pair.moment = test::plus_noise(pair.moment, wind, random_());
     for (std::size_t k = any(4); k > 0; --k) damage(pair.acceleration);

@@ -70,7 +70,8 @@ TEST(WienerFilter, RefusesWhatItCannotSolve) {
   const Signal x(10, 1.);
   const auto refuse = [&](const Signal& a, const Signal& m, const WienerOptions& options,
                           const std::string& message) {
-    EXPECT_THAT([&] { wiener_filter(a, m, options); }, ThrowsMessage<UserError>(HasSubstr(message)));
+    EXPECT_THAT([&] { wiener_filter(a, m, options); },
+                ThrowsMessage<UserError>(HasSubstr(message)));
   };
   refuse(x, Signal(9, 1.), {.filter_length = 2}, "10 accelerations and 9 moments");
   refuse(x, x, {.filter_length = 0}, "filter_length = 0");

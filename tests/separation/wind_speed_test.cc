@@ -74,8 +74,7 @@ TEST(WindSpeed, HoldsTheTruthInTwoThirdsOfNoisyMoments) {
 }
 
 TEST(WindSpeed, OfPointsOfASquareLawIsExactBetweenThem) {
-  const auto calibration =
-      DragCalibration::from_points({{1., k}, {2., 4. * k}, {5., 25. * k}});
+  const auto calibration = DragCalibration::from_points({{1., k}, {2., 4. * k}, {5., 25. * k}});
   for (const double speed : {0.3, 1., 1.7, 4.4, 5.})
     EXPECT_NEAR(calibration.speed_m_s(k * speed * speed), speed, 1e-13);
   EXPECT_EQ(calibration.highest_speed_m_s(), 5.);

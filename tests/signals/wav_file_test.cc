@@ -45,9 +45,8 @@ class WavFile : public testing::Test {
     return file;
   }
   fs::path folder_ = fs::temp_directory_path() /
-                     ("vibrissa_wav_" + std::string(testing::UnitTest::GetInstance()
-                                                        ->current_test_info()
-                                                        ->name()));
+                     ("vibrissa_wav_" +
+                      std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
 
 TEST_F(WavFile, GivesEachChannelWithFullScaleOne) {
@@ -68,8 +67,8 @@ TEST_F(WavFile, TakesFloatsAsTheyAre) {
 TEST_F(WavFile, RefusesBadFilesWithTheirName) {
   const auto refuse = [&](const std::string& bytes, const std::string& message) {
     const fs::path file = write(bytes);
-    EXPECT_THAT([&] { read_wav(file); },
-                ThrowsMessage<UserError>(testing::AllOf(HasSubstr("sound.wav"), HasSubstr(message))));
+    EXPECT_THAT([&] { read_wav(file); }, ThrowsMessage<UserError>(testing::AllOf(
+                                             HasSubstr("sound.wav"), HasSubstr(message))));
   };
   refuse("", "not a sound file");
   refuse("time_s,base_moment_N_m\n0,1\n", "not a sound file");
