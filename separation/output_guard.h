@@ -17,8 +17,10 @@ class OutputGuard {
   void clear() { largest_moment_ = 0.; }
   /// Takes the moments before the estimate that belongs to them is judged.
   void hear(const double* moment, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i)
-      largest_moment_ = std::fmax(largest_moment_, std::abs(moment[i]));
+    for (std::size_t i = 0; i < n; ++i) {
+      const double size = std::abs(moment[i]);
+      largest_moment_ = size > largest_moment_ ? size : largest_moment_;
+    }
   }
   /// Refuses what is not finite, too.
   bool accepts(double vibration) const {

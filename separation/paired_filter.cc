@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <complex>
 
 namespace vibrissa::separation {
 
@@ -11,6 +12,11 @@ Eigen::Index count_pairs(std::size_t n_partitions) {
   return static_cast<Eigen::Index>((n_partitions + 1) / 2);
 }
 
+// The place before one in a ring.
+Eigen::Index step_back(Eigen::Index place, Eigen::Index n_places) {
+  return (place + n_places - 1) % n_places;
+}
+
 }  // namespace
 
 PairedFilter::PairedFilter(std::size_t block_length, std::size_t n_partitions,
@@ -18,11 +24,13 @@ PairedFilter::PairedFilter(std::size_t block_length, std::size_t n_partitions,
     : block_length_(block_length),
       constraint_(constraint),
       fft_(2 * block_length),
+      real_fft_(2 * block_length),
       input_(static_cast<Eigen::Index>(2 * block_length), count_pairs(n_partitions)),
       weights_(input_.rows(), input_.cols()),
       error_(input_.rows()),
-      history_(input_.rows() + input_.cols() * static_cast<Eigen::Index>(block_length)),
-      powers_(static_cast<Eigen::Index>(block_length) + 1, static_cast<Eigen::Index>(n_partitions)),
+      last_block_(static_cast<Eigen::Index>(block_length)),
+      spectra_(static_cast<Eigen::Index>(block_length) + 1, input_.cols() + 1),
+      powers_(spectra_.rows(), static_cast<Eigen::Index>(n_partitions)),
       power_(powers_.rows()) {
   clear();
 }
@@ -30,10 +38,11 @@ PairedFilter::PairedFilter(std::size_t block_length, std::size_t n_partitions,
 void PairedFilter::clear() {
   clear_taps();
   input_.setZero();
-  history_.setZero();
+  last_block_.setZero();
+  spectra_.setZero();
   powers_.setZero();
   power_.setZero();
-  newest_ = newest_power_ = 0;
+  newest_ = newest_spectrum_ = newest_power_ = 0;
 }
 
 void PairedFilter::clear_taps() {
@@ -44,37 +53,42 @@ void PairedFilter::clear_taps() {
 void PairedFilter::push(std::span<const double> block) {
   const auto n = static_cast<Eigen::Index>(block_length_);
   assert(block.size() == block_length_);
-  std::copy(history_.begin() + n, history_.end(), history_.begin());
-  history_.tail(n) = Eigen::Map<const Eigen::ArrayXd>(block.data(), n);
+  Eigen::Map<Eigen::ArrayXd> time(real_fft_.time().data(), 2 * n);
+  time.head(n) = last_block_;
+  last_block_ = Eigen::Map<const Eigen::ArrayXd>(block.data(), n);
+  time.tail(n) = last_block_;
+  real_fft_.forward();
 
-  time().real() = history_.tail(length());
-  time().imag() = -history_.head(length());
-  fft_.forward();
-  newest_ = (newest_ + n_pairs() - 1) % n_pairs();
-  input_.col(newest_) = spectrum();
-  take_power();
+  newest_ = step_back(newest_, input_.cols());
+  newest_spectrum_ = step_back(newest_spectrum_, spectra_.cols());
+  spectra_.col(newest_spectrum_) = Eigen::Map<const Spectrum>(real_fft_.spectrum().data(), n + 1);
+  pair_newest();
   if (n_partitions() % 2 == 1) separate_last();
+  take_power();
 }
 
-// An odd number of partitions leaves the last without a partner: X alone, half of the sum with the
-// mirror image.
+// X_0 - j X_h, whose mirror image is conj(X_0 + j X_h).
+void PairedFilter::pair_newest() {
+  constexpr std::complex<double> j(0., 1.);
+  const Eigen::Index n = spectra_.rows() - 1;
+  const auto first = spectrum_back(0), second = spectrum_back(n_pairs());
+  auto pair = input_.col(newest_);
+  pair.head(n + 1) = first - j * second;
+  pair.tail(n - 1) = (first + j * second).segment(1, n - 1).reverse().conjugate();
+}
+
+// An odd number of partitions leaves the last without a partner.
 void PairedFilter::separate_last() {
-  auto last = input_.col(place(n_pairs() - 1));
-  auto pair = spectrum();
-  pair = last;
-  const Eigen::Index n = length() - 1;
-  last[0] = pair[0].real();
-  last.tail(n) = 0.5 * (pair.tail(n) + pair.tail(n).reverse().conjugate());
+  const Eigen::Index n = spectra_.rows() - 1;
+  const auto alone = spectrum_back(n_pairs() - 1);
+  auto pair = input_.col(place(n_pairs() - 1));
+  pair.head(n + 1) = alone;
+  pair.tail(n - 1) = alone.segment(1, n - 1).reverse().conjugate();
 }
 
-// Bin k and its mirror image hold X_p -+ j X_{p+h}: the newest X_p is half their sum.
 void PairedFilter::take_power() {
-  const Eigen::Index n = powers_.rows() - 1;
-  newest_power_ = (newest_power_ + powers_.cols() - 1) % powers_.cols();
-  const auto newest = input_.col(newest_);
-  auto power = powers_.col(newest_power_);
-  power[0] = newest[0].real() * newest[0].real();
-  power.tail(n) = 0.25 * (newest.segment(1, n) + newest.tail(n).reverse().conjugate()).abs2();
+  newest_power_ = step_back(newest_power_, powers_.cols());
+  powers_.col(newest_power_) = spectrum_back(0).abs2();
   // Summed anew each time: a running sum would keep the rounding of what has left it.
   power_ = powers_.col(0);
   for (Eigen::Index p = 1; p < powers_.cols(); ++p) power_ += powers_.col(p);
@@ -84,10 +98,13 @@ void PairedFilter::apply(std::span<double> output) {
   auto sum = spectrum();
   sum = input_.col(place(0)) * weights_.col(0);
   for (Eigen::Index q = 1; q < n_pairs(); ++q) sum += input_.col(place(q)) * weights_.col(q);
-  fft_.inverse();
+  // The real part in time is what a bin has in common with its mirror image.
   const auto n = static_cast<Eigen::Index>(block_length_);
-  Eigen::Map<Eigen::ArrayXd>(output.data(), n) =
-      time().tail(n).real() * (1. / static_cast<double>(length()));
+  Eigen::Map<Spectrum> real_spectrum(real_fft_.spectrum().data(), n + 1);
+  real_spectrum[0] = sum[0].real();
+  real_spectrum.tail(n) = 0.5 * (sum.segment(1, n) + sum.tail(n).reverse().conjugate());
+  real_fft_.inverse();
+  std::ranges::copy(real_fft_.time().last(block_length_), output.begin());
 }
 
 // The spectrum's samples lose their second half.

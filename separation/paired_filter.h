@@ -17,9 +17,9 @@ namespace vibrissa::separation {
 /// and V = W_p + j W_{p+h} over the whole circle of bins,
 ///   y = Re ifft(sum U V),   V += fft(constraint(ifft(conj(U) E)))
 /// are those of both partitions, and a pair stays together when the input moves on by a block.
-/// Half as many transforms of the same length, and complex ones, which are quicker than two real ones.
-/// Knows nothing of step sizes: adapt() takes the scaled error.
-/// Proven by tests/separation/paired_filter_test.cc against plain convolution and correlation.
+/// Half as many transforms of the same length, and complex ones, which are quicker than two real
+/// ones. Knows nothing of step sizes: adapt() takes the scaled error. Proven by
+/// tests/separation/paired_filter_test.cc against plain convolution and correlation.
 class PairedFilter {
  public:
   PairedFilter(std::size_t block_length, std::size_t n_partitions, Constraint constraint);
@@ -50,6 +50,10 @@ class PairedFilter {
   Eigen::Index place(Eigen::Index pair) const { return (newest_ + pair) % n_pairs(); }
   Eigen::Map<Spectrum> time() { return {fft_.time().data(), length()}; }
   Eigen::Map<Spectrum> spectrum() { return {fft_.spectrum().data(), length()}; }
+  auto spectrum_back(Eigen::Index n_blocks) const {
+    return spectra_.col((newest_spectrum_ + n_blocks) % spectra_.cols());
+  }
+  void pair_newest();
   void take_power();
   void separate_last();
   void constrain();
@@ -57,12 +61,14 @@ class PairedFilter {
   std::size_t block_length_;
   Constraint constraint_;
   signals::ComplexFft fft_;
+  signals::RealFft real_fft_;
   Eigen::ArrayXXcd input_, weights_;  // U and V: [bin of the whole circle][pair]
   Spectrum error_;                    // over the whole circle
-  Eigen::ArrayXd history_;            // the input's last samples, newest last
-  Eigen::ArrayXXd powers_;            // |X_p|^2: [bin][place]
+  Eigen::ArrayXd last_block_;
+  Eigen::ArrayXXcd spectra_;  // X of the last blocks: [bin][place]
+  Eigen::ArrayXXd powers_;    // |X_p|^2: [bin][place]
   Eigen::ArrayXd power_;
-  Eigen::Index newest_ = 0, newest_power_ = 0, next_constrained_ = 0;
+  Eigen::Index newest_ = 0, newest_spectrum_ = 0, newest_power_ = 0, next_constrained_ = 0;
 };
 
 }  // namespace vibrissa::separation

@@ -8,8 +8,7 @@ namespace vibrissa::separation {
 /// The last n samples, the newest first and in one piece, for filters that work sample by sample.
 class TapWindow {
  public:
-  explicit TapWindow(std::size_t n)
-      : n_(static_cast<Eigen::Index>(n)), buffer_(2 * n_ + 256) {
+  explicit TapWindow(std::size_t n) : n_(static_cast<Eigen::Index>(n)), buffer_(2 * n_ + 256) {
     clear();
   }
 

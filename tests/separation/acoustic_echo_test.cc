@@ -47,7 +47,8 @@ Signal ours(const EchoPair& pair) {
   Signal out(tail_far.size());
   filter.process(tail_far, tail_near, out);
   const auto latency = static_cast<std::ptrdiff_t>(filter.latency_samples());
-  return {out.begin() + latency, out.begin() + latency + static_cast<std::ptrdiff_t>(pair.near.size())};
+  return {out.begin() + latency,
+          out.begin() + latency + static_cast<std::ptrdiff_t>(pair.near.size())};
 }
 
 // The echo canceller alone: the residual suppressor is a separate preprocessor, which is not run.
