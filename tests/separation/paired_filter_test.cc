@@ -22,8 +22,7 @@ Spectrum error_spectrum(const Signal& e) {
   signals::RealFft fft(2 * e.size());
   std::ranges::copy(e, fft.time().last(e.size()).begin());
   fft.forward();
-  return Eigen::Map<const Spectrum>(fft.spectrum().data(),
-                                    static_cast<Eigen::Index>(fft.n_bins()));
+  return Eigen::Map<const Spectrum>(fft.spectrum().data(), static_cast<Eigen::Index>(fft.n_bins()));
 }
 
 TEST(PairedFilter, LearnsTheCorrelationAndFiltersLikeAPlainConvolution) {
