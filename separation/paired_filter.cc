@@ -97,7 +97,10 @@ void PairedFilter::take_power() {
 void PairedFilter::apply(std::span<double> output) {
   auto sum = spectrum();
   sum = input_.col(place(0)) * weights_.col(0);
-  for (Eigen::Index q = 1; q < n_pairs(); ++q) sum += input_.col(place(q)) * weights_.col(q);
+  Eigen::Index q = 1;
+  for (; q + 1 < n_pairs(); q += 2)
+    sum += input_.col(place(q)) * weights_.col(q) + input_.col(place(q + 1)) * weights_.col(q + 1);
+  if (q < n_pairs()) sum += input_.col(place(q)) * weights_.col(q);
   // The real part in time is what a bin has in common with its mirror image.
   const auto n = static_cast<Eigen::Index>(block_length_);
   Eigen::Map<Spectrum> real_spectrum(real_fft_.spectrum().data(), n + 1);

@@ -48,8 +48,9 @@ class PairedFilter {
   Eigen::Index length() const { return weights_.rows(); }
   Eigen::Index n_pairs() const { return weights_.cols(); }
   Eigen::Index place(Eigen::Index pair) const { return (newest_ + pair) % n_pairs(); }
-  Eigen::Map<Spectrum> time() { return {fft_.time().data(), length()}; }
-  Eigen::Map<Spectrum> spectrum() { return {fft_.spectrum().data(), length()}; }
+  using Buffer = Eigen::Map<Spectrum, Eigen::Aligned64>;  // as signals::ComplexFft has them
+  Buffer time() { return {fft_.time().data(), length()}; }
+  Buffer spectrum() { return {fft_.spectrum().data(), length()}; }
   auto spectrum_back(Eigen::Index n_blocks) const {
     return spectra_.col((newest_spectrum_ + n_blocks) % spectra_.cols());
   }
