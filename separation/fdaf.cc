@@ -44,39 +44,34 @@ Fdaf::Fdaf(const FdafOptions& options)
     : BlockSeparator(options.block_length),
       kept_(kept_share(options.leakage)),
       fft_(2 * options.block_length),
-      input_(options.block_length, count_partitions(options)),
-      filter_(options.block_length, input_.n_partitions(), options.constraint),
-      step_rule_(options.step, input_.n_bins()),
-      error_(input_.n_bins()) {}
+      filter_(options.block_length, count_partitions(options), options.constraint),
+      step_rule_(options.step, filter_.n_bins()),
+      error_(filter_.n_bins()) {}
 
 void Fdaf::process_block(std::span<const double> base_acceleration,
                          std::span<const double> base_moment, std::span<double> wind_moment) {
   const auto n = static_cast<Eigen::Index>(block_length());
-  input_.push(base_acceleration, fft_);
-  Eigen::Map<Spectrum> spectrum(fft_.spectrum().data(), n + 1);
-  Eigen::Map<Eigen::ArrayXd> time(fft_.time().data(), 2 * n);
-  const Eigen::Map<const Eigen::ArrayXd> moment(base_moment.data(), n);
-
-  filter_.apply(input_, error_);
-  spectrum = error_;
-  fft_.inverse();
+  filter_.push(base_acceleration);
+  filter_.apply(wind_moment);
+  Eigen::Map<Eigen::ArrayXd> wind(wind_moment.data(), n);
   guard_.hear(base_moment.data(), base_moment.size());
-  if (!guard_.accepts(time.data() + n, base_moment.size())) {
-    filter_.clear();
-    time.tail(n).setZero();
+  if (!guard_.accepts(wind_moment.data(), wind_moment.size())) {
+    filter_.clear_taps();
+    wind.setZero();
   }
-  time.tail(n) = moment - time.tail(n);
-  time.head(n).setZero();
-  std::ranges::copy(fft_.time().last(wind_moment.size()), wind_moment.begin());
-  fft_.forward();
-  error_ = spectrum * step_rule_.update(input_.power());
+  wind = Eigen::Map<const Eigen::ArrayXd>(base_moment.data(), n) - wind;
 
+  Eigen::Map<Eigen::ArrayXd> time(fft_.time().data(), 2 * n);
+  time.head(n).setZero();
+  time.tail(n) = wind;
+  fft_.forward();
+  error_ = Eigen::Map<const Spectrum>(fft_.spectrum().data(), n + 1) *
+           step_rule_.update(filter_.power());
   if (kept_ < 1.) filter_.scale(kept_);
-  filter_.adapt(input_, error_, fft_);
+  filter_.adapt(error_);
 }
 
 void Fdaf::reset_blocks() {
-  input_.clear();
   filter_.clear();
   step_rule_.clear();
   guard_.clear();

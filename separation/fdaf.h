@@ -6,8 +6,7 @@
 
 #include "separation/block_separator.h"
 #include "separation/output_guard.h"
-#include "separation/partitioned_filter.h"
-#include "separation/spectra_buffer.h"
+#include "separation/paired_filter.h"
 #include "separation/step_rule.h"
 #include "signals/fft.h"
 
@@ -44,11 +43,11 @@ class Fdaf : public BlockSeparator {
   explicit Fdaf(const FdafOptions& options);
 
   std::string name() const override { return "FDAF"; }
-  std::size_t n_partitions() const { return input_.n_partitions(); }
+  std::size_t n_partitions() const { return filter_.n_partitions(); }
   /// block_length times n_partitions(), at least filter_length.
   std::size_t n_taps() const { return filter_.n_taps(); }
   /// The taps learnt so far, base acceleration to base moment.
-  std::vector<double> impulse_response() { return filter_.impulse_response(fft_); }
+  std::vector<double> impulse_response() { return filter_.impulse_response(); }
 
  private:
   void process_block(std::span<const double> base_acceleration, std::span<const double> base_moment,
@@ -57,8 +56,7 @@ class Fdaf : public BlockSeparator {
 
   double kept_;
   signals::RealFft fft_;
-  SpectraBuffer input_;
-  PartitionedFilter filter_;
+  PairedFilter filter_;
   StepRule step_rule_;
   OutputGuard guard_;
   Spectrum error_;

@@ -77,9 +77,10 @@ void PartitionedKalman::process_block(std::span<const double> base_acceleration,
 }
 
 void PartitionedKalman::renew_prior(const Eigen::ArrayXd& error_power) {
-  const double heard = 0.5 * input_.power().mean();
-  const double ratio = error_power.mean() / heard;
-  constexpr double far_beyond = 100.;
+  sum_of_errors_ += error_power.mean();
+  sum_of_heard_ += 0.5 * input_.power().mean();
+  const double ratio = sum_of_errors_ / sum_of_heard_;
+  constexpr double far_beyond = 10.;
   if (!std::isfinite(ratio) || ratio <= far_beyond * prior_) return;
   prior_ = ratio;
   covariance_.setConstant(prior_);
@@ -117,7 +118,7 @@ void PartitionedKalman::forget() {
   filter_.clear();
   covariance_.setZero();
   wind_power_.setZero();
-  prior_ = 0.;
+  prior_ = sum_of_errors_ = sum_of_heard_ = 0.;
   has_wind_power_ = false;
 }
 

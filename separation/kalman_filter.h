@@ -63,7 +63,7 @@ class PartitionedKalman : public BlockSeparator {
   Eigen::ArrayXXd covariance_, gain_;  // [bin][partition]
   Eigen::ArrayXd wind_power_, expected_power_;
   OutputGuard guard_;
-  double prior_ = 0.;
+  double prior_ = 0., sum_of_errors_ = 0., sum_of_heard_ = 0.;
   bool has_wind_power_ = false;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -17,20 +19,23 @@ class OutputGuard {
   void clear() { largest_moment_ = 0.; }
   /// Takes the moments before the estimate that belongs to them is judged.
   void hear(const double* moment, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i)
-      largest_moment_ = std::fmax(largest_moment_, std::abs(moment[i]));
+    largest_moment_ = std::max(largest_moment_, largest(moment, n));
   }
   /// Refuses what is not finite, too.
   bool accepts(double vibration) const {
     return std::abs(vibration) <= largest_share * largest_moment_;
   }
   bool accepts(const double* vibration, std::size_t n) const {
-    bool good = true;
-    for (std::size_t i = 0; i < n; ++i) good &= accepts(vibration[i]);
-    return good;
+    return largest(vibration, n) <= largest_share * largest_moment_;
   }
 
  private:
+  static double largest(const double* x, std::size_t n) {
+    return Eigen::Map<const Eigen::ArrayXd>(x, static_cast<Eigen::Index>(n))
+        .abs()
+        .maxCoeff<Eigen::PropagateNaN>();
+  }
+
   double largest_moment_ = 0.;
 };
 

@@ -1,36 +1,34 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace vibrissa::separation {
 
 /// The last n samples, the newest first and in one piece, for filters that work sample by sample.
 class TapWindow {
  public:
-  explicit TapWindow(std::size_t n) : n_(n), buffer_(2 * n + 256, 0.) { clear(); }
+  explicit TapWindow(std::size_t n) : n_(static_cast<Eigen::Index>(n)), buffer_(2 * n_ + 256) {
+    clear();
+  }
 
   void clear() {
-    std::fill(buffer_.begin(), buffer_.end(), 0.);
+    buffer_.setZero();
     first_ = buffer_.size() - n_;
   }
   void push(double x) {
     if (first_ == 0) {
       first_ = buffer_.size() - n_;
-      std::copy_n(buffer_.begin(), n_, buffer_.begin() + static_cast<std::ptrdiff_t>(first_));
+      buffer_.tail(n_) = buffer_.head(n_);
     }
     buffer_[--first_] = x;
   }
-  Eigen::Map<const Eigen::VectorXd> samples() const {
-    return {buffer_.data() + first_, static_cast<Eigen::Index>(n_)};
-  }
+  auto samples() const { return buffer_.segment(first_, n_); }
 
  private:
-  std::size_t n_;
-  std::vector<double> buffer_;
-  std::size_t first_ = 0;
+  Eigen::Index n_;
+  Eigen::VectorXd buffer_;  // aligned, so that sums round the same way in every object
+  Eigen::Index first_ = 0;
 };
 
 }  // namespace vibrissa::separation
