@@ -147,16 +147,18 @@ class Identifier {
   }
 
   /// Nothing when the order was given, or the records are too short to hold a part out.
-  std::optional<OrderSelection> select(Hold hold) const {
+  std::optional<OrderSelection> select(Hold hold, std::size_t max_order) const {
     constexpr std::size_t fewest_samples = 400;
     const auto too_short = [](const Segment& s) { return s.base_moment.size() < fewest_samples; };
-    if (options_.order || order_ == 2 || std::ranges::any_of(segments_, too_short)) return {};
+    if (options_.order || max_order == 2 || std::ranges::any_of(segments_, too_short)) return {};
     return select_order(segments_, rate_,
-                        {.max_order = order_,
+                        {.max_order = max_order,
                          .delay_s = options_.delay_s,
                          .fit = fit_options(hold),
                          .period_samples = options_.period_samples});
   }
+
+  double duration_s() const { return n_samples_ / rate_; }
 
  private:
   void try_hold(Hold hold, std::vector<Trial>& trials) const {
@@ -191,12 +193,46 @@ class Identifier {
   double mean_square_moment_ = 0.;
 };
 
-// The lowest criterion among the fits that came to an end; among all when none did.
-const Trial& choose(const std::vector<Trial>& trials) {
-  const auto rank = [](const Trial& trial) {
-    return std::pair(trial.fit.end != FitEnd::converged, trial.summary.information_criterion);
+// A mode that hardly decays within the records is none that they could show: it sits beside a line
+// of the input and foretells that line through the accelerometer's noise. It would ring for ever in
+// a separator that starts at rest.
+std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
+  const auto lasting = std::ranges::find_if(
+      model.modes, [&](const ModalTerm& mode) { return 0.5 * mode.a1 * duration_s < 1.; });
+  if (lasting == model.modes.end()) return std::nullopt;
+  return lasting->frequency_hz();
+}
+
+// The lowest criterion among the fits that came to an end and decay; among all when none did.
+const Trial& choose(const std::vector<Trial>& trials, double duration_s) {
+  const auto rank = [&](const Trial& trial) {
+    return std::pair(trial.fit.end != FitEnd::converged ||
+                         lasting_mode_hz(trial.fit.model, duration_s).has_value(),
+                     trial.summary.information_criterion);
   };
   return *std::ranges::min_element(trials, {}, rank);
+}
+
+/// The highest order under this hold up to which every model decays, and why the next does not.
+struct DecayingOrders {
+  std::size_t highest = 2;
+  std::string words;
+};
+
+DecayingOrders decaying_orders(const std::vector<Trial>& trials, Hold hold, double duration_s) {
+  DecayingOrders orders;
+  for (const Trial& trial : trials) {
+    if (trial.summary.hold != hold) continue;
+    if (const auto mode_hz = lasting_mode_hz(trial.fit.model, duration_s)) {
+      orders.words = "; order " + std::to_string(trial.summary.order) +
+                     " was not asked: its mode at " +
+                     signals::to_text(std::round(10. * *mode_hz) / 10.) +
+                     " Hz does not decay within the record";
+      break;
+    }
+    orders.highest = trial.summary.order;
+  }
+  return orders;
 }
 
 // The one with the hold of the first choice and this order; the first choice when there is none.
@@ -222,15 +258,18 @@ Identification identify_bvrm(std::span<const Record> fit_records, const Record& 
   check_all(fit_records, held_out, options);
   const Identifier identifier(fit_records, options);
   const std::vector<Trial> trials = identifier.run();
-  const Trial& first = choose(trials);
-  const std::optional<OrderSelection> selection = identifier.select(first.summary.hold);
+  const double duration_s = identifier.duration_s();
+  const Trial& first = choose(trials, duration_s);
+  const DecayingOrders decaying = decaying_orders(trials, first.summary.hold, duration_s);
+  const std::optional<OrderSelection> selection =
+      identifier.select(first.summary.hold, decaying.highest);
   const bool held_out_rules = options.order_rule == OrderRule::cross_validation;
   const Trial& best = !selection ? first
                                  : of_order(trials, first,
                                             held_out_rules ? selection->by_cross_validation
                                                            : selection->by_information);
   Identification result;
-  if (selection) result.order_words = selection->words;
+  if (selection) result.order_words = selection->words + decaying.words;
   result.fit = best.fit;
   result.hold = best.summary.hold;
   result.order = best.summary.order;
