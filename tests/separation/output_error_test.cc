@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "fitted_models.h"
 #include "separation/output_error_problem.h"
 #include "signals/error.h"
 #include "test_signals.h"
@@ -12,36 +13,13 @@ namespace vibrissa::separation {
 namespace {
 
 using signals::UserError;
+using test::disturbed;
+using test::expect_equal_models;
 using test::Signal;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 constexpr double rate_hz = 500.;
-
-// A start that is off by a few per cent, as a rough frequency response gives it.
-Bvrm disturbed(Bvrm model) {
-  double sign = 1.;
-  for (ModalTerm& mode : model.modes) {
-    mode = make_modal_term(mode.frequency_hz() * (1. + 0.01 * sign),
-                           mode.damping_ratio() * (1. + 0.3 * sign), 0.7 * mode.b0 / mode.a0);
-    sign = -sign;
-  }
-  model.direct_term_kg_m = 0.;
-  return model;
-}
-
-void expect_equal_models(const FittedBvrm& fit, Bvrm truth, double tolerance) {
-  std::ranges::sort(truth.modes, {}, &ModalTerm::a0);
-  ASSERT_EQ(fit.model.modes.size(), truth.modes.size());
-  for (std::size_t k = 0; k < truth.modes.size(); ++k) {
-    const ModalTerm &found = fit.model.modes[k], &mode = truth.modes[k];
-    EXPECT_NEAR(found.a0 / mode.a0, 1., tolerance);
-    EXPECT_NEAR(found.a1 / mode.a1, 1., tolerance);
-    EXPECT_NEAR(found.b0 / mode.b0, 1., tolerance);
-    EXPECT_NEAR(found.b1, mode.b1, tolerance * std::abs(mode.b0) / std::sqrt(mode.a0));
-  }
-  EXPECT_NEAR(fit.model.direct_term_kg_m, truth.direct_term_kg_m, tolerance * 1e-6);
-}
 
 TEST(OutputError, RecoversOneToThreeModesAndTheDirectTermFromACleanRecord) {
   const std::vector<ModalState> states{{1e-3, 0.1}, {-2e-4, 0.05}, {1e-4, -0.02}};
