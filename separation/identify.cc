@@ -269,7 +269,16 @@ Identification identify_bvrm(std::span<const Record> fit_records, const Record& 
                                             held_out_rules ? selection->by_cross_validation
                                                            : selection->by_information);
   Identification result;
-  if (selection) result.order_words = selection->words + decaying.words;
+  if (selection) {
+    result.order_words = selection->words + decaying.words;
+    const std::size_t asked =
+        held_out_rules ? selection->by_cross_validation : selection->by_information;
+    if (asked != best.summary.order) {
+      result.order_words += "; the fit of order " + std::to_string(asked) +
+                            " to all of the record found no end, order " +
+                            std::to_string(best.summary.order) + " is given";
+    }
+  }
   result.fit = best.fit;
   result.hold = best.summary.hold;
   result.order = best.summary.order;
