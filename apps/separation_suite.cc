@@ -120,6 +120,7 @@ report::Figure suite_figure(const std::vector<ScenarioResult>& results) {
   report::Panel panel;
   panel.x_label = "Scenario (number in the table)";
   panel.y_label = "SDR [dB]";
+  panel.x_range = report::Range{0.5, static_cast<double>(results.size()) + 0.5};
   for (std::size_t k = 0; k < methods().size(); ++k) {
     report::Curve curve{.label = methods()[k].name, .style = report::CurveStyle::points};
     for (std::size_t i = 0; i < results.size(); ++i) {

@@ -49,6 +49,8 @@ class BvrmSeparator : public Separator {
   static constexpr std::size_t block = 256;
   using Block = std::array<double, block>;
 
+  bool passes_straight_through() const;
+  void process_sample(double acceleration, double moment, double& wind);
   void process_block(const double* acceleration, const double* moment, double* wind, std::size_t n);
 
   ModalBank bank_;

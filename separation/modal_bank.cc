@@ -16,12 +16,14 @@ std::array<double, n> numerator(const ModalTerm& term, const std::array<Sensitiv
   return taps;
 }
 
+// In a long silence the state would stay among the smallest doubles, which are slow.
+constexpr double negligible = 1e-280;
+
 template <std::size_t size>
 void keep_history(std::array<double, size>& memory, std::size_t history, std::size_t n) {
   for (std::size_t j = 0; j < history; ++j) {
-    // In a long silence the state would stay among the smallest doubles, which are slow.
     const double kept = memory[n + j];
-    memory[j] = std::abs(kept) < 1e-280 ? 0. : kept;
+    memory[j] = std::abs(kept) < negligible ? 0. : kept;
   }
 }
 
@@ -53,8 +55,23 @@ void ModalBank::Mode::start(const ModalState& state, double first_node) {
   v[history - 2] = (matrix[0][0] * right[1] - matrix[1][0] * right[0]) / determinant;
 }
 
+// In a call of one sample the loops and the memory's moves would cost more than the mode.
+void ModalBank::Mode::add_sample(double node, double& output) {
+  static_assert(history == 3);
+  const double older = v[1], last = v[2];
+  const double now = (node - pole2 * older) - pole1 * last;
+  output += taps[0] * now + taps[1] * last + taps[2] * older + taps[3] * v[0];
+  v[0] = older;
+  v[1] = last;
+  v[2] = std::abs(now) < negligible ? 0. : now;
+}
+
 void ModalBank::Mode::add_output(const double* node, const double* midpoint, std::size_t n,
                                  double* output) {
+  if (n == 1 && !midpoint) {
+    add_sample(node[0], output[0]);
+    return;
+  }
   const auto length = static_cast<std::ptrdiff_t>(n);
   double* x = v.data() + history;
   filter.run(node, x, length);

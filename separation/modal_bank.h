@@ -38,6 +38,7 @@ class ModalBank {
   struct Mode {
     Mode(const ModalTerm& term, const ModeStep& step);
     void start(const ModalState& state, double first_node);
+    void add_sample(double node, double& output);
     void add_output(const double* node, const double* midpoint, std::size_t n, double* output);
     AllPoleFilter filter;
     std::array<double, 4> taps;
