@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnosis/chain.h"
+
+namespace vibrissa::diagnosis {
+
+/// Place in the measuring chain (effects.md).
+enum class Link { reference, mount, structure, wind, sensor, clock };
+std::string to_string(Link link);
+
+/// What is believed of a parameter before the data: in its own value or in its logarithm.
+struct Prior {
+  enum class Kind { normal, student, uniform } kind = Kind::uniform;
+  double centre = 0.;  // normal, student (three degrees of freedom): in the fitted coordinate
+  double scale = 1.;
+  double low = 0., high = 1.;  // bounds of the fitted coordinate, for all kinds
+
+  double log_density(double x) const;
+  double slope(double x) const;      // d log_density / dx
+  double curvature(double x) const;  // > 0, the Gaussian that stands for it near x
+};
+
+/// One figure of an effect. Fitted in x = value, or x = ln(value) when positive.
+struct Parameter {
+  std::string name{}, unit{};
+  bool logarithmic = false;
+  Prior prior{};
+  double neutral = 0.;  // value (not x) at which the nominal model is met exactly
+  double step = 1e-4;   // of x, for derivatives
+
+  double value(double x) const { return logarithmic ? std::exp(x) : x; }
+  double coordinate(double value) const { return logarithmic ? std::log(value) : value; }
+};
+Parameter log_uniform(std::string name, std::string unit, double low, double high, double neutral);
+Parameter uniform(std::string name, std::string unit, double low, double high, double neutral);
+/// Ratio or offset near its neutral value with heavy tails (Student, three degrees of freedom).
+Parameter ratio_near_one(std::string name, double relative_scale, double low, double high);
+Parameter normal(std::string name, std::string unit, double centre, double scale, double low,
+                 double high, double neutral);
+
+/// Magnitudes of the experiment that make parameters dimensionless.
+struct Scales {
+  double joint_moment_n_m = 1.;  // peak of the first mode's elastic moment in the fit records
+  double duration_s = 1.;        // of the longest fit record
+  double first_mode_rad_s = 1.;
+  double static_gain = 1.;     // |M / a| at zero frequency, N m / (m/s^2)
+  double moment_rms_n_m = 1.;  // largest of the fit records
+};
+
+/// What the data must hold for an effect to be told.
+struct Needs {
+  bool base = false, wind = false, cross = false;
+};
+
+/// One entry of the catalogue of effects.md: how the nominal simulator is extended.
+struct Effect {
+  std::string id{};
+  Link link = Link::structure;
+  std::string equation{};
+  std::string source{};         // of equation, ranges and priors
+  std::string confused_with{};  // and what tells apart
+  bool retune = false;          // a mere parameter error: recalibrate
+  bool irreducible = false;     // noise of its own
+  /// Our form may differ from nature's by this share of what the effect does.
+  double form_error = 0.01;
+  Needs needs{};
+  double log_prior = 0.;  // beside that of its fellows
+  std::vector<Parameter> parameters{};
+  /// Values (not x) to start from, one list a start, aim: some start lies in the basin of the best.
+  std::vector<std::vector<double>> starts{};
+  /// Extends a chain; values as the parameters', not x.
+  std::function<void(Chain&, std::span<const double> values, const Scales&)> extend{};
+};
+
+/// Every effect of diagnosis/effects, one file each, by id. Proven by
+/// tests/diagnosis/effect_catalogue_test.cc.
+const std::vector<Effect>& effect_catalogue();
+/// Throws UserError that lists the known ids.
+const Effect& find_effect(const std::string& id);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,38 @@
+#include <algorithm>
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+namespace {
+
+class DeadZone : public JointLaw {
+ public:
+  DeadZone(double gap, double loss) : gap_(gap), loss_(loss) {}
+  double moment(double y, double, double, double, bool) override {
+    return -loss_ * std::clamp(y, -gap_, gap_);
+  }
+
+ private:
+  double gap_, loss_;
+};
+
+}  // namespace
+
+Effect backlash() {
+  return Effect{
+      .id = "backlash",
+      .link = Link::structure,
+      .equation = "T = -loss clip(k0 phi, -g Y, g Y)",
+      .source = "effects.md",
+      .confused_with = "joint_friction; threshold, odd lines at low level",
+      .form_error = 0.1,
+      .needs = {.base = true},
+      .parameters = {log_uniform("gap", "1", 0.002, 0.6, 0.), uniform("loss", "1", 0.1, 1., 0.)},
+      .starts = {{0.02, 0.6}, {0.1, 0.6}, {0.005, 0.6}},
+      .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
+        chain.joint.push_back([gap = v[0] * scales.joint_moment_n_m, loss = v[1]](std::size_t) {
+          return std::make_unique<DeadZone>(gap, loss);
+        });
+      }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

@@ -1,0 +1,19 @@
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect clock_drift() {
+  return Effect{.id = "clock_drift",
+                .link = Link::clock,
+                .equation = "moment sampled at t (1 + e)",
+                .source = "effects.md",
+                .confused_with = "delay; blockwise phase",
+                .form_error = 0.02,
+                .parameters = {uniform("rate_error", "1", -1.5e-3, 1.5e-3, 0.)},
+                .starts = {{3e-5}, {-3e-5}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+                  chain.clock_rate_error += v[0];
+                }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

@@ -1,0 +1,21 @@
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect coil_feedthrough() {
+  return Effect{.id = "coil_feedthrough",
+                .link = Link::sensor,
+                .equation = "M_read = M + b M0 a",
+                .source = "effects.md",
+                .confused_with = "mass; wide band, clamped stage",
+                .form_error = 0.01,
+                .needs = {.base = true},
+                .parameters = {uniform("gain", "1", -0.7, 0.7, 0.)},
+                .starts = {{0.02}, {-0.02}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
+                  chain.feedthrough.push_back(
+                      [b = v[0] * scales.static_gain](Complex) -> Complex { return b; });
+                }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

@@ -1,0 +1,24 @@
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect cross_axis() {
+  return Effect{.id = "cross_axis",
+                .link = Link::reference,
+                .equation = "M += (e + f H(s) / H(0)) M0 a_perp",
+                .source = "effects.md",
+                .confused_with = "reference_noise; second axis",
+                .form_error = 0.02,
+                .needs = {.cross = true},
+                .parameters = {normal("static_gain", "1", 0., 0.2, -2., 2., 0.),
+                               normal("dynamic_gain", "1", 0., 0.2, -2., 2., 0.)},
+                .starts = {{0.02, 0.02}, {-0.02, -0.02}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
+                  chain.cross.push_back([e = v[0] * scales.static_gain, f = v[1],
+                                         structure = chain.structure](Complex s) {
+                    return e + f * structure.base_response(s);
+                  });
+                }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

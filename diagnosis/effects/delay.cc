@@ -1,0 +1,19 @@
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect delay() {
+  return Effect{.id = "delay",
+                .link = Link::clock,
+                .equation = "M_read(t) = M(t - tau)",
+                .source = "effects.md",
+                .confused_with = "sensor_lowpass; magnitude at high frequency",
+                .form_error = 0.01,
+                .parameters = {uniform("tau", "s", -6e-3, 6e-3, 0.)},
+                .starts = {{2e-4}, {-2e-4}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+                  chain.sensor.push_back([tau = v[0]](Complex s) { return std::exp(-s * tau); });
+                }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

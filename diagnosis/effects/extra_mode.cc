@@ -1,0 +1,36 @@
+#include <numbers>
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect extra_mode() {
+  return Effect{.id = "extra_mode",
+                .link = Link::structure,
+                .equation = "M += g M0 / ((s/w)^2 + 2 z s/w + 1) a",
+                .source = "effects.md",
+                .confused_with = "mount_compliance",
+                .form_error = 0.03,
+                .needs = {.base = true},
+                .parameters = {log_uniform("frequency", "Hz", 45., 240., 100.),
+                               log_uniform("damping_ratio", "1", 0.004, 0.15, 0.02),
+                               uniform("residue", "1", -0.15, 0.15, 0.)},
+                .starts = {{60., 0.02, 0.005},
+                           {60., 0.02, -0.005},
+                           {80., 0.02, 0.005},
+                           {80., 0.02, -0.005},
+                           {105., 0.02, 0.005},
+                           {105., 0.02, -0.005},
+                           {140., 0.02, 0.005},
+                           {140., 0.02, -0.005},
+                           {185., 0.02, 0.005},
+                           {185., 0.02, -0.005}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
+                  const double w = 2. * std::numbers::pi * v[0];
+                  chain.parallel.push_back([w, z = v[1], g = v[2] * scales.static_gain](Complex s) {
+                    const Complex x = s / w;
+                    return g / (x * x + 2. * z * x + 1.);
+                  });
+                }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

@@ -1,0 +1,30 @@
+#include <numbers>
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect hum() {
+  return Effect{
+      .id = "hum",
+      .link = Link::sensor,
+      .equation = "M_read = M + A sin(2 pi f t + phase)",
+      .source = "effects.md",
+      .confused_with = "vortex_shedding; line in the quiet record",
+      .irreducible = true,
+      .form_error = 0.01,
+      .parameters = {log_uniform("amplitude", "N m", 1e-8, 1e-3, 0.),
+                     uniform("frequency", "Hz", 49.7, 50.3, 50.)},
+      .starts = {{3e-7, 50.}, {3e-6, 50.}},
+      .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+        chain.noise.push_back([a = v[0], f = v[1]](const RecordView& view, std::span<double> out) {
+          const double n = static_cast<double>(view.n_samples), line_hz = view.sampling_rate_hz / n;
+          for (std::size_t k = 0; k < out.size(); ++k) {
+            const double x = std::numbers::pi * (static_cast<double>(k + 1) - f / line_hz);
+            const double shape = std::abs(x) < 1e-6 ? 1. : std::sin(x) / x;
+            out[k] += 0.25 * a * a * n * n * shape * shape;
+          }
+        });
+      }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

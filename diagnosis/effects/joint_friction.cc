@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <array>
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+namespace {
+
+class Iwan : public JointLaw {
+ public:
+  Iwan(double stiffness, double slip, double spread) : stiffness_(stiffness / n) {
+    for (std::size_t i = 0; i < n; ++i)
+      slip_[i] = slip / n * (1. + spread * (0.5 * static_cast<double>(i) - 0.75));
+  }
+  double moment(double y, double, double, double, bool commit) override {
+    double sum = 0.;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double next = std::clamp(moment_[i] + stiffness_ * (y - y_), -slip_[i], slip_[i]);
+      sum += next;
+      if (commit) moment_[i] = next;
+    }
+    if (commit) y_ = y;
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t n = 4;
+  double stiffness_, y_ = 0.;
+  std::array<double, n> slip_{}, moment_{};
+};
+
+}  // namespace
+
+Effect joint_friction() {
+  return Effect{.id = "joint_friction",
+                .link = Link::structure,
+                .equation =
+                    "T = sum of Jenkins elements, stiffness r k0, slip moments m (1 + d (-0.75, "
+                    "-0.25, 0.25, 0.75)) Y",
+                .source = "effects.md; Iwan (1966)",
+                .confused_with = "hardening; loop area ~ A vs A^2..3",
+                .form_error = 0.15,
+                .needs = {.base = true},
+                .parameters = {log_uniform("stiffness_ratio", "1", 0.03, 1.5, 0.),
+                               log_uniform("slip_moment", "1", 0.003, 0.7, 1.),
+                               uniform("spread", "1", 0., 1.2, 0.)},
+                .starts = {{0.3, 0.02, 0.5}, {0.3, 0.07, 0.5}, {0.3, 0.2, 0.5}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
+                  chain.joint.push_back(
+                      [r = v[0], slip = v[1] * scales.joint_moment_n_m, d = v[2]](std::size_t) {
+                        return std::make_unique<Iwan>(r, slip, d);
+                      });
+                }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

@@ -1,0 +1,21 @@
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect reference_noise() {
+  return Effect{.id = "reference_noise",
+                .link = Link::reference,
+                .equation = "a_read = a + n, n white",
+                .source = "effects.md",
+                .confused_with = "none",
+                .irreducible = true,
+                .form_error = 0.01,
+                .needs = {.base = true},
+                .parameters = {log_uniform("standard_deviation", "m/s^2", 0.05, 3., 0.)},
+                .starts = {{0.1}, {0.5}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+                  chain.reference_variance += v[0] * v[0];
+                }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

@@ -1,0 +1,30 @@
+#include <numbers>
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect sensor_drift() {
+  return Effect{
+      .id = "sensor_drift",
+      .link = Link::sensor,
+      .equation = "offset = random walk",
+      .source = "effects.md",
+      .confused_with = "turbulence; quiet record",
+      .irreducible = true,
+      .form_error = 0.01,
+      .parameters = {log_uniform("walk", "N m/s^0.5", 1e-8, 1e-4, 0.)},
+      .starts = {{3e-7}, {3e-6}},
+      .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+        chain.noise.push_back([walk = v[0]](const RecordView& view, std::span<double> out) {
+          const double n = static_cast<double>(view.n_samples);
+          const double step_variance = walk * walk / view.sampling_rate_hz;
+          for (std::size_t k = 0; k < out.size(); ++k) {
+            const double sine = std::sin(std::numbers::pi * static_cast<double>(k + 1) / n);
+            // Half from the walk itself, half from its jump between the record's ends.
+            out[k] += 2. * n * step_variance / (4. * sine * sine);
+          }
+        });
+      }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

@@ -1,0 +1,20 @@
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect sensor_gain() {
+  return Effect{.id = "sensor_gain",
+                .link = Link::sensor,
+                .equation = "M_read = r M",
+                .source = "effects.md",
+                .confused_with = "reference_gain + drag_error",
+                .retune = true,
+                .form_error = 0.01,
+                .parameters = {ratio_near_one("ratio", 0.02, 0.6, 1.6)},
+                .starts = {{0.98}, {1.02}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+                  chain.sensor.push_back([r = v[0]](Complex) -> Complex { return r; });
+                }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

@@ -1,0 +1,24 @@
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect sensor_nonlinearity() {
+  return Effect{.id = "sensor_nonlinearity",
+                .link = Link::sensor,
+                .equation = "M_read = M (1 + b x + c x^2 / (1 + |c| x^2)), x = M / Y",
+                .source = "effects.md; the quotient keeps a strong saturation monotone",
+                .confused_with = "hardening; harmonics at fixed frequency, also on slow wind",
+                .form_error = 0.1,
+                .parameters = {normal("quadratic", "1", 0., 0.1, -0.6, 0.6, 0.),
+                               normal("cubic", "1", 0., 0.15, -1.5, 1.5, 0.)},
+                .starts = {{0.01, 0.01}, {0.01, -0.01}, {-0.01, -0.1}, {0.05, 0.}, {-0.05, 0.}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
+                  chain.readout.push_back(
+                      [b = v[0], c = v[1], unit = 1. / scales.joint_moment_n_m](double moment) {
+                        const double x = moment * unit;
+                        return moment * (1. + b * x + c * x * x / (1. + std::abs(c) * x * x));
+                      });
+                }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

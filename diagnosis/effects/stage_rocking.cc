@@ -1,0 +1,29 @@
+#include <numbers>
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect stage_rocking() {
+  return Effect{
+      .id = "stage_rocking",
+      .link = Link::mount,
+      .equation =
+          "a_base = a (1 + e / (1 + 2 z s/w + (s/w)^2)), e = kappa times the height of the mode",
+      .source = "effects.md",
+      .confused_with = "reference_gain; wide band, second accelerometer",
+      .form_error = 0.03,
+      .needs = {.base = true},
+      .log_prior = -1.5,
+      .parameters = {uniform("gain", "1", -0.3, 0.3, 0.),
+                     log_uniform("frequency", "Hz", 50., 600., 200.)},
+      .starts = {{0.02, 100.}, {-0.02, 100.}, {0.02, 250.}, {-0.02, 250.}},
+      .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+        const double w = 2. * std::numbers::pi * v[1];
+        chain.mount.push_back([w, e = v[0]](Complex s) {
+          const Complex x = s / w;
+          return 1. + e / (1. + 0.1 * x + x * x);
+        });
+      }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

@@ -1,0 +1,40 @@
+#include <array>
+
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+namespace {
+
+/// Enough branches for a smooth spectrum over the widest spread.
+constexpr std::size_t n_branches = 5;
+
+std::array<double, n_branches> branch_times(double tau, double decades) {
+  std::array<double, n_branches> times{};
+  for (std::size_t i = 0; i < n_branches; ++i) {
+    const double place = static_cast<double>(i) / (n_branches - 1) - 0.5;
+    times[i] = tau * std::pow(10., decades * place);
+  }
+  return times;
+}
+
+}  // namespace
+
+Effect viscoelastic() {
+  return Effect{.id = "viscoelastic", .link = Link::structure,
+  .equation = "k = k0 (1 + S / N sum s t_i / (1 + s t_i)), t_i spread over w decades around tau",
+  .source = "effects.md; Prony series with equal branches",
+  .confused_with = "damping, stiffness; several octaves, second mode, creep",
+  .form_error = 0.05,
+  .needs = {.base = true},
+  .parameters = {log_uniform("strength", "1", 0.01, 1.5, 0.), log_uniform("tau", "s", 3e-4, 3., 0.01), uniform("decades", "1", 0., 3., 0.)},
+  .starts = {{0.1, 3e-3, 1.}, {0.1, 0.05, 1.}, {0.3, 6e-4, 1.}},
+  .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+    chain.relaxation.push_back([strength = v[0] / n_branches, times = branch_times(v[1], v[2])](Complex s) {
+      Complex sum = 0.;
+      for (const double t : times) sum += s * t / (1. + s * t);
+      return strength * sum;
+    });
+  }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

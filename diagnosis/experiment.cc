@@ -1,0 +1,222 @@
+#include "diagnosis/experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "diagnosis/spectrum.h"
+#include "signals/error.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using signals::DatasetRecord;
+namespace channel = signals::channel;
+
+/// Time constants of the first mode after which a start from the wrong state is forgotten.
+constexpr double n_time_constants = 7.;
+/// Samples at the end of an aperiodic record where its circular continuation rings.
+constexpr std::size_t end_margin = 24;
+
+bool compares(const NominalModel& nominal, const DatasetRecord& entry) {
+  const bool base_known = nominal.has_base && entry.record.has(channel::base_acceleration);
+  const bool wind_known = nominal.has_wind && entry.record.has(channel::wind_speed);
+  return (!entry.excitation.base || base_known) && (!entry.excitation.wind || wind_known);
+}
+
+std::size_t transient_samples(const NominalModel& nominal, double rate_hz) {
+  if (nominal.modes.empty()) return 0;
+  const StructuralMode& mode = nominal.modes.front();
+  return static_cast<std::size_t>(
+      std::ceil(n_time_constants * rate_hz / (mode.damping_ratio * mode.frequency_rad_s)));
+}
+
+/// Averages whole periods: in place, lines that are no multiple of 1/period become zero.
+void average_periods(std::vector<Complex>& spectrum, std::size_t n_periods) {
+  for (std::size_t k = 0; k < spectrum.size(); ++k)
+    if (k % n_periods != 0) spectrum[k] = 0.;
+}
+
+/// Wiener's share P / (P + noise) per line, P from the mean power of the lines around it. Lines of
+/// periodic records are each judged alone: they are excited or they are not.
+std::vector<double> signal_share(const std::vector<Complex>& spectrum, double noise_power,
+                                 bool periodic) {
+  const std::size_t n = spectrum.size();
+  std::vector<double> share(n, 0.);
+  const std::ptrdiff_t reach = periodic ? 0 : 4;
+  for (std::size_t k = 0; k < n; ++k) {
+    double power = 0., count = 0.;
+    for (std::ptrdiff_t d = -reach; d <= reach; ++d) {
+      const std::ptrdiff_t j = static_cast<std::ptrdiff_t>(k) + d;
+      if (j < 1 || j >= static_cast<std::ptrdiff_t>(n)) continue;
+      power += std::norm(spectrum[j]);
+      count += 1.;
+    }
+    power = count > 0. ? power / count : 0.;
+    // A line without excitation exceeds this once in some thousand.
+    const double threshold = periodic ? 9. : 1.;
+    if (power > threshold * noise_power) share[k] = 1. - noise_power / power;
+  }
+  return share;
+}
+
+void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry, const double noise,
+                          const InputNoise treatment) {
+  out.acceleration = spectrum_of(entry.record.channel(channel::base_acceleration));
+  const double n = static_cast<double>(out.n_samples);
+  if (treatment == InputNoise::as_measured) {
+    out.noise_share.assign(out.acceleration.size(), 1.);
+    return;
+  }
+  if (!entry.excitation.base) {
+    for (std::size_t k = 1; k + 1 < out.acceleration.size(); ++k)
+      out.acceleration_noise_power += std::norm(out.acceleration[k]);
+    out.n_acceleration_noise = out.acceleration.size() - 2;
+    out.acceleration.assign(out.acceleration.size(), 0.);
+    out.noise_share.assign(out.acceleration.size(), 0.);
+    return;
+  }
+  if (out.periodic) {
+    const std::size_t n_periods = out.n_samples / entry.period_samples;
+    for (std::size_t k = 1; k + 1 < out.acceleration.size(); ++k)
+      if (k % n_periods != 0) {
+        out.acceleration_noise_power += std::norm(out.acceleration[k]);
+        ++out.n_acceleration_noise;
+      }
+    average_periods(out.acceleration, n_periods);
+  }
+  out.noise_share = signal_share(out.acceleration, n * noise * noise, out.periodic);
+  for (std::size_t k = 0; k < out.acceleration.size(); ++k)
+    out.acceleration[k] *= out.noise_share[k];
+}
+
+PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& entry,
+                              std::size_t number, const ChannelNoise& noise,
+                              const InputNoise treatment) {
+  PreparedRecord out;
+  out.name = entry.name;
+  out.excitation = entry.excitation;
+  out.number = number;
+  out.sampling_rate_hz = entry.record.sampling_rate_hz();
+  out.n_samples = entry.record.n_samples();
+  out.periodic = entry.period_samples > 0 && out.n_samples % entry.period_samples == 0;
+  const bool moved = entry.excitation.base || entry.excitation.wind;
+  if (out.periodic || !moved) {
+    out.n_judged = out.n_samples - out.n_samples % 2;
+  } else {
+    const std::size_t skip = transient_samples(nominal, out.sampling_rate_hz) + end_margin;
+    if (out.n_samples < skip + 128)
+      throw signals::UserError(entry.name + ": " + std::to_string(out.n_samples) +
+                               " samples are too few: the first " + std::to_string(skip) +
+                               " hold the decay of its unknown start");
+    out.first = skip - end_margin;
+    out.n_judged = fast_length(out.n_samples - skip);
+  }
+  if (entry.record.has(channel::base_acceleration))
+    prepare_acceleration(out, entry, noise.acceleration_m_s2, treatment);
+  if (entry.record.has(channel::cross_acceleration))
+    out.cross_acceleration = spectrum_of(entry.record.channel(channel::cross_acceleration));
+  if (entry.excitation.wind) {
+    const auto wind = entry.record.channel(channel::wind_speed);
+    out.wind.assign(wind.begin(), wind.end());
+  }
+  const auto moment = entry.record.channel(channel::base_moment);
+  const std::vector<Complex> judged = spectrum_of(moment.subspan(out.first, out.n_judged));
+  out.moment.assign(judged.begin() + 1, judged.end() - 1);
+  return out;
+}
+
+Scales scales_of(const Experiment& experiment) {
+  Scales scales;
+  const NominalModel& nominal = experiment.nominal;
+  scales.static_gain = std::abs(nominal.base_response(0.));
+  if (!nominal.modes.empty()) scales.first_mode_rad_s = nominal.modes.front().frequency_rad_s;
+  scales.joint_moment_n_m = 0.;
+  scales.duration_s = 0.;
+  scales.moment_rms_n_m = 0.;
+  for (const PreparedRecord& record : experiment.records) {
+    const double n = static_cast<double>(record.n_samples);
+    scales.duration_s = std::max(scales.duration_s, n / record.sampling_rate_hz);
+    double power = 0.;
+    for (const Complex& m : record.moment) power += 2. * std::norm(m);
+    const double level = std::sqrt(power) / static_cast<double>(record.n_judged);
+    scales.moment_rms_n_m = std::max(scales.moment_rms_n_m, level);
+    scales.joint_moment_n_m = std::max(scales.joint_moment_n_m, 3. * level);
+  }
+  return scales;
+}
+
+}  // namespace
+
+std::size_t PreparedRecord::whole_line(const std::size_t b) const {
+  const double ratio = static_cast<double>(n_samples) / static_cast<double>(n_judged);
+  return std::min(n_samples / 2,
+                  static_cast<std::size_t>(std::lround(static_cast<double>(b + 1) * ratio)));
+}
+
+ChannelNoise channel_noise(const signals::Dataset& dataset) {
+  double moment = 0., acceleration = 0., n_moment = 0., n_acceleration = 0.;
+  for (const DatasetRecord& entry : dataset.records) {
+    const bool quiet = entry.excitation == signals::Excitation{};
+    if (entry.split != signals::Split::fit) continue;
+    const double n = static_cast<double>(entry.record.n_samples());
+    const auto add = [&](const std::string& name, double& sum, double& count, bool still) {
+      if (!entry.record.has(name)) return;
+      const std::vector<Complex> x = spectrum_of(entry.record.channel(name));
+      const std::size_t period = entry.period_samples;
+      const std::size_t n_periods = period > 0 && entry.record.n_samples() % period == 0
+                                        ? entry.record.n_samples() / period
+                                        : 1;
+      // The upper half of the spectrum: slow drift is no noise of the samples.
+      for (std::size_t k = x.size() / 2; k + 1 < x.size(); ++k)
+        if (still || (n_periods > 1 && k % n_periods != 0)) {
+          sum += std::norm(x[k]) / n;
+          count += 1.;
+        }
+    };
+    add(channel::base_moment, moment, n_moment, quiet);
+    add(channel::base_acceleration, acceleration, n_acceleration, !entry.excitation.base);
+  }
+  ChannelNoise noise;
+  if (n_moment > 0.) noise.moment_n_m = std::sqrt(moment / n_moment);
+  if (n_acceleration > 0.) noise.acceleration_m_s2 = std::sqrt(acceleration / n_acceleration);
+  return noise;
+}
+
+Experiment prepare_experiment(const NominalModel& nominal, const signals::Dataset& dataset,
+                              const signals::Split split, const InputNoise treatment) {
+  Experiment experiment;
+  experiment.nominal = nominal;
+  const ChannelNoise noise = channel_noise(dataset);
+  experiment.moment_noise = noise.moment_n_m;
+  experiment.acceleration_noise = noise.acceleration_m_s2;
+  double repeats = 0., moving = 0.;
+  for (std::size_t i = 0; i < dataset.records.size(); ++i) {
+    const DatasetRecord& entry = dataset.records[i];
+    if (entry.split != split || !compares(nominal, entry)) continue;
+    experiment.records.push_back(prepare_record(nominal, entry, i, noise, treatment));
+    const PreparedRecord& record = experiment.records.back();
+    experiment.has_base |= entry.excitation.base;
+    experiment.has_wind |= entry.excitation.wind;
+    experiment.has_cross |= !record.cross_acceleration.empty();
+    experiment.has_quiet |= entry.excitation == signals::Excitation{};
+    if (entry.excitation.base) {
+      const auto a = entry.record.channel(channel::base_acceleration);
+      for (std::size_t j = 1; j < a.size(); ++j) repeats += a[j] == a[j - 1];
+      moving += static_cast<double>(a.size());
+    }
+  }
+  if (moving > 0.) experiment.acceleration_repeats = repeats / moving;
+  if (!experiment.has_base && !experiment.has_wind && split == signals::Split::fit)
+    throw signals::UserError(
+        "no record of the real dataset can be compared with the simulation: it needs a fit record "
+        "whose excitation is measured and simulated");
+  experiment.scales = scales_of(experiment);
+  if (experiment.moment_noise <= 0.)
+    experiment.moment_noise = 1e-3 * experiment.scales.moment_rms_n_m;
+  if (experiment.acceleration_noise <= 0.) experiment.acceleration_noise = 1e-3;
+  return experiment;
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/effect.h"
+#include "diagnosis/nominal_model.h"
+#include "signals/dataset.h"
+
+namespace vibrissa::diagnosis {
+
+/// One record made ready: what moved the sensor as spectra over the whole record, what was measured
+/// as the spectrum of the part that is judged. DFTs are unscaled.
+struct PreparedRecord {
+  std::string name;
+  signals::Excitation excitation;
+  std::size_t number = 0;  // in the order of the dataset
+  double sampling_rate_hz = 0.;
+  std::size_t n_samples = 0;            // of the whole record
+  bool periodic = false;                // the whole record is whole periods
+  std::size_t first = 0, n_judged = 0;  // samples that are judged: the start may hold transients
+
+  std::vector<Complex> acceleration;        // k = 0 .. n/2, noise reduced; empty: not measured
+  std::vector<Complex> cross_acceleration;  // empty: not measured
+  std::vector<double> wind;                 // at the samples; empty: not measured
+  /// Share of the accelerometer noise that is left at line k of the whole record.
+  std::vector<double> noise_share;
+  double acceleration_noise_power = 0.;  // sum |A_k|^2 where nothing moved, for its variance
+  std::size_t n_acceleration_noise = 0;  // lines in it
+
+  std::vector<Complex> moment;  // bins 1 .. of the judged part
+  std::size_t n_bins() const { return moment.size(); }
+  double bin_hz() const { return sampling_rate_hz / static_cast<double>(n_judged); }
+  /// Line of the whole record nearest to judged bin b (0 is the DFT's 1).
+  std::size_t whole_line(std::size_t b) const;
+};
+
+/// How a record is prepared: as a fit record (noise of its inputs reduced) or as it was measured.
+enum class InputNoise { reduced, as_measured };
+
+/// The fit records of one sensor with the nominal model, ready for hypotheses.
+struct Experiment {
+  NominalModel nominal;
+  std::vector<PreparedRecord> records;
+  Scales scales;
+  double moment_noise = 0.;        // guess, a sample [N m]
+  double acceleration_noise = 0.;  // guess, a sample [m/s^2]
+  bool has_base = false, has_wind = false, has_cross = false, has_quiet = false;
+  double acceleration_repeats = 0.;  // share of samples equal to their predecessor, moving records
+};
+
+/// Only records of the given split. Throws UserError when there is none that the nominal model can
+/// be compared with.
+Experiment prepare_experiment(const NominalModel& nominal, const signals::Dataset& dataset,
+                              signals::Split split, InputNoise noise);
+
+/// Standard deviations a sample of both channels, from records at rest, else from what periods do
+/// not share, else from the upper end of the spectrum.
+struct ChannelNoise {
+  double moment_n_m = 0., acceleration_m_s2 = 0.;
+};
+ChannelNoise channel_noise(const signals::Dataset& dataset);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,49 @@
+#include "diagnosis/hypothesis.h"
+
+#include <algorithm>
+
+namespace vibrissa::diagnosis {
+
+const std::vector<std::string>& nuisance_ids() {
+  static const std::vector<std::string> ids{"damping", "drag_error", "reference_gain",
+                                            "sensor_gain", "stiffness"};
+  return ids;
+}
+
+std::string joined_name(std::vector<std::string> ids) {
+  if (ids.empty()) return "none";
+  std::sort(ids.begin(), ids.end());
+  std::string text = ids.front();
+  for (std::size_t i = 1; i < ids.size(); ++i) text += "+" + ids[i];
+  return text;
+}
+
+Hypothesis::Hypothesis(std::vector<const Effect*> effects) : effects_(std::move(effects)) {
+  std::sort(effects_.begin(), effects_.end(),
+            [](const Effect* a, const Effect* b) { return a->id < b->id; });
+}
+
+bool Hypothesis::contains(const std::string& id) const {
+  return std::any_of(effects_.begin(), effects_.end(),
+                     [&](const Effect* effect) { return effect->id == id; });
+}
+
+std::string Hypothesis::name() const {
+  std::vector<std::string> ids;
+  for (const Effect* effect : effects_) ids.push_back(effect->id);
+  return joined_name(std::move(ids));
+}
+
+Hypothesis Hypothesis::with(const Effect& effect) const {
+  std::vector<const Effect*> effects = effects_;
+  effects.push_back(&effect);
+  return Hypothesis(std::move(effects));
+}
+
+Hypothesis Hypothesis::without(const Effect& effect) const {
+  std::vector<const Effect*> effects = effects_;
+  std::erase(effects, &effect);
+  return Hypothesis(std::move(effects));
+}
+
+}  // namespace vibrissa::diagnosis

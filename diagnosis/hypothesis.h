@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis {
+
+/// The retune effects that are free in every hypothesis: stiffness, damping, gains and drag.
+const std::vector<std::string>& nuisance_ids();
+
+/// A set of effects that together may explain the gap, beside the nuisances. Sorted by id.
+class Hypothesis {
+ public:
+  Hypothesis() = default;
+  explicit Hypothesis(std::vector<const Effect*> effects);
+
+  const std::vector<const Effect*>& effects() const { return effects_; }
+  bool contains(const std::string& id) const;
+  /// Ids joined by '+' in alphabetical order; "none" when empty.
+  std::string name() const;
+  Hypothesis with(const Effect& effect) const;
+  Hypothesis without(const Effect& effect) const;
+
+ private:
+  std::vector<const Effect*> effects_;
+};
+
+/// Ids in alphabetical order joined by '+'; "none" for none.
+std::string joined_name(std::vector<std::string> ids);
+
+}  // namespace vibrissa::diagnosis

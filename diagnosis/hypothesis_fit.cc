@@ -1,0 +1,560 @@
+#include "diagnosis/hypothesis_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// Places of the figures that belong to no effect.
+constexpr std::size_t place_moment_noise = 0, place_acceleration_noise = 1, place_joint_share = 2,
+                      n_own_figures = 3;
+
+/// An ADXL345 or its like at rest, a sample [m/s^2]: paper.md gives 0.008 g as its bound.
+constexpr double usual_acceleration_noise = 0.05, usual_spread = 0.4;
+/// Misfit of the nominal form that is always allowed for.
+constexpr double least_misfit = 1e-4;
+/// Prior probability that a retune parameter is off at all.
+constexpr double retune_probability = 0.25;
+/// A retune parameter within this of nominal is nominal: the simulation is not known better.
+double negligible(const std::string& id) {
+  return id == "damping" ? 0.01 : 0.002;
+}
+
+std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothesis& hypothesis) {
+  std::vector<FreeFigure> figures(n_own_figures);
+  const double m = std::log(experiment.moment_noise);
+  figures[place_moment_noise].description = {
+      .name = "moment_noise",
+      .unit = "N m",
+      .logarithmic = true,
+      .prior = {.kind = Prior::Kind::uniform, .low = m - 4., .high = m + 4.}};
+  figures[place_acceleration_noise].description = {
+      .name = "acceleration_noise",
+      .unit = "m/s^2",
+      .logarithmic = true,
+      .prior = {.kind = Prior::Kind::normal,
+                .centre = std::log(usual_acceleration_noise),
+                .scale = usual_spread,
+                .low = std::log(1e-6),
+                .high = std::log(20.)}};
+  figures[place_joint_share].description = uniform("joint_share", "1", 0.4, 1., 1.);
+  const auto add = [&](const Effect& effect, bool nuisance) {
+    for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+      figures.push_back({&effect, i, effect.parameters[i], nuisance});
+  };
+  for (const std::string& id : nuisance_ids()) {
+    const Effect& effect = find_effect(id);
+    if ((effect.needs.base && !experiment.has_base) || (effect.needs.wind && !experiment.has_wind))
+      continue;
+    if (!hypothesis.contains(id)) add(effect, true);
+  }
+  for (const Effect* effect : hypothesis.effects()) add(*effect, false);
+  if (!hypothesis.effects().empty())
+    figures.push_back({nullptr, 0, uniform("form_error_share", "1", 0., 1., 0.), false});
+  return figures;
+}
+
+bool has_form_error(const HypothesisFit& fit) {
+  return !fit.hypothesis.effects().empty();
+}
+
+Chain make_chain(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+                 const Eigen::VectorXd& x, const Effect* left_out = nullptr) {
+  Chain chain;
+  chain.structure = experiment.nominal;
+  chain.joint_share = x(place_joint_share);
+  for (std::size_t i = n_own_figures; i < figures.size();) {
+    const Effect* effect = figures[i].effect;
+    if (effect == nullptr) break;
+    std::vector<double> values;
+    for (; i < figures.size() && figures[i].effect == effect; ++i)
+      values.push_back(figures[i].description.value(x(static_cast<Eigen::Index>(i))));
+    if (effect != left_out) effect->extend(chain, values, experiment.scales);
+  }
+  return chain;
+}
+
+/// Mean power over the neighbouring bins: a wrong form is wrong beside its lines, too.
+std::vector<double> smoothed_power(const std::vector<Complex>& a, const std::vector<Complex>* b) {
+  const std::size_t n = a.size();
+  std::vector<double> running(n + 1, 0.);
+  for (std::size_t k = 0; k < n; ++k)
+    running[k + 1] = running[k] + std::norm(b == nullptr ? a[k] : a[k] - (*b)[k]);
+  constexpr std::size_t reach = 10;
+  std::vector<double> out(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t low = k < reach ? 0 : k - reach, high = std::min(n, k + reach + 1);
+    out[k] = (running[high] - running[low]) / static_cast<double>(high - low);
+  }
+  return out;
+}
+
+double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
+  const double misfit = record.excitation.wind ? nominal.wind_misfit : nominal.base_misfit;
+  return std::max(misfit, least_misfit);
+}
+
+/// State of a fit at one x: predictions, slow parts of the variance held fixed.
+class Evaluation {
+ public:
+  Evaluation(const Experiment& experiment, const std::vector<FreeFigure>& figures, bool form_error)
+      : experiment_(experiment), figures_(figures), form_error_(form_error) {}
+
+  /// Renews what the variance takes from the mean: misfit of the nominal form, form error.
+  void renew_slow_variance(const Eigen::VectorXd& x) {
+    misfit_.clear();
+    form_.clear();
+    const Chain chain = make_chain(experiment_, figures_, x);
+    std::vector<std::pair<const Effect*, Chain>> without;
+    for (const FreeFigure& figure : figures_)
+      if (figure.effect != nullptr && !figure.nuisance && figure.parameter == 0)
+        without.emplace_back(figure.effect, make_chain(experiment_, figures_, x, figure.effect));
+    for (const PreparedRecord& record : experiment_.records) {
+      const std::vector<Complex> mean = simulate_mean(chain, record);
+      misfit_.push_back(smoothed_power(mean, nullptr));
+      const double share = nominal_misfit(experiment_.nominal, record);
+      for (double& value : misfit_.back()) value *= share * share;
+      std::vector<double> form(mean.size(), 0.);
+      for (const auto& [effect, chain_without] : without) {
+        const std::vector<Complex> other = simulate_mean(chain_without, record);
+        const std::vector<double> power = smoothed_power(mean, &other);
+        const double limit = effect->form_error * effect->form_error;
+        for (std::size_t b = 0; b < form.size(); ++b) form[b] += limit * power[b];
+      }
+      form_.push_back(std::move(form));
+    }
+  }
+
+  std::vector<Prediction> predict(const Eigen::VectorXd& x) const {
+    const Chain chain = make_chain(experiment_, figures_, x);
+    std::vector<Prediction> predictions;
+    for (const PreparedRecord& record : experiment_.records)
+      predictions.push_back(simulate(chain, record));
+    return predictions;
+  }
+
+  double acceleration_variance(const Eigen::VectorXd& x) const {
+    return std::exp(2. * x(place_acceleration_noise)) +
+           make_chain(experiment_, figures_, x).reference_variance;
+  }
+
+  std::vector<double> variance(const Eigen::VectorXd& x, const Prediction& prediction,
+                               std::size_t record, double acceleration_variance) const {
+    const double moment = std::exp(2. * x(place_moment_noise));
+    const double form = form_error_ ? x(x.size() - 1) : 0.;
+    std::vector<double> out(prediction.mean.size());
+    for (std::size_t b = 0; b < out.size(); ++b)
+      out[b] = moment * prediction.moment_noise[b] +
+               acceleration_variance * prediction.acceleration_noise[b] + prediction.own_noise[b] +
+               misfit_[record][b] + form * form_[record][b];
+    return out;
+  }
+
+  double log_likelihood(const Eigen::VectorXd& x,
+                        const std::vector<Prediction>& predictions) const {
+    const double a_variance = acceleration_variance(x);
+    double sum = 0.;
+    for (std::size_t r = 0; r < predictions.size(); ++r) {
+      const PreparedRecord& record = experiment_.records[r];
+      const std::vector<double> s = variance(x, predictions[r], r, a_variance);
+      for (std::size_t b = 0; b < s.size(); ++b)
+        sum -= std::norm(record.moment[b] - predictions[r].mean[b]) / s[b] + std::log(s[b]);
+      sum -= accelerometer_term(record, a_variance);
+    }
+    return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
+  }
+
+  double log_prior(const Eigen::VectorXd& x) const {
+    double sum = 0.;
+    for (std::size_t i = 0; i < figures_.size(); ++i)
+      sum += figures_[i].description.prior.log_density(x(static_cast<Eigen::Index>(i)));
+    return sum;
+  }
+
+  /// Gradient of the log posterior and Fisher information plus the prior's curvature.
+  void linearise(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                 Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
+
+  /// One entry an effect, in the order of the figures.
+  std::vector<double> effect_energy(const Eigen::VectorXd& x,
+                                    const std::vector<Prediction>& at) const {
+    std::vector<double> energies;
+    const double a_variance = acceleration_variance(x);
+    for (const FreeFigure& figure : figures_) {
+      if (figure.effect == nullptr || figure.nuisance || figure.parameter != 0) continue;
+      const Chain chain = make_chain(experiment_, figures_, x, figure.effect);
+      const double a_without = std::exp(2. * x(place_acceleration_noise)) + chain.reference_variance;
+      double energy = 0.;
+      for (std::size_t r = 0; r < at.size(); ++r) {
+        const Prediction without = simulate(chain, experiment_.records[r]);
+        const std::vector<double> s = variance(x, at[r], r, a_variance);
+        const std::vector<double> s_without = variance(x, without, r, a_without);
+        for (std::size_t b = 0; b < s.size(); ++b)
+          energy += std::norm(at[r].mean[b] - without.mean[b]) / s[b] +
+                    std::abs(s[b] - s_without[b]) / s[b];
+      }
+      energies.push_back(energy);
+    }
+    return energies;
+  }
+
+ private:
+  static double accelerometer_term(const PreparedRecord& record, double variance) {
+    if (record.n_acceleration_noise == 0) return 0.;
+    return record.acceleration_noise_power / (static_cast<double>(record.n_samples) * variance) +
+           static_cast<double>(record.n_acceleration_noise) * std::log(variance);
+  }
+
+  const Experiment& experiment_;
+  const std::vector<FreeFigure>& figures_;
+  bool form_error_;
+  std::vector<std::vector<double>> misfit_, form_;
+};
+
+/// Derivatives of mean and variance with respect to one figure, all records.
+struct Derivative {
+  std::vector<std::vector<Complex>> mean;  // empty: none
+  std::vector<std::vector<double>> variance;
+  double acceleration_variance = 0.;
+};
+
+void Evaluation::linearise(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                           Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const {
+  const std::size_t n_records = at.size();
+  const auto n = static_cast<Eigen::Index>(figures_.size());
+  const double a_variance = acceleration_variance(x);
+  std::vector<std::vector<double>> s(n_records);
+  Eigen::Index n_bins = 0;
+  for (std::size_t r = 0; r < n_records; ++r) {
+    s[r] = variance(x, at[r], r, a_variance);
+    n_bins += static_cast<Eigen::Index>(s[r].size());
+  }
+  // Columns: whitened derivatives of the mean (real and imaginary parts) and of log S.
+  Eigen::MatrixXd mean_columns = Eigen::MatrixXd::Zero(2 * n_bins, n);
+  Eigen::MatrixXd variance_columns = Eigen::MatrixXd::Zero(n_bins, n);
+  Eigen::VectorXd a_columns = Eigen::VectorXd::Zero(n);  // d log(acceleration variance)
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    Eigen::Index row = 0;
+    if (place == place_moment_noise || place == place_acceleration_noise) {
+      const bool moment = place == place_moment_noise;
+      const double level = 2. * std::exp(2. * x(i));
+      for (std::size_t r = 0; r < n_records; ++r)
+        for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
+          variance_columns(row, i) =
+              level * (moment ? at[r].moment_noise[b] : at[r].acceleration_noise[b]) / s[r][b];
+      if (!moment) a_columns(i) = level / a_variance;
+      continue;
+    }
+    if (figures_[place].effect == nullptr && place != place_joint_share) {
+      for (std::size_t r = 0; r < n_records; ++r)
+        for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
+          variance_columns(row, i) = form_[r][b] / s[r][b];
+      continue;
+    }
+    Eigen::VectorXd moved = x;
+    const Prior& prior = figures_[place].description.prior;
+    double h = figures_[place].description.step;
+    if (x(i) + h > prior.high) h = -h;
+    moved(i) += h;
+    const Chain chain = make_chain(experiment_, figures_, moved);
+    const double a_moved = std::exp(2. * x(place_acceleration_noise)) + chain.reference_variance;
+    a_columns(i) = (a_moved - a_variance) / h / a_variance;
+    for (std::size_t r = 0; r < n_records; ++r) {
+      const Prediction there = simulate(chain, experiment_.records[r]);
+      const std::vector<double> s_there = variance(x, there, r, a_moved);
+      for (std::size_t b = 0; b < s[r].size(); ++b, ++row) {
+        const Complex d = (there.mean[b] - at[r].mean[b]) / h / std::sqrt(s[r][b]);
+        mean_columns(2 * row, i) = d.real();
+        mean_columns(2 * row + 1, i) = d.imag();
+        variance_columns(row, i) = (s_there[b] - s[r][b]) / h / s[r][b];
+      }
+    }
+  }
+  Eigen::VectorXd error(2 * n_bins), excess(n_bins);
+  Eigen::Index row = 0;
+  double a_gradient = 0., a_lines = 0.;
+  for (std::size_t r = 0; r < n_records; ++r) {
+    const PreparedRecord& record = experiment_.records[r];
+    for (std::size_t b = 0; b < s[r].size(); ++b, ++row) {
+      const Complex e = (record.moment[b] - at[r].mean[b]) / std::sqrt(s[r][b]);
+      error(2 * row) = e.real();
+      error(2 * row + 1) = e.imag();
+      excess(row) = std::norm(e) - 1.;
+    }
+    const double lines = static_cast<double>(record.n_acceleration_noise);
+    a_lines += lines;
+    if (lines > 0.)
+      a_gradient +=
+          record.acceleration_noise_power / (static_cast<double>(record.n_samples) * a_variance) -
+          lines;
+  }
+  gradient = 2. * mean_columns.transpose() * error + variance_columns.transpose() * excess +
+             a_columns * a_gradient;
+  information = 2. * mean_columns.transpose() * mean_columns +
+                variance_columns.transpose() * variance_columns +
+                a_lines * a_columns * a_columns.transpose();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Prior& prior = figures_[static_cast<std::size_t>(i)].description.prior;
+    gradient(i) += prior.slope(x(i));
+    information(i, i) += prior.curvature(x(i));
+  }
+}
+
+void clamp(const std::vector<FreeFigure>& figures, Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const Prior& prior = figures[i].description.prior;
+    double& value = x(static_cast<Eigen::Index>(i));
+    value = std::clamp(value, prior.low, prior.high);
+  }
+}
+
+/// Coordinates to start from: noise as guessed, nuisances nominal or as in start, effects at one of
+/// their own starts or as in start.
+Eigen::VectorXd start_vector(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+                             const HypothesisFit* start) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(figures.size()));
+  x(place_moment_noise) = std::log(experiment.moment_noise);
+  x(place_acceleration_noise) = std::log(experiment.acceleration_noise);
+  x(place_joint_share) = 0.8;
+  if (start != nullptr) x.head(n_own_figures) = start->x.head(n_own_figures);
+  for (std::size_t i = n_own_figures; i < figures.size(); ++i) {
+    const FreeFigure& figure = figures[i];
+    double& value = x(static_cast<Eigen::Index>(i));
+    if (figure.effect == nullptr) {
+      value = 0.2;
+      continue;
+    }
+    const double at = figure.nuisance ? (figure.parameter == 0 ? 1. : 0.5)
+                                      : figure.effect->starts.front()[figure.parameter];
+    value = figure.description.coordinate(at);
+    if (start == nullptr) continue;
+    if (const auto place = start->place(figure.effect->id, figure.parameter))
+      value = start->x(static_cast<Eigen::Index>(*place));
+  }
+  clamp(figures, x);
+  return x;
+}
+
+/// All combinations of the starts of effects that the given start does not hold.
+std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
+                                           const std::vector<FreeFigure>& figures,
+                                           const Hypothesis& hypothesis,
+                                           const HypothesisFit* start) {
+  std::vector<Eigen::VectorXd> starts{start_vector(experiment, figures, start)};
+  for (const Effect* effect : hypothesis.effects()) {
+    if (start != nullptr && start->hypothesis.contains(effect->id)) continue;
+    std::vector<Eigen::VectorXd> more;
+    for (const Eigen::VectorXd& x : starts)
+      for (const std::vector<double>& values : effect->starts) {
+        more.push_back(x);
+        for (std::size_t i = 0; i < figures.size(); ++i)
+          if (figures[i].effect == effect)
+            more.back()(static_cast<Eigen::Index>(i)) =
+                figures[i].description.coordinate(values[figures[i].parameter]);
+        clamp(figures, more.back());
+      }
+    starts = std::move(more);
+  }
+  return starts;
+}
+
+/// Step of the figures that are not held at a bound.
+Eigen::VectorXd damped_step(const std::vector<FreeFigure>& figures, const Eigen::VectorXd& x,
+                            const Eigen::VectorXd& gradient, const Eigen::MatrixXd& information,
+                            double damping) {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Prior& prior = figures[static_cast<std::size_t>(i)].description.prior;
+    const bool at_low = x(i) <= prior.low && gradient(i) < 0.;
+    const bool at_high = x(i) >= prior.high && gradient(i) > 0.;
+    if (!at_low && !at_high) free.push_back(i);
+  }
+  Eigen::MatrixXd matrix = information(free, free);
+  matrix.diagonal() *= 1. + damping;
+  const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+  const Eigen::VectorXd part =
+      scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * gradient(free));
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(x.size());
+  for (std::size_t i = 0; i < free.size(); ++i) step(free[i]) = part(static_cast<Eigen::Index>(i));
+  // Fisher scoring far from the optimum overshoots in logarithms.
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Prior& prior = figures[static_cast<std::size_t>(i)].description.prior;
+    const double most = 0.25 * (prior.high - prior.low);
+    step(i) = std::clamp(step(i), -most, most);
+  }
+  return step;
+}
+
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix, double& log_determinant) {
+  const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+  const Eigen::VectorXd values = solver.eigenvalues().cwiseMax(1e-12);
+  log_determinant = values.array().log().sum() - 2. * scale.array().log().sum();
+  return scale.asDiagonal() * solver.eigenvectors() * values.cwiseInverse().asDiagonal() *
+         solver.eigenvectors().transpose() * scale.asDiagonal();
+}
+
+/// Log density at zero of the marginal of the chosen figures, widened by what is negligible.
+double log_density_at_nominal(const HypothesisFit& fit, const std::vector<Eigen::Index>& places) {
+  const auto n = static_cast<Eigen::Index>(places.size());
+  if (n == 0) return 0.;
+  Eigen::MatrixXd covariance = fit.covariance(places, places);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const FreeFigure& figure = fit.figures[static_cast<std::size_t>(places[i])];
+    const double width = negligible(figure.effect->id);
+    // A shift that moves the prediction no more than the effects' form errors may stem from them.
+    const double information = fit.information(places[i], places[i]);
+    covariance(i, i) += width * width + 0.5 * fit.form_energy() / information;
+  }
+  const Eigen::VectorXd x = fit.x(places);
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(covariance);
+  const double log_determinant = ldlt.vectorD().array().abs().log().sum();
+  return -0.5 * (x.dot(ldlt.solve(x)) + log_determinant +
+                 static_cast<double>(n) * std::log(2. * std::numbers::pi));
+}
+
+/// Savage's and Dickey's ratio for every set of nuisances that may be nominal.
+std::vector<RetuneChoice> retune_choices(const HypothesisFit& fit) {
+  std::vector<Eigen::Index> ratios;
+  for (std::size_t i = 0; i < fit.figures.size(); ++i)
+    if (fit.figures[i].nuisance && fit.figures[i].parameter == 0)
+      ratios.push_back(static_cast<Eigen::Index>(i));
+  std::vector<RetuneChoice> choices;
+  for (std::size_t set = 0; set < (std::size_t{1} << ratios.size()); ++set) {
+    RetuneChoice choice{.log_evidence = fit.log_evidence};
+    std::vector<Eigen::Index> nominal;
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      const FreeFigure& figure = fit.figures[static_cast<std::size_t>(ratios[i])];
+      if ((set >> i & 1) != 0) {
+        choice.named.push_back(figure.effect->id);
+        choice.log_evidence += std::log(retune_probability);
+        continue;
+      }
+      nominal.push_back(ratios[i]);
+      choice.log_evidence +=
+          std::log(1. - retune_probability) - figure.description.prior.log_density(0.);
+    }
+    choice.log_evidence += log_density_at_nominal(fit, nominal);
+    choices.push_back(std::move(choice));
+  }
+  std::sort(choices.begin(), choices.end(), [](const RetuneChoice& a, const RetuneChoice& b) {
+    return a.log_evidence > b.log_evidence;
+  });
+  return choices;
+}
+
+}  // namespace
+
+std::optional<std::size_t> HypothesisFit::place(const std::string& effect,
+                                                const std::size_t parameter) const {
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    if (figures[i].effect != nullptr && figures[i].effect->id == effect &&
+        figures[i].parameter == parameter)
+      return i;
+  return std::nullopt;
+}
+
+double HypothesisFit::form_energy(const Effect* but) const {
+  double sum = 0.;
+  for (std::size_t i = 0; i < effect_energy.size(); ++i) {
+    const Effect* effect = hypothesis.effects()[i];
+    if (effect != but) sum += effect->form_error * effect->form_error * effect_energy[i];
+  }
+  return sum;
+}
+
+Chain HypothesisFit::chain(const Experiment& experiment) const {
+  return make_chain(experiment, figures, x);
+}
+
+HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hypothesis,
+                             const HypothesisFit* start, const FitOptions& options) {
+  HypothesisFit fit;
+  fit.hypothesis = hypothesis;
+  fit.figures = make_figures(experiment, hypothesis);
+  Evaluation evaluation(experiment, fit.figures, has_form_error(fit));
+  std::vector<Prediction> predictions;
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Eigen::VectorXd& x : start_vectors(experiment, fit.figures, hypothesis, start)) {
+    evaluation.renew_slow_variance(x);
+    std::vector<Prediction> there = evaluation.predict(x);
+    const double posterior = evaluation.log_likelihood(x, there) + evaluation.log_prior(x);
+    if (posterior <= best && fit.x.size() > 0) continue;
+    best = posterior;
+    fit.x = x;
+    predictions = std::move(there);
+  }
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd information;
+  double damping = 1e-3;
+  for (fit.n_iterations = 0; fit.n_iterations < options.max_iterations; ++fit.n_iterations) {
+    evaluation.renew_slow_variance(fit.x);
+    best = evaluation.log_likelihood(fit.x, predictions) + evaluation.log_prior(fit.x);
+    evaluation.linearise(fit.x, predictions, gradient, information);
+    bool moved = false;
+    double gain = 0.;
+    for (int attempt = 0; attempt < 5 && !moved; ++attempt) {
+      Eigen::VectorXd x = fit.x + damped_step(fit.figures, fit.x, gradient, information, damping);
+      clamp(fit.figures, x);
+      std::vector<Prediction> there = evaluation.predict(x);
+      const double posterior = evaluation.log_likelihood(x, there) + evaluation.log_prior(x);
+      if (posterior > best) {
+        gain = posterior - best;
+        fit.x = x;
+        predictions = std::move(there);
+        best = posterior;
+        damping = std::max(1e-6, damping * 0.2);
+        moved = true;
+      } else {
+        damping = std::max(1e-2, damping * 8.);
+      }
+    }
+    if (!moved || gain < options.tolerance) break;
+  }
+  evaluation.renew_slow_variance(fit.x);
+  evaluation.linearise(fit.x, predictions, gradient, information);
+  fit.information = information;
+  fit.effect_energy = evaluation.effect_energy(fit.x, predictions);
+  double log_determinant = 0.;
+  fit.covariance = inverse(information, log_determinant);
+  fit.log_likelihood = evaluation.log_likelihood(fit.x, predictions);
+  fit.log_evidence = fit.log_likelihood + evaluation.log_prior(fit.x) - 0.5 * log_determinant +
+                     0.5 * static_cast<double>(fit.x.size()) * std::log(2. * std::numbers::pi);
+  fit.choices = retune_choices(fit);
+  return fit;
+}
+
+std::vector<double> bin_variance(const Experiment& experiment, const HypothesisFit& fit,
+                                 const PreparedRecord& record, const Prediction& prediction) {
+  Evaluation evaluation(experiment, fit.figures, has_form_error(fit));
+  evaluation.renew_slow_variance(fit.x);
+  for (std::size_t r = 0; r < experiment.records.size(); ++r)
+    if (&experiment.records[r] == &record)
+      return evaluation.variance(fit.x, prediction, r, evaluation.acceleration_variance(fit.x));
+  return {};
+}
+
+WhitenedResidual whitened_residual(const Experiment& experiment, const HypothesisFit& fit) {
+  Evaluation evaluation(experiment, fit.figures, has_form_error(fit));
+  evaluation.renew_slow_variance(fit.x);
+  const std::vector<Prediction> predictions = evaluation.predict(fit.x);
+  const double a_variance = evaluation.acceleration_variance(fit.x);
+  WhitenedResidual residual;
+  for (std::size_t r = 0; r < predictions.size(); ++r) {
+    const std::vector<double> s = evaluation.variance(fit.x, predictions[r], r, a_variance);
+    for (std::size_t b = 0; b < s.size(); ++b) {
+      residual.deviation.push_back(std::sqrt(s[b]));
+      residual.error.push_back((experiment.records[r].moment[b] - predictions[r].mean[b]) /
+                               residual.deviation.back());
+    }
+  }
+  return residual;
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/chain_simulation.h"
+#include "diagnosis/experiment.h"
+#include "diagnosis/hypothesis.h"
+
+namespace vibrissa::diagnosis {
+
+/// One free figure of a fit: of a channel's noise, a nuisance, an effect, or the form error.
+struct FreeFigure {
+  const Effect* effect = nullptr;  // nothing: of the noise or the form error
+  std::size_t parameter = 0;       // number in the effect
+  Parameter description{};
+  bool nuisance = false;
+};
+
+/// A nuisance that is said to differ from its nominal value.
+struct RetuneChoice {
+  std::vector<std::string> named{};  // ids, alphabetical
+  double log_evidence = 0.;          // with the prior of this choice
+};
+
+/// A hypothesis at its most probable parameters. Figures in their coordinates x.
+struct HypothesisFit {
+  Hypothesis hypothesis;
+  std::vector<FreeFigure> figures;
+  Eigen::VectorXd x;
+  Eigen::MatrixXd information;  // Fisher's, with the priors' curvature
+  Eigen::MatrixXd covariance;   // its inverse
+  double log_likelihood = -std::numeric_limits<double>::infinity();
+  double log_evidence = -std::numeric_limits<double>::infinity();  // all nuisances free
+  std::vector<RetuneChoice> choices;                               // best first
+  int n_iterations = 0;
+  /// Whitened energy of what each effect does, sum |mean - mean without it|^2 / S, as
+  /// hypothesis.effects().
+  std::vector<double> effect_energy;
+
+  /// Form errors of the effects but one in whitened energy: less than this is not told from them.
+  double form_energy(const Effect* but = nullptr) const;
+  /// Value and standard deviation of an effect's parameter (of x).
+  std::optional<std::size_t> place(const std::string& effect, std::size_t parameter) const;
+  Chain chain(const Experiment& experiment) const;
+};
+
+/// Residual of a fit, whitened: one entry a bin, all records in turn.
+struct WhitenedResidual {
+  std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
+  std::vector<double> deviation;  // sqrt(variance) [N m]
+};
+
+struct FitOptions {
+  int max_iterations = 14;
+  /// Ends when an iteration gains less log posterior than this.
+  double tolerance = 0.1;
+};
+
+/// Maximum posterior fit to all records of the experiment by Fisher scoring: DFT bins are
+/// independent complex Gaussians of the chain's mean and variance (Whittle 1953),
+///   log p = - sum |M - mean|^2 / S + log S,
+///   S = n sigma_M^2 + n |G|^2 w sigma_a^2 + own noise + (misfit of the nominal form) + (form error
+///   of the effects),
+/// evidence by Laplace. start: coordinates to begin with beside the effects' own starts.
+HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hypothesis,
+                             const HypothesisFit* start = nullptr, const FitOptions& options = {});
+
+WhitenedResidual whitened_residual(const Experiment& experiment, const HypothesisFit& fit);
+
+/// Variance of each bin of one record as the fit has it.
+std::vector<double> bin_variance(const Experiment& experiment, const HypothesisFit& fit,
+                                 const PreparedRecord& record, const Prediction& prediction);
+
+}  // namespace vibrissa::diagnosis

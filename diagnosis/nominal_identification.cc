@@ -1,0 +1,237 @@
+#include "diagnosis/nominal_identification.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "diagnosis/chain_simulation.h"
+#include "diagnosis/experiment.h"
+#include "diagnosis/spectrum.h"
+#include "separation/identify_frequency.h"
+#include "signals/error.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using signals::DatasetRecord;
+namespace channel = signals::channel;
+
+constexpr std::size_t max_order = 6;
+/// A pair of poles more must lower the misfit to this share.
+constexpr double worthwhile = 0.5;
+
+signals::FrequencyResponse base_response_of(const DatasetRecord& entry) {
+  const signals::Record& record = entry.record;
+  const auto a = record.channel(channel::base_acceleration);
+  const auto m = record.channel(channel::base_moment);
+  const double rate = record.sampling_rate_hz();
+  if (entry.period_samples > 0) return signals::periodic_response(a, m, rate, entry.period_samples);
+  return signals::welch_response(a, m, rate, {std::min<std::size_t>(2048, a.size() / 4)});
+}
+
+/// Lines of several records, each line from the first record that has it and weighted by the size
+/// of its response: a simulation's error is in proportion to it.
+signals::FrequencyResponse joined_response(const std::vector<const DatasetRecord*>& entries) {
+  std::map<double, Complex> lines;
+  for (const DatasetRecord* entry : entries) {
+    const signals::FrequencyResponse response = base_response_of(*entry);
+    for (std::size_t i = 0; i < response.value.size(); ++i)
+      if (std::isfinite(std::abs(response.value[i])) && std::abs(response.value[i]) > 0.)
+        lines.emplace(response.frequency_hz[i], response.value[i]);
+  }
+  signals::FrequencyResponse joined;
+  for (const auto& [frequency_hz, value] : lines) {
+    joined.frequency_hz.push_back(frequency_hz);
+    joined.value.push_back(value);
+    joined.coherence.push_back(1.);
+    joined.standard_deviation.push_back(1e-3 * std::abs(value));
+  }
+  return joined;
+}
+
+double relative_misfit(const separation::Bvrm& model, const signals::FrequencyResponse& response) {
+  const std::vector<Complex> fitted = separation::response(model, response.frequency_hz);
+  double sum = 0.;
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+    sum += std::norm(fitted[i] / response.value[i] - 1.);
+  return std::sqrt(sum / static_cast<double>(fitted.size()));
+}
+
+std::vector<const DatasetRecord*> choose(const signals::Dataset& dataset, bool base, bool wind) {
+  std::vector<const DatasetRecord*> alone, combined;
+  for (const DatasetRecord& entry : dataset.records) {
+    const signals::Excitation e = entry.excitation;
+    if (base && !e.base) continue;
+    if (wind && !e.wind) continue;
+    if (base && !entry.record.has(channel::base_acceleration)) continue;
+    if (wind && !entry.record.has(channel::wind_speed)) continue;
+    (e.base && e.wind ? combined : alone).push_back(&entry);
+  }
+  return alone.empty() ? combined : alone;
+}
+
+void keep_periodic_if_any(std::vector<const DatasetRecord*>& entries) {
+  const auto periodic = [](const DatasetRecord* entry) { return entry->period_samples > 0; };
+  if (std::any_of(entries.begin(), entries.end(), periodic))
+    std::erase_if(entries, [&](const DatasetRecord* entry) { return !periodic(entry); });
+}
+
+void set_base_path(NominalModel& model, const signals::Dataset& simulation) {
+  std::vector<const DatasetRecord*> entries = choose(simulation, true, false);
+  if (entries.empty()) return;
+  keep_periodic_if_any(entries);
+  const signals::FrequencyResponse response = joined_response(entries);
+  const auto fits = separation::identify_frequency_orders(response, {.order = max_order});
+  const separation::FittedBvrm* best = nullptr;
+  double best_misfit = 0.;
+  for (const separation::FittedBvrm& fit : fits) {
+    const double misfit = relative_misfit(fit.model, response);
+    if (best != nullptr && misfit > worthwhile * best_misfit) continue;
+    best = &fit;
+    best_misfit = misfit;
+  }
+  if (best == nullptr) return;
+  for (const separation::ModalTerm& term : best->model.modes) {
+    const double w = std::sqrt(term.a0);
+    model.modes.push_back({.frequency_rad_s = w,
+                           .damping_ratio = term.damping_ratio(),
+                           .base_gain = term.b0 / term.a0,
+                           .base_rate = term.b1 / w});
+  }
+  // Joint laws act on the strongest mode of the band: it goes first.
+  std::sort(model.modes.begin(), model.modes.end(),
+            [](const StructuralMode& a, const StructuralMode& b) {
+              return std::abs(a.base_gain) > std::abs(b.base_gain);
+            });
+  model.base_direct = best->model.direct_term_kg_m;
+  model.has_base = true;
+}
+
+/// One column for each unknown of the wind path: gain and rate of each mode, direct term.
+Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& record) {
+  std::vector<double> force(record.wind);
+  for (double& u : force) u *= std::abs(u);
+  const std::vector<Complex> spectrum = spectrum_of(force);
+  const auto n_modes = static_cast<Eigen::Index>(model.modes.size());
+  const auto n_bins = static_cast<Eigen::Index>(record.n_bins());
+  Eigen::MatrixXcd columns(n_bins, 2 * n_modes + 1);
+  for (Eigen::Index c = 0; c < columns.cols(); ++c) {
+    std::vector<Complex> whole(spectrum.size());
+    for (std::size_t k = 0; k < whole.size(); ++k) {
+      const Complex s(0., 2. * std::numbers::pi * record.sampling_rate_hz * static_cast<double>(k) /
+                              static_cast<double>(record.n_samples));
+      Complex response = 1.;
+      if (c < 2 * n_modes) {
+        StructuralMode mode = model.modes[static_cast<std::size_t>(c / 2)];
+        mode.wind_gain = c % 2 == 0 ? 1. : 0.;
+        mode.wind_rate = c % 2 == 0 ? 0. : 1.;
+        response = mode.wind_response(s);
+      }
+      whole[k] = response * spectrum[k];
+    }
+    const std::vector<double> samples = samples_of(whole, record.n_samples);
+    const auto part = spectrum_of(std::span(samples).subspan(record.first, record.n_judged));
+    for (Eigen::Index b = 0; b < n_bins; ++b) columns(b, c) = part[static_cast<std::size_t>(b) + 1];
+  }
+  return columns;
+}
+
+/// Without a base path the wind's own response gives the poles.
+void set_wind_poles(NominalModel& model, const std::vector<const DatasetRecord*>& entries) {
+  const signals::Record& record = entries.front()->record;
+  std::vector<double> force(record.channel(channel::wind_speed).begin(),
+                            record.channel(channel::wind_speed).end());
+  for (double& u : force) u *= std::abs(u);
+  const auto response = signals::welch_response(force, record.channel(channel::base_moment),
+                                                record.sampling_rate_hz(),
+                                                {std::min<std::size_t>(1024, force.size() / 4)});
+  const auto fit = separation::identify_frequency(response, {.order = 2});
+  for (const separation::ModalTerm& term : fit.model.modes)
+    model.modes.push_back(
+        {.frequency_rad_s = std::sqrt(term.a0), .damping_ratio = term.damping_ratio()});
+}
+
+void set_wind_path(NominalModel& model, const signals::Dataset& simulation) {
+  const std::vector<const DatasetRecord*> entries = choose(simulation, false, true);
+  if (entries.empty()) return;
+  if (model.modes.empty()) set_wind_poles(model, entries);
+  NominalModel without = model;
+  signals::Dataset dataset;
+  for (const DatasetRecord* entry : entries) {
+    dataset.records.push_back(*entry);
+    dataset.records.back().split = signals::Split::fit;
+  }
+  without.has_wind = true;
+  const Experiment experiment =
+      prepare_experiment(without, dataset, signals::Split::fit, InputNoise::as_measured);
+  // Only modes whose wind response the records move can be told; the rest is in the direct term.
+  NominalModel in_band = model;
+  in_band.modes.resize(1);
+  const Eigen::Index n_unknowns = 3;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n_unknowns, n_unknowns);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n_unknowns);
+  Chain base_only{.structure = without};
+  for (const PreparedRecord& record : experiment.records) {
+    const Eigen::MatrixXcd columns = wind_columns(in_band, record);
+    const std::vector<Complex> base = simulate_mean(base_only, record);
+    Eigen::VectorXcd rest(columns.rows());
+    for (Eigen::Index b = 0; b < rest.size(); ++b)
+      rest(b) = record.moment[static_cast<std::size_t>(b)] - base[static_cast<std::size_t>(b)];
+    normal += (columns.adjoint() * columns).real();
+    right += (columns.adjoint() * rest).real();
+  }
+  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
+  const Eigen::MatrixXd scaled =
+      scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd solution =
+      scale.cwiseInverse().asDiagonal() *
+      scaled.completeOrthogonalDecomposition().solve(scale.cwiseInverse().asDiagonal() * right);
+  model.modes.front().wind_gain = solution(0);
+  model.modes.front().wind_rate = solution(1);
+  model.wind_direct = solution(2);
+  model.has_wind = true;
+}
+
+/// Misfit of the model on the simulation's own records, base alone and with wind.
+void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
+  double base_error = 0., base_power = 0., wind_error = 0., wind_power = 0.;
+  for (const signals::Split split : {signals::Split::fit, signals::Split::held_out}) {
+    if (std::none_of(simulation.records.begin(), simulation.records.end(),
+                     [&](const DatasetRecord& e) {
+                       return e.split == split && (e.excitation.base || e.excitation.wind);
+                     }))
+      continue;
+    const Experiment experiment =
+        prepare_experiment(model, simulation, split, InputNoise::as_measured);
+    for (const PreparedRecord& record : experiment.records) {
+      const std::vector<Complex> mean = simulate_mean({.structure = model}, record);
+      double error = 0., power = 0.;
+      for (std::size_t b = 0; b < mean.size(); ++b) {
+        error += std::norm(mean[b] - record.moment[b]);
+        power += std::norm(record.moment[b]);
+      }
+      (record.excitation.wind ? wind_error : base_error) += error;
+      (record.excitation.wind ? wind_power : base_power) += power;
+    }
+  }
+  if (base_power > 0.) model.base_misfit = std::sqrt(base_error / base_power);
+  if (wind_power > 0.) model.wind_misfit = std::sqrt(wind_error / wind_power);
+}
+
+}  // namespace
+
+NominalModel identify_nominal(const signals::Dataset& simulation) {
+  NominalModel model;
+  set_base_path(model, simulation);
+  set_wind_path(model, simulation);
+  if (!model.has_base && !model.has_wind)
+    throw signals::UserError(
+        "the simulation's records determine neither the base nor the wind response: at least one "
+        "needs excitation \"base\" with base_acceleration_m_s2 or \"wind\" with wind_speed_m_s");
+  set_misfits(model, simulation);
+  return model;
+}
+
+}  // namespace vibrissa::diagnosis

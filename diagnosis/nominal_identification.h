@@ -1,0 +1,15 @@
+#pragma once
+
+#include "diagnosis/nominal_model.h"
+#include "signals/dataset.h"
+
+namespace vibrissa::diagnosis {
+
+/// The nominal model that a simulation's records say: base path by frequency-domain fits of rising
+/// order (at excited lines of periodic records, else Welch's), wind path by linear least squares on
+/// the poles found. Base records without wind, wind records without base motion are used; combined
+/// ones when there are no others. Throws UserError when no record determines either path. Proven by
+/// tests/diagnosis/nominal_identification_test.cc.
+NominalModel identify_nominal(const signals::Dataset& simulation);
+
+}  // namespace vibrissa::diagnosis

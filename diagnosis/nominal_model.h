@@ -1,0 +1,40 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+namespace vibrissa::diagnosis {
+
+using Complex = std::complex<double>;
+
+/// One mode of the structure in both of its paths:
+///   share of M / a       = (base_gain + base_rate s/w) / ((s/w)^2 + 2 zeta s/w + 1),
+///   share of M / (u |u|) likewise with wind_gain and wind_rate.
+/// The rates are the viscous part of the base moment. With gains in N m the mode's coordinate is
+/// its elastic share of the base moment.
+struct StructuralMode {
+  double frequency_rad_s = 0.;
+  double damping_ratio = 0.;
+  double base_gain = 0., base_rate = 0.;  // N m / (m/s^2)
+  double wind_gain = 0., wind_rate = 0.;  // N m / (m/s)^2
+
+  Complex base_response(Complex s) const;
+  Complex wind_response(Complex s) const;
+};
+
+/// What the simulation says: base acceleration and wind to base moment, linear in a and in u |u|.
+/// Modes in ascending frequency; the direct terms stand for the modes above the band.
+struct NominalModel {
+  std::vector<StructuralMode> modes;
+  double base_direct = 0.;                  // N m / (m/s^2)
+  double wind_direct = 0.;                  // N m / (m/s)^2
+  bool has_base = false, has_wind = false;  // paths that the simulation determined
+  /// rms of (simulated - model) over rms of simulated, on the simulation's own records: what this
+  /// form cannot follow.
+  double base_misfit = 0., wind_misfit = 0.;
+
+  Complex base_response(Complex s) const;
+  Complex wind_response(Complex s) const;
+};
+
+}  // namespace vibrissa::diagnosis

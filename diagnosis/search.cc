@@ -1,0 +1,242 @@
+#include "diagnosis/search.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// Prior of the number of effects beside retunes: none, one, two, three.
+constexpr double log_prior_of_size[] = {-1.2, -0.7, -2.3, -4.6};
+/// How many of each size are extended, and by how many partners.
+constexpr std::size_t n_extended = 4, n_partners = 5;
+
+void for_each_parallel(std::size_t n, std::size_t n_threads,
+                       const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto run = [&] {
+    for (std::size_t i = next++; i < n; i = next++) try {
+        work(i);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+      }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t t = 1; t < std::min(n_threads, n); ++t) threads.emplace_back(run);
+  run();
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+bool testable(const Experiment& experiment, const Effect& effect, const SearchOptions& options) {
+  const std::vector<std::string>& nuisances = nuisance_ids();
+  const auto listed = [&](const std::vector<std::string>& ids) {
+    return std::find(ids.begin(), ids.end(), effect.id) != ids.end();
+  };
+  if (listed(nuisances) || listed(options.left_out)) return false;
+  if (effect.needs.base && !experiment.has_base) return false;
+  if (effect.needs.wind && !experiment.has_wind) return false;
+  return !effect.needs.cross || experiment.has_cross;
+}
+
+double log_prior(const Hypothesis& hypothesis, std::size_t n_testable) {
+  const std::size_t n = hypothesis.effects().size();
+  double sum = log_prior_of_size[std::min<std::size_t>(n, 3)];
+  for (std::size_t i = 0; i < n; ++i)
+    sum -= std::log(static_cast<double>(n_testable - i) / static_cast<double>(i + 1));
+  for (const Effect* effect : hypothesis.effects()) sum += effect->log_prior;
+  return sum;
+}
+
+/// Does one of the effects do less than the form errors of the others may?
+bool hides_in_form_errors(const HypothesisFit& fit) {
+  const auto& effects = fit.hypothesis.effects();
+  for (std::size_t i = 0; effects.size() > 1 && i < effects.size(); ++i)
+    if (fit.effect_energy[i] < fit.form_energy(effects[i])) return true;
+  return false;
+}
+
+double best_posterior(const HypothesisFit& fit, std::size_t n_testable) {
+  return fit.choices.front().log_evidence + log_prior(fit.hypothesis, n_testable);
+}
+
+/// How much of the whitened residual one effect's own shape explains, over all its starts: twice
+/// the log likelihood that the best multiple of it gains, to first order.
+double resemblance(const Experiment& experiment, const HypothesisFit& fit,
+                   const std::vector<std::vector<Complex>>& means, const WhitenedResidual& residual,
+                   const Effect& effect) {
+  double best = 0.;
+  for (const std::vector<double>& values : effect.starts) {
+    Chain chain = fit.chain(experiment);
+    effect.extend(chain, values, experiment.scales);
+    double cross = 0., own = 0., excess = 0., square = 0.;
+    std::size_t row = 0;
+    const double reference = chain.reference_variance;
+    for (std::size_t r = 0; r < experiment.records.size(); ++r) {
+      const Prediction there = simulate(chain, experiment.records[r]);
+      for (std::size_t b = 0; b < there.mean.size(); ++b, ++row) {
+        const Complex d = (there.mean[b] - means[r][b]) / residual.deviation[row];
+        cross += (std::conj(d) * residual.error[row]).real();
+        own += std::norm(d);
+        const double v = (there.own_noise[b] + reference * there.acceleration_noise[b]) /
+                         (residual.deviation[row] * residual.deviation[row]);
+        const double w = v / (1. + v);
+        excess += w * (std::norm(residual.error[row]) - 1.);
+        square += w * w;
+      }
+    }
+    if (own > 0.) best = std::max(best, 2. * cross * cross / own);
+    if (square > 0. && excess > 0.) best = std::max(best, excess * excess / square);
+  }
+  return best;
+}
+
+class Searcher {
+ public:
+  Searcher(const Experiment& experiment, const SearchOptions& options)
+      : experiment_(experiment), options_(options) {
+    for (const Effect& effect : effect_catalogue())
+      if (testable(experiment, effect, options)) testable_.push_back(&effect);
+  }
+
+  SearchResult run() {
+    fit_all({{Hypothesis{}, std::nullopt}});
+    std::vector<Task> tasks;
+    for (const Effect* effect : testable_) tasks.push_back({Hypothesis({effect}), 0});
+    fit_all(tasks);
+    for (std::size_t size = 2; size <= options_.max_effects; ++size) {
+      if (!worth_extending(size)) break;
+      fit_all(extensions(size));
+    }
+    std::vector<Candidate> ranked = candidates();
+    return {std::move(fits_), std::move(ranked)};
+  }
+
+ private:
+  struct Task {
+    Hypothesis hypothesis;
+    std::optional<std::size_t> start;  // number of a fit
+  };
+
+  void fit_all(const std::vector<Task>& tasks) {
+    const std::size_t first = fits_.size();
+    fits_.resize(first + tasks.size());
+    for_each_parallel(tasks.size(), options_.n_threads, [&](std::size_t i) {
+      const HypothesisFit* start = tasks[i].start ? &fits_[*tasks[i].start] : nullptr;
+      fits_[first + i] = fit_hypothesis(experiment_, tasks[i].hypothesis, start);
+      if (options_.on_fit) options_.on_fit();
+    });
+    for (std::size_t i = 0; i < tasks.size(); ++i) known_.insert(tasks[i].hypothesis.name());
+  }
+
+  std::vector<std::size_t> best_of_size(std::size_t size) const {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      if (fits_[i].hypothesis.effects().size() == size && !hides_in_form_errors(fits_[i]))
+        order.push_back(i);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return best_posterior(fits_[a], testable_.size()) >
+             best_posterior(fits_[b], testable_.size());
+    });
+    return order;
+  }
+
+  /// More effects are tried only where the ones before have helped.
+  bool worth_extending(std::size_t size) const {
+    const std::vector<std::size_t> fewer = best_of_size(size - 1);
+    const std::vector<std::size_t> before = best_of_size(size - 2);
+    if (fewer.empty() || before.empty()) return false;
+    return best_posterior(fits_[fewer.front()], testable_.size()) >
+           best_posterior(fits_[before.front()], testable_.size());
+  }
+
+  std::vector<Task> extensions(std::size_t size) {
+    std::vector<std::size_t> bases = best_of_size(size - 1);
+    bases.resize(std::min(bases.size(), size == 2 ? n_extended : n_extended / 2));
+    std::vector<Task> tasks;
+    std::mutex mutex;
+    std::set<std::string> names;
+    for (const std::size_t base : bases)
+      for (const Effect* partner : partners(base)) {
+        const Hypothesis joint = fits_[base].hypothesis.with(*partner);
+        if (known_.count(joint.name()) != 0 || !names.insert(joint.name()).second) continue;
+        tasks.push_back({joint, base});
+      }
+    return tasks;
+  }
+
+  std::vector<const Effect*> partners(std::size_t base) {
+    const HypothesisFit& fit = fits_[base];
+    const WhitenedResidual residual = whitened_residual(experiment_, fit);
+    std::vector<std::vector<Complex>> means;
+    const Chain chain = fit.chain(experiment_);
+    for (const PreparedRecord& record : experiment_.records)
+      means.push_back(simulate_mean(chain, record));
+    std::vector<std::pair<double, const Effect*>> scored(testable_.size());
+    for_each_parallel(testable_.size(), options_.n_threads, [&](std::size_t i) {
+      const Effect* effect = testable_[i];
+      const bool there = fit.hypothesis.contains(effect->id);
+      scored[i] = {there ? -1. : resemblance(experiment_, fit, means, residual, *effect), effect};
+    });
+    std::sort(scored.begin(), scored.end(),
+              [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<const Effect*> chosen;
+    for (std::size_t i = 0; i < scored.size() && i < n_partners; ++i)
+      if (scored[i].first > 6.) chosen.push_back(scored[i].second);
+    return chosen;
+  }
+
+  std::vector<Candidate> candidates() const {
+    std::map<std::string, Candidate> by_name;
+    for (std::size_t i = 0; i < result_size(); ++i) add_choices(by_name, i);
+    std::vector<Candidate> out;
+    for (auto& [name, candidate] : by_name) out.push_back(candidate);
+    std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
+      return a.log_posterior > b.log_posterior;
+    });
+    double total = 0.;
+    for (const Candidate& c : out) total += std::exp(c.log_posterior - out.front().log_posterior);
+    for (Candidate& c : out)
+      c.probability = std::exp(c.log_posterior - out.front().log_posterior) / total;
+    return out;
+  }
+
+  std::size_t result_size() const { return fits_.size(); }
+
+  void add_choices(std::map<std::string, Candidate>& by_name, std::size_t i) const {
+    const HypothesisFit& fit = fits_[i];
+    if (hides_in_form_errors(fit)) return;
+    const double prior = log_prior(fit.hypothesis, testable_.size());
+    for (const RetuneChoice& choice : fit.choices) {
+      std::vector<std::string> ids = choice.named;
+      for (const Effect* effect : fit.hypothesis.effects()) ids.push_back(effect->id);
+      const std::string name = joined_name(ids);
+      const double posterior = choice.log_evidence + prior;
+      const auto found = by_name.find(name);
+      if (found != by_name.end() && found->second.log_posterior >= posterior) continue;
+      by_name[name] = {name, i, choice.named, posterior, 0.};
+    }
+  }
+
+  const Experiment& experiment_;
+  const SearchOptions& options_;
+  std::vector<const Effect*> testable_;
+  std::vector<HypothesisFit> fits_;
+  std::set<std::string> known_;
+};
+
+}  // namespace
+
+SearchResult search(const Experiment& experiment, const SearchOptions& options) {
+  return Searcher(experiment, options).run();
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/hypothesis_fit.h"
+
+namespace vibrissa::diagnosis {
+
+/// One answer with its probability: effects of a hypothesis and retune effects named with it.
+struct Candidate {
+  std::string name;     // ids joined by '+', "none"
+  std::size_t fit = 0;  // in SearchResult::fits
+  std::vector<std::string> retunes;
+  double log_posterior = 0.;
+  double probability = 0.;
+};
+
+struct SearchResult {
+  std::vector<HypothesisFit> fits;
+  std::vector<Candidate> candidates;  // most probable first
+};
+
+struct SearchOptions {
+  std::size_t max_effects = 3;
+  std::size_t n_threads = 2;
+  std::vector<std::string> left_out = {};  // effects that are not tried
+  std::function<void()> on_fit = {};       // after each fit, from any thread
+};
+
+/// Fits none, every single effect, then combinations: the best ones of a size are each joined with
+/// the effects whose shape the residual resembles most. Each candidate is one hypothesis with one
+/// choice of retune effects; its prior pays for every effect named.
+SearchResult search(const Experiment& experiment, const SearchOptions& options = {});
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,59 @@
+#include "diagnosis/spectrum.h"
+
+#include <algorithm>
+#include <cassert>
+#include <unordered_map>
+
+#include "signals/fft.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+signals::RealFft& plan(const std::size_t n) {
+  thread_local std::unordered_map<std::size_t, signals::RealFft> plans;
+  const auto found = plans.find(n);
+  if (found != plans.end()) return found->second;
+  return plans.emplace(n, signals::RealFft(n)).first->second;
+}
+
+}  // namespace
+
+std::vector<Complex> spectrum_of(std::span<const double> x) {
+  signals::RealFft& fft = plan(x.size());
+  std::copy(x.begin(), x.end(), fft.time().begin());
+  fft.forward();
+  return {fft.spectrum().begin(), fft.spectrum().end()};
+}
+
+std::vector<double> samples_of(std::span<const Complex> spectrum, const std::size_t n) {
+  signals::RealFft& fft = plan(n);
+  assert(spectrum.size() == fft.n_bins());
+  std::copy(spectrum.begin(), spectrum.end(), fft.spectrum().begin());
+  fft.inverse();
+  return {fft.time().begin(), fft.time().end()};
+}
+
+std::vector<double> upsampled(std::span<const Complex> spectrum, const std::size_t n,
+                              const std::size_t factor) {
+  if (factor == 1) return samples_of(spectrum, n);
+  signals::RealFft& fft = plan(n * factor);
+  const auto out = fft.spectrum();
+  const double scale = static_cast<double>(factor);
+  for (std::size_t k = 0; k < spectrum.size(); ++k) out[k] = scale * spectrum[k];
+  if (n % 2 == 0) out[spectrum.size() - 1] *= 0.5;
+  std::fill(out.begin() + static_cast<std::ptrdiff_t>(spectrum.size()), out.end(), Complex(0.));
+  fft.inverse();
+  return {fft.time().begin(), fft.time().end()};
+}
+
+std::size_t fast_length(std::size_t n) {
+  for (n -= n % 2; n > 2; n -= 2) {
+    std::size_t rest = n;
+    for (const std::size_t factor : {2, 3, 5, 7})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) break;
+  }
+  return n;
+}
+
+}  // namespace vibrissa::diagnosis

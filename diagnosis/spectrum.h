@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "diagnosis/nominal_model.h"
+
+namespace vibrissa::diagnosis {
+
+/// DFT lines 0 .. n/2 of real samples, unscaled, and back to n samples. Plans are kept, one set a
+/// thread.
+std::vector<Complex> spectrum_of(std::span<const double> x);
+std::vector<double> samples_of(std::span<const Complex> spectrum, std::size_t n);
+
+/// The samples of a spectrum at factor times its rate (band-limited interpolation), factor n of
+/// them.
+std::vector<double> upsampled(std::span<const Complex> spectrum, std::size_t n, std::size_t factor);
+
+/// Largest even length up to n whose transform is fast (factors 2, 3, 5, 7).
+std::size_t fast_length(std::size_t n);
+
+}  // namespace vibrissa::diagnosis

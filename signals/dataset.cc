@@ -1,0 +1,161 @@
+#include "signals/dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "signals/error.h"
+#include "signals/record_io.h"
+
+namespace vibrissa::signals {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+const std::vector<std::string> record_keys{"file",  "excitation",       "period_samples", "split",
+                                           "setup", "sampling_rate_hz", "readout"};
+
+json read_json(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in) throw UserError(file.string() + ": cannot be read");
+  try {
+    return json::parse(in);
+  } catch (const json::parse_error& error) {
+    throw UserError(file.string() + ": no valid JSON: " + error.what());
+  }
+}
+
+/// Where an entry of dataset.json stands, and what is wrong with it.
+[[noreturn]] void refuse(const std::string& where, const std::string& reason) {
+  throw UserError(where + ": " + reason);
+}
+
+std::string text_of(const json& object, const std::string& key, const std::string& where,
+                    const std::string& fallback) {
+  if (!object.contains(key)) return fallback;
+  if (!object[key].is_string()) refuse(where + "/" + key, "is no text");
+  return object[key];
+}
+
+Excitation excitation_of(const std::string& word, const std::string& where) {
+  if (word == "none") return {};
+  if (word == "base") return {.base = true, .wind = false};
+  if (word == "wind") return {.base = false, .wind = true};
+  if (word == "base+wind") return {.base = true, .wind = true};
+  refuse(where, unknown_name("excitation", word, {"none", "base", "wind", "base+wind"}));
+}
+
+Readout readout_of(const std::string& word, const std::string& where) {
+  if (word == "moment") return Readout::moment;
+  if (word == "rotation") return Readout::rotation;
+  refuse(where, unknown_name("readout", word, {"moment", "rotation"}));
+}
+
+Split split_of(const std::string& word, const std::string& where) {
+  if (word == "fit") return Split::fit;
+  if (word == "held_out") return Split::held_out;
+  refuse(where, unknown_name("split", word, {"fit", "held_out"}));
+}
+
+std::size_t period_of(const json& entry, const std::string& where) {
+  if (!entry.contains("period_samples")) return 0;
+  const json& period = entry["period_samples"];
+  if (!period.is_number_unsigned()) refuse(where + "/period_samples", "is no count of samples");
+  return period.get<std::size_t>();
+}
+
+DatasetRecord read_entry(const fs::path& folder, const json& document, const json& entry,
+                         const std::string& where) {
+  if (!entry.is_object()) refuse(where, "is no object");
+  for (const auto& item : entry.items())
+    if (std::find(record_keys.begin(), record_keys.end(), item.key()) == record_keys.end())
+      refuse(where, unknown_name("entry", item.key(), record_keys));
+  const std::string file = text_of(entry, "file", where, "");
+  if (file.empty()) refuse(where, "names no file");
+  ReadOptions options;
+  const json& rated = entry.contains("sampling_rate_hz") ? entry : document;
+  if (rated.contains("sampling_rate_hz")) {
+    if (!rated["sampling_rate_hz"].is_number()) refuse(where + "/sampling_rate_hz", "is no number");
+    options.sampling_rate_hz = rated["sampling_rate_hz"].get<double>();
+  }
+  const std::string readout = text_of(document, "readout", where, "moment");
+  DatasetRecord result{
+      .name = fs::path(file).stem().string(),
+      .record = read_record(folder / file, options),
+      .excitation = excitation_of(text_of(entry, "excitation", where, ""), where + "/excitation"),
+      .period_samples = period_of(entry, where),
+      .split = split_of(text_of(entry, "split", where, "fit"), where + "/split"),
+      .readout = readout_of(text_of(entry, "readout", where, readout), where + "/readout")};
+  if (result.period_samples > result.record.n_samples())
+    refuse(where + "/period_samples", "is longer than the record of " +
+                                          std::to_string(result.record.n_samples()) + " samples");
+  return result;
+}
+
+Dataset read_described(const fs::path& folder, const fs::path& file) {
+  const json document = read_json(file);
+  const std::string name = file.string();
+  if (!document.is_object() || text_of(document, "schema", name, "") != "vibrissa-dataset-1")
+    refuse(name + ": /schema", "must be \"vibrissa-dataset-1\"");
+  if (!document.contains("records") || !document["records"].is_array() ||
+      document["records"].empty())
+    refuse(name + ": /records", "must list at least one record");
+  Dataset dataset;
+  for (std::size_t i = 0; i < document["records"].size(); ++i)
+    dataset.records.push_back(read_entry(folder, document, document["records"][i],
+                                         name + ": /records/" + std::to_string(i)));
+  return dataset;
+}
+
+bool moves(const Record& record, const std::string& channel) {
+  if (!record.has(channel)) return false;
+  const auto values = record.channel(channel);
+  return std::any_of(values.begin(), values.end(), [&](double v) { return v != values.front(); });
+}
+
+Dataset guess(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".csv") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  if (files.empty())
+    throw UserError(folder.string() + ": holds neither dataset.json nor a CSV record");
+  Dataset dataset;
+  for (const fs::path& file : files) {
+    const Record record = read_record(file);
+    const Excitation excitation{.base = moves(record, channel::base_acceleration),
+                                .wind = moves(record, channel::wind_speed)};
+    const std::size_t n_fit = record.n_samples() * 2 / 3;
+    const std::string name = file.stem().string();
+    dataset.records.push_back({name, record.slice(0, n_fit), excitation, 0, Split::fit});
+    dataset.records.push_back({name + "_last_third",
+                               record.slice(n_fit, record.n_samples() - n_fit), excitation, 0,
+                               Split::held_out});
+    dataset.guesses.push_back(name + ": excitation " + to_string(excitation) +
+                              ", not periodic, last third held out");
+  }
+  return dataset;
+}
+
+}  // namespace
+
+std::string to_string(const Excitation& excitation) {
+  if (excitation.base && excitation.wind) return "base+wind";
+  if (excitation.base) return "base";
+  return excitation.wind ? "wind" : "none";
+}
+
+Dataset read_dataset(const fs::path& folder) {
+  if (!fs::is_directory(folder)) throw UserError(folder.string() + ": is no folder");
+  const fs::path description = folder / "dataset.json";
+  Dataset dataset = fs::exists(description) ? read_described(folder, description) : guess(folder);
+  for (const DatasetRecord& entry : dataset.records)
+    if (!entry.record.has(channel::base_moment))
+      throw UserError((folder / entry.name).string() + ": has no channel " + channel::base_moment);
+  return dataset;
+}
+
+}  // namespace vibrissa::signals
