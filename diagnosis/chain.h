@@ -52,9 +52,11 @@ struct Chain {
   std::vector<Filter> reference{};  // reading -> true acceleration at the accelerometer
   std::vector<Filter> mount{};      // there -> base
   NominalModel structure{};
-  /// Share of the joint in the compliance that the first mode and the modes above it give the base
-  /// moment: 1 for a rigid whisker on a spring. The simulation's records do not determine it.
+  /// Share p of the joint in the compliance of the first mode: 1 for a rigid whisker on a spring,
+  /// less for a flexible one. The simulation's records do not determine it.
   double joint_share = 1.;
+  /// Factor on the joint's share in the damping of the first mode that its viscous moment tells.
+  double joint_loss_factor = 1.;
   /// The joint's spring and damper K(s) become K(s) (1 + D(s)), D the sum of these.
   std::vector<Filter> relaxation{};
   std::vector<Filter> parallel{};  // further paths base acceleration -> moment
@@ -63,6 +65,7 @@ struct Chain {
   std::vector<std::function<void(std::span<double> wind, double dt)>>
       wind{};  // reading -> at whisker
   double drag_factor = 1.;
+  std::vector<Filter> wind_path{};    // factors of the wind response
   std::vector<Filter> feedthrough{};  // true acceleration -> added reading
   std::vector<Filter> cross{};        // transverse acceleration -> added moment
   std::vector<std::function<double(double moment)>> readout{};  // static law of the sensor
@@ -70,6 +73,9 @@ struct Chain {
   double clock_rate_error = 0.;    // moment channel sampled at t (1 + this)
   double reference_variance = 0.;  // of accelerometer noise beyond the usual, a sample [(m/s^2)^2]
   std::vector<NoiseSource> noise{};
+  /// Of the straight line that a random walk draws from a record's start to its end: variance of
+  /// its rise a second [(N m)^2 / s].
+  double ramp_variance_rate = 0.;
 };
 
 }  // namespace vibrissa::diagnosis

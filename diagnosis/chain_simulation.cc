@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "diagnosis/joint_model.h"
 #include "diagnosis/spectrum.h"
-#include "signals/oscillator_step.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -22,11 +23,6 @@ Complex sum(const std::vector<Filter>& filters, Complex s) {
   return value;
 }
 
-/// c w / k of the joint.
-double viscous_ratio(const StructuralMode& mode) {
-  return mode.base_gain != 0. ? mode.base_rate / mode.base_gain : 2. * mode.damping_ratio;
-}
-
 /// Transfer functions of the chain at one frequency.
 struct LinearPart {
   Complex base;     // reading of the accelerometer -> moment before the sensor
@@ -36,32 +32,34 @@ struct LinearPart {
 
 /// A joint K(s) (1 + D(s)) in place of K(s): with H = K B / (1 + K G) for the whisker pinned at its
 /// base (B, G its rotation from the load and from a moment there) the moment becomes
-/// H (1 + D) / (1 + D P), P = K G / (1 + K G), which is 1 at rest. P is taken as the joint's share
-/// of the first mode, the rest as static.
-LinearPart linear_part(const Chain& chain, Complex s) {
+/// H (1 + D) / (1 + D P), P = K G / (1 + K G); P from the joint model.
+LinearPart linear_part(const Chain& chain, const std::optional<JointModel>& joint, Complex s) {
   const NominalModel& model = chain.structure;
   const Complex reference = product(chain.reference, s);
   const Complex input = reference * product(chain.mount, s);
   LinearPart part{.base = model.base_response(s), .wind = model.wind_response(s), .elastic = 1.};
-  if (!model.modes.empty()) {
-    const StructuralMode& mode = model.modes.front();
-    const Complex x = s / mode.frequency_rad_s;
-    const Complex viscous = 1. + viscous_ratio(mode) * x;
-    Complex change = 1.;
+  if (joint) {
+    part.elastic = 1. / joint->stiffness_ratio(s);
     if (!chain.relaxation.empty()) {
       const Complex d = sum(chain.relaxation, s);
-      const Complex first = viscous / (x * x + 2. * mode.damping_ratio * x + 1.);
-      const Complex p = chain.joint_share * first + 1. - chain.joint_share;
-      change = (1. + d) / (1. + d * p);
-      part.elastic = 1. / (1. + d);
+      // What the modes above the first do to H they do to 1 / (1 + K G), too: B is that of the
+      // load.
+      const Complex upper = part.base * (1. + joint->inertia_ratio(s)) / model.base_response(0.);
+      const Complex change = (1. + d) / (1. + d * (1. - joint->added_moment(s) * upper));
+      part.base *= change;
+      part.wind *= change;
+      part.elastic /= 1. + d;
     }
-    part.base *= change;
-    part.wind *= change;
-    part.elastic /= viscous;
   }
+  part.wind *= product(chain.wind_path, s);
   part.base += sum(chain.parallel, s);
   part.base = part.base * input + sum(chain.feedthrough, s) * reference;
   return part;
+}
+
+std::optional<JointModel> joint_of(const Chain& chain) {
+  if (chain.structure.modes.empty()) return std::nullopt;
+  return JointModel(chain.structure.modes.front(), chain.joint_share, chain.joint_loss_factor);
 }
 
 std::vector<Complex> wind_force_spectrum(const Chain& chain, const PreparedRecord& record) {
@@ -76,75 +74,43 @@ bool is_dynamic(const Chain& chain, const PreparedRecord& record) {
   return !chain.joint.empty() || (chain.relative_wind.on && !record.wind.empty());
 }
 
-/// Integrates what an extra joint moment T and an extra wind load F add. With H1 the first mode's
-/// response of unit static gain and p the joint's share:
-///   moment += p (T - H1 T) + H1 F,   elastic joint moment += -p H1 T - (1 - p) T + H1 F.
-/// d = H1 (F - p T) obeys d'' + 2 zeta w d' + w^2 d = w^2 (F - p T) with its viscous part beside
-/// it.
+/// What joint laws and an extra wind load add to the moment, by the joint model: the linear part of
+/// the elastic joint moment is given, what is added to it is integrated.
 class DifferenceIntegrator {
  public:
-  DifferenceIntegrator(const Chain& chain, const PreparedRecord& record, std::size_t factor)
-      : mode_(chain.structure.modes.front()),
-        share_(chain.joint_share),
-        dt_(1. / (record.sampling_rate_hz * static_cast<double>(factor))),
-        step_(signals::make_oscillator_step(mode_.frequency_rad_s * dt_, mode_.damping_ratio)) {
+  DifferenceIntegrator(const Chain& chain, const PreparedRecord& record, double dt)
+      : dt_(dt), integrator_(*joint_of(chain), dt) {
     for (const JointLawMaker& maker : chain.joint) laws_.push_back(maker(record.number));
-    viscous_ = viscous_ratio(mode_) / mode_.frequency_rad_s;
   }
 
-  /// One step to (y, y_rate) of the linear part and the extra wind load there; returns the change
-  /// of the moment.
-  template <typename Force>
-  double advance(double y, double y_rate, double t_s, const Force& force) {
-    // Predict with the old extra load held, then correct with the one at the step's end.
-    double load = load_;
+  /// One step to (y, y_rate) of the linear part; load gives the extra wind load for a rate of the
+  /// joint moment. Returns the change of the base moment.
+  template <typename Load>
+  double advance(double y, double y_rate, double t_s, const Load& load) {
+    // Predict with the old extra moment held, then correct with the one at the step's end.
     for (int pass = 0; pass < 2; ++pass) {
-      const State state = moved(load);
-      const double torque = total_torque(y, y_rate, state, t_s, false);
-      load = force(y_rate + state.p * dt_) - share_ * torque;
+      const Eigen::Vector3d state = integrator_.moved(torque_, external_);
+      const double rate = y_rate + integrator_.elastic_rate(state, torque_);
+      torque_ = torque(y + state(2), rate, t_s, false);
+      external_ = load(rate);
     }
-    const State state = moved(load);
-    q_ = state.q;
-    p_ = state.p;
-    load_ = load;
-    torque_ = total_torque(y, y_rate, state, t_s, true);
-    return q_ * dt_ * dt_ + viscous_ * p_ * dt_ + share_ * torque_;
+    const Eigen::Vector3d state = integrator_.moved(torque_, external_);
+    torque(y + state(2), y_rate + integrator_.elastic_rate(state, torque_), t_s, true);
+    integrator_.accept(state, torque_, external_);
+    return integrator_.moment(state);
   }
 
  private:
-  struct State {
-    double q, p;  // of d, scaled as in OscillatorStep
-  };
-  State moved(double load) const {
-    const double w2 = mode_.frequency_rad_s * mode_.frequency_rad_s;
-    const double f0 = w2 * load_, f1 = w2 * load;
-    return {q_ + step_.qq * q_ + step_.qp * p_ + step_.q_old * f0 + step_.q_new * f1,
-            p_ + step_.pq * q_ + step_.pp * p_ + step_.p_old * f0 + step_.p_new * f1};
-  }
-  /// Extra joint moment at a state. The static share of the joint follows it at once: the elastic
-  /// moment solves y = free - (1 - p) T(y), by one secant step, exact where T is straight.
-  double total_torque(double y, double y_rate, const State& state, double t_s, bool commit) {
-    const double free = y + state.q * dt_ * dt_, rate = y_rate + state.p * dt_;
-    double at = free - (1. - share_) * torque_;
-    if (share_ < 1.) {
-      const double excess = free - (1. - share_) * law_moments(at, rate, t_s, false) - at;
-      const double next = at + excess;
-      const double next_excess = free - (1. - share_) * law_moments(next, rate, t_s, false) - next;
-      at = excess != next_excess ? next + next_excess * excess / (excess - next_excess) : next;
-    }
-    return law_moments(at, rate, t_s, commit);
-  }
-  double law_moments(double y, double y_rate, double t_s, bool commit) {
+  double torque(double y, double y_rate, double t_s, bool commit) {
     double sum = 0.;
     for (const auto& law : laws_) sum += law->moment(y, y_rate, t_s, dt_, commit);
     return sum;
   }
 
-  StructuralMode mode_;
-  double share_, dt_, viscous_ = 0.;
-  signals::OscillatorStep step_;
+  double dt_;
+  JointIntegrator integrator_;
   std::vector<std::unique_ptr<JointLaw>> laws_;
-  double q_ = 0., p_ = 0., load_ = 0., torque_ = 0.;
+  double torque_ = 0., external_ = 0.;
 };
 
 /// Signals of the linear part on the fine grid.
@@ -188,23 +154,24 @@ std::vector<double> dynamic_part(const Chain& chain, const PreparedRecord& recor
   const auto factor =
       static_cast<std::size_t>(std::clamp(std::ceil(wanted_hz / record.sampling_rate_hz), 1., 16.));
   const FineSignals fine = fine_signals(chain, record, joint, factor);
-  DifferenceIntegrator integrator(chain, record, factor);
+  const double dt = 1. / (record.sampling_rate_hz * static_cast<double>(factor));
+  DifferenceIntegrator integrator(chain, record, dt);
   const RelativeWind& relative = chain.relative_wind;
   const double wind_gain = chain.structure.modes.front().wind_gain * chain.drag_factor;
   const std::size_t n_fine = fine.y.size();
-  const double dt = 1. / (record.sampling_rate_hz * static_cast<double>(factor));
   std::vector<double> out(record.n_samples);
+  // The record's own clock starts at its first sample: before it slow changes stand still.
   const auto run = [&](std::size_t from, bool keep) {
     for (std::size_t i = from; i < n_fine; ++i) {
-      const auto force = [&](double rate) {
+      const auto load = [&](double rate) {
         if (fine.wind.empty()) return 0.;
         const double u = fine.wind[i];
         const double v = relative.base_velocity_share * fine.base_velocity[i] +
                          relative.velocity_per_moment_rate * rate;
         return wind_gain * ((u - v) * std::abs(u - v) - u * std::abs(u));
       };
-      const double added =
-          integrator.advance(fine.y[i], fine.y_rate[i], static_cast<double>(i) * dt, force);
+      const double t_s = keep ? static_cast<double>(i) * dt : 0.;
+      const double added = integrator.advance(fine.y[i], fine.y_rate[i], t_s, load);
       if (keep && i % factor == 0) out[i / factor] = added;
     }
   };
@@ -256,6 +223,7 @@ struct WholeSpectra {
 WholeSpectra whole_spectra(const Chain& chain, const PreparedRecord& record) {
   const std::size_t n_lines = record.n_samples / 2 + 1;
   const std::vector<Complex> force = wind_force_spectrum(chain, record);
+  const std::optional<JointModel> joint_model = joint_of(chain);
   WholeSpectra whole{std::vector<Complex>(n_lines), std::vector<LinearPart>(n_lines),
                      std::vector<Complex>(n_lines)};
   std::vector<Complex> joint(n_lines);
@@ -264,7 +232,7 @@ WholeSpectra whole_spectra(const Chain& chain, const PreparedRecord& record) {
   for (std::size_t k = 0; k < n_lines; ++k) {
     // At zero frequency filters may have poles; means are not judged.
     const Complex s = line_s(record, k);
-    const LinearPart part = linear_part(chain, s);
+    const LinearPart part = linear_part(chain, joint_model, s);
     whole.linear[k] = part;
     whole.sensor[k] = product(chain.sensor, s);
     Complex moment = 0.;
@@ -312,6 +280,7 @@ Prediction simulate(const Chain& chain, const PreparedRecord& record) {
           n * std::norm(whole.linear[k].base * whole.sensor[k]) * record.noise_share[k];
     }
   prediction.own_noise.assign(n_bins, 0.);
+  prediction.ramp_variance = chain.ramp_variance_rate * n / record.sampling_rate_hz;
   if (!chain.noise.empty()) {
     const RecordView view{
         .base = record.excitation.base,

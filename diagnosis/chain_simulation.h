@@ -14,6 +14,7 @@ struct Prediction {
   std::vector<double> moment_noise;        // times the moment's variance
   std::vector<double> acceleration_noise;  // times the accelerometer's variance
   std::vector<double> own_noise;           // as it is
+  double ramp_variance = 0.;  // of the rise of a line through the judged part [(N m)^2]
 };
 
 /// Linear parts exactly for band-limited inputs, by transfer functions at the lines of the record

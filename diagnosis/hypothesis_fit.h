@@ -23,7 +23,7 @@ struct FreeFigure {
 /// A nuisance that is said to differ from its nominal value.
 struct RetuneChoice {
   std::vector<std::string> named{};  // ids, alphabetical
-  double log_evidence = 0.;          // with the prior of this choice
+  double log_evidence = 0.;          // of the data, the others nominal
 };
 
 /// A hypothesis at its most probable parameters. Figures in their coordinates x.
@@ -37,11 +37,11 @@ struct HypothesisFit {
   double log_evidence = -std::numeric_limits<double>::infinity();  // all nuisances free
   std::vector<RetuneChoice> choices;                               // best first
   int n_iterations = 0;
-  /// Whitened energy of what each effect does, sum |mean - mean without it|^2 / S, as
-  /// hypothesis.effects().
-  std::vector<double> effect_energy;
+  /// Whitened energy of what each effect or retune does, sum |mean - mean without it|^2 / S.
+  std::vector<std::pair<const Effect*, double>> effect_energy;
 
-  /// Form errors of the effects but one in whitened energy: less than this is not told from them.
+  /// Form errors of all effects and retunes but one, in whitened energy: what gains less than this
+  /// is not told from them.
   double form_energy(const Effect* but = nullptr) const;
   /// Value and standard deviation of an effect's parameter (of x).
   std::optional<std::size_t> place(const std::string& effect, std::size_t parameter) const;

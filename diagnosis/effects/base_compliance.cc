@@ -1,28 +1,28 @@
 #include "diagnosis/effect.h"
+#include "diagnosis/joint_model.h"
 
 namespace vibrissa::diagnosis::effects {
 
 Effect base_compliance() {
-  return Effect{
-      .id = "base_compliance",
-      .link = Link::mount,
-      .equation = "1/k = 1/k0 + 1/ks",
-      .source = "effects.md",
-      .confused_with = "stiffness (exact alias); second accelerometer, stiffer clamp",
-      .form_error = 0.02,
-      .log_prior = -1.5,
-      .parameters = {log_uniform("stiffness_ratio", "1", 0.5, 60., 1e9)},
-      .starts = {{10.}, {30.}},
-      .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
-        if (chain.structure.modes.empty()) return;
-        const StructuralMode& mode = chain.structure.modes.front();
-        const double viscous = mode.base_gain != 0. ? mode.base_rate / mode.base_gain : 0.;
-        // K ks / (K + ks) over K: the damper of the silicone keeps its share.
-        chain.relaxation.push_back([ratio = v[0], viscous, w = mode.frequency_rad_s](Complex s) {
-          const Complex joint = 1. + viscous * s / w;
-          return -joint / (joint + ratio);
-        });
-      }};
+  return Effect{.id = "base_compliance",
+                .link = Link::mount,
+                .equation = "1/k = 1/k0 + 1/ks",
+                .source = "effects.md",
+                .confused_with = "stiffness (exact alias); second accelerometer, stiffer clamp",
+                .form_error = 0.02,
+                .log_prior = -1.5,
+                .parameters = {log_uniform("stiffness_ratio", "1", 0.5, 60., 1e9)},
+                .starts = {{10.}, {30.}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+                  if (chain.structure.modes.empty()) return;
+                  const JointModel joint(chain.structure.modes.front(), chain.joint_share,
+                                         chain.joint_loss_factor);
+                  // K ks / (K + ks) over K: the damper of the silicone keeps its share.
+                  chain.relaxation.push_back([ratio = v[0], joint](Complex s) {
+                    const Complex nominal = joint.stiffness_ratio(s);
+                    return -nominal / (nominal + ratio);
+                  });
+                }};
 }
 
 }  // namespace vibrissa::diagnosis::effects

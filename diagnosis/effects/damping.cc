@@ -9,7 +9,7 @@ Effect damping() {
                 .source = "effects.md",
                 .confused_with = "viscoelastic; second mode, level",
                 .retune = true,
-                .form_error = 0.01,
+                .form_error = 0.03,
                 .parameters = {ratio_near_one("ratio", 0.1, 0.2, 4.)},
                 .starts = {{0.9}, {1.1}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {

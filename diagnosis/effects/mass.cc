@@ -1,4 +1,5 @@
 #include "diagnosis/effect.h"
+#include "diagnosis/joint_model.h"
 
 namespace vibrissa::diagnosis::effects {
 
@@ -6,7 +7,7 @@ Effect mass() {
   return Effect{
       .id = "mass",
       .link = Link::structure,
-      .equation = "m = r m0, base forcing of the mode r^g",
+      .equation = "m = r m0, base forcing r^g; d M0 a for the modes above",
       .source = "effects.md; g near 1, the whole mass is not all of the modal mass",
       .confused_with =
           "stiffness + damping + reference_gain (exact alias for one mode); added known mass",
@@ -14,17 +15,22 @@ Effect mass() {
       .form_error = 0.02,
       .needs = {.base = true},
       .parameters = {log_uniform("ratio", "1", 0.7, 1.45, 1.),
-                     normal("forcing_exponent", "1", 1., 0.1, 0.6, 1.4, 1.)},
-      .starts = {{0.95, 1.}, {1.05, 1.}},
-      .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
-        StructuralMode& mode = chain.structure.modes.front();
-        const double root = std::sqrt(v[0]);
-        mode.frequency_rad_s /= root;
-        mode.damping_ratio /= root;
-        const double forcing = std::pow(v[0], v[1]);
-        mode.base_gain *= forcing;
-        mode.base_rate *= forcing / root;
-        mode.wind_rate /= root;
+                     normal("forcing_exponent", "1", 1., 0.1, 0.6, 1.4, 1.),
+                     normal("direct", "1", 0., 0.005, -0.05, 0.05, 0.)},
+      .starts = {{0.95, 1., 0.}, {1.05, 1., 0.}},
+      .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
+        if (chain.structure.modes.empty()) return;
+        const JointModel joint(chain.structure.modes.front(), chain.joint_share,
+                               chain.joint_loss_factor);
+        const auto slower = [r = v[0], joint](Complex s) {
+          const Complex inertia = joint.inertia_ratio(s);
+          return (1. + inertia) / (1. + r * inertia);
+        };
+        chain.mount.push_back(
+            [slower, forcing = std::pow(v[0], v[1])](Complex s) { return forcing * slower(s); });
+        chain.wind_path.push_back(slower);
+        chain.parallel.push_back(
+            [direct = v[2] * scales.static_gain](Complex) -> Complex { return direct; });
       }};
 }
 

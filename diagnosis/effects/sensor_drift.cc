@@ -15,13 +15,14 @@ Effect sensor_drift() {
       .parameters = {log_uniform("walk", "N m/s^0.5", 1e-8, 1e-4, 0.)},
       .starts = {{3e-7}, {3e-6}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+        chain.ramp_variance_rate += v[0] * v[0];
+        // The walk about the line between its ends (a bridge) has nearly independent lines.
         chain.noise.push_back([walk = v[0]](const RecordView& view, std::span<double> out) {
           const double n = static_cast<double>(view.n_samples);
           const double step_variance = walk * walk / view.sampling_rate_hz;
           for (std::size_t k = 0; k < out.size(); ++k) {
             const double sine = std::sin(std::numbers::pi * static_cast<double>(k + 1) / n);
-            // Half from the walk itself, half from its jump between the record's ends.
-            out[k] += 2. * n * step_variance / (4. * sine * sine);
+            out[k] += n * step_variance / (4. * sine * sine);
           }
         });
       }};

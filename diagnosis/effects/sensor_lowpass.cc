@@ -9,7 +9,7 @@ Effect sensor_lowpass() {
                 .equation = "M_read = M / (1 + s / w)",
                 .source = "effects.md",
                 .confused_with = "delay; droop",
-                .form_error = 0.01,
+                .form_error = 0.04,
                 .parameters = {log_uniform("corner", "Hz", 15., 2000., 1e9)},
                 .starts = {{200.}, {60.}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {

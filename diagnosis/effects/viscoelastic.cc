@@ -20,21 +20,27 @@ std::array<double, n_branches> branch_times(double tau, double decades) {
 }  // namespace
 
 Effect viscoelastic() {
-  return Effect{.id = "viscoelastic", .link = Link::structure,
-  .equation = "k = k0 (1 + S / N sum s t_i / (1 + s t_i)), t_i spread over w decades around tau",
-  .source = "effects.md; Prony series with equal branches",
-  .confused_with = "damping, stiffness; several octaves, second mode, creep",
-  .form_error = 0.05,
-  .needs = {.base = true},
-  .parameters = {log_uniform("strength", "1", 0.01, 1.5, 0.), log_uniform("tau", "s", 3e-4, 3., 0.01), uniform("decades", "1", 0., 3., 0.)},
-  .starts = {{0.1, 3e-3, 1.}, {0.1, 0.05, 1.}, {0.3, 6e-4, 1.}},
-  .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
-    chain.relaxation.push_back([strength = v[0] / n_branches, times = branch_times(v[1], v[2])](Complex s) {
-      Complex sum = 0.;
-      for (const double t : times) sum += s * t / (1. + s * t);
-      return strength * sum;
-    });
-  }};
+  return Effect{
+      .id = "viscoelastic",
+      .link = Link::structure,
+      .equation =
+          "k = k0 (1 + S / N sum s t_i / (1 + s t_i)), t_i spread over w decades around tau",
+      .source = "effects.md; Prony series with equal branches",
+      .confused_with = "damping, stiffness; several octaves, second mode, creep",
+      .form_error = 0.08,
+      .needs = {.base = true},
+      .parameters = {log_uniform("strength", "1", 0.01, 1.5, 0.),
+                     log_uniform("tau", "s", 3e-4, 3., 0.01), uniform("decades", "1", 0., 3., 0.)},
+      .starts =
+          {{0.1, 3e-3, 1.}, {0.1, 0.05, 1.}, {0.3, 6e-4, 1.}, {0.5, 3e-3, 1.}, {0.5, 3e-3, 2.5}},
+      .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+        chain.relaxation.push_back(
+            [strength = v[0] / n_branches, times = branch_times(v[1], v[2])](Complex s) {
+              Complex sum = 0.;
+              for (const double t : times) sum += s * t / (1. + s * t);
+              return strength * sum;
+            });
+      }};
 }
 
 }  // namespace vibrissa::diagnosis::effects
