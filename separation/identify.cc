@@ -253,6 +253,12 @@ std::vector<double> free_simulation(const Bvrm& model, const Record& record, Hol
 
 }  // namespace
 
+SplitRecord hold_out_last_third(const Record& record, std::size_t multiple) {
+  const std::size_t n_fit = 2 * record.n_samples() / 3 / multiple * multiple;
+  return {.fit = record.slice(0, n_fit),
+          .held_out = record.slice(n_fit, record.n_samples() - n_fit)};
+}
+
 Identification identify_bvrm(std::span<const Record> fit_records, const Record& held_out,
                              const IdentifyOptions& options) {
   check_all(fit_records, held_out, options);

@@ -53,6 +53,15 @@ struct Identification {
   std::string order_words;  // how sure the order is; empty when it was given
 };
 
+/// A record cut in time into what a model is fitted to and what only scores it.
+struct SplitRecord {
+  signals::Record fit, held_out;
+};
+
+/// The last third held out. multiple: the number of samples to fit is rounded down to one of it, to
+/// whole periods for instance. Proven by tests/separation/identify_test.cc.
+SplitRecord hold_out_last_third(const signals::Record& record, std::size_t multiple = 1);
+
 /// Identifies the base-vibration response model from base_acceleration to base_moment. The
 /// frequency response of the longest fit record (from whole periods, or Welch's) gives the start of
 /// every order, the output-error fit to all fit records the model, its error never rising with the

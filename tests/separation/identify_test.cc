@@ -43,6 +43,19 @@ Record smooth_record(const Bvrm& model, std::size_t n, std::uint64_t seed,
   return make_record(lines.sample(n, rate_hz), lines.answer(model, n, rate_hz));
 }
 
+TEST(HoldOutLastThird, CutsEverySampleOnceAndOnWholePeriodsWhenAsked) {
+  const Record record = make_record(test::white_noise(1000, 1., 1), test::white_noise(1000, 1., 2));
+  for (const auto& [multiple, n_fit] : {std::pair(1u, 666u), std::pair(250u, 500u)}) {
+    const auto [fit, held_out] = hold_out_last_third(record, multiple);
+    EXPECT_EQ(fit.n_samples(), n_fit);
+    ASSERT_EQ(fit.n_samples() + held_out.n_samples(), record.n_samples());
+    EXPECT_EQ(fit.channel(channel::base_moment)[n_fit - 1],
+              record.channel(channel::base_moment)[n_fit - 1]);
+    EXPECT_EQ(held_out.channel(channel::base_moment)[0],
+              record.channel(channel::base_moment)[n_fit]);
+  }
+}
+
 TEST(Identify, RecoversCleanModalModelsOfOneToThreeModesAndTheirOrder) {
   for (std::size_t n_modes = 1; n_modes <= 3; ++n_modes) {
     Bvrm truth = test::sensor(n_modes, -2e-7);
