@@ -30,11 +30,10 @@ void identify(const IdentifyCommandOptions& options) {
   identify.direct_term = !options.no_direct_term;
   if (options.cross_validation) identify.order_rule = separation::OrderRule::cross_validation;
   // Without a second file the last third is held out, never used to fit.
-  const std::size_t n_fit = options.held_out_file ? all.n_samples() : 2 * all.n_samples() / 3;
-  const signals::Record fit = all.slice(0, n_fit);
-  const signals::Record held_out = options.held_out_file
-                                       ? options.record.read(*options.held_out_file)
-                                       : all.slice(n_fit, all.n_samples() - n_fit);
+  const auto [fit, held_out] =
+      options.held_out_file
+          ? separation::SplitRecord{all, options.record.read(*options.held_out_file)}
+          : separation::hold_out_last_third(all);
   const auto result = separation::identify_bvrm(fit, held_out, identify);
   if (options.model_file) separation::write_bvrm(*options.model_file, result.fit.model);
   if (options.c_header_file) {

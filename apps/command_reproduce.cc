@@ -7,6 +7,7 @@
 #include "apps/command.h"
 #include "apps/paper_figures.h"
 #include "apps/paper_numbers.h"
+#include "apps/paper_rig.h"
 #include "report/pictures.h"
 #include "report/run_folder.h"
 
@@ -52,16 +53,14 @@ std::string report_text(const Reproduction& result) {
          readings_table(result.readings).to_markdown() + "\n" + explain(result.readings) + "\n" +
          "\nSimulation\n\n" + separation_table(result.simulation.separated).to_markdown() +
          "\nSimulated experiment\n\n" +
-         separation_table(result.experiment.separated).to_markdown() + "\n" + metric_notes(2.) +
-         "\n";
+         separation_table(result.experiment.separated).to_markdown() + "\n" +
+         metric_notes(paper::settling_s) + "\n";
 }
 
 void reproduce(const ReproduceOptions& options) {
   const bool quiet = options.common.quiet || options.common.json;
   const Reproduction result = reproduce_paper(options, !quiet);
-  const report::RunFolder folder = options.folder
-                                       ? report::RunFolder(*options.folder)
-                                       : report::RunFolder::first_free(fs::path("runs/reproduce"));
+  const auto folder = report::RunFolder::given_or_free(options.folder, "runs/reproduce");
   folder.write_run({given_command_line(), {}, {}});
   const std::string text = report_text(result);
   folder.write_text("reproduction.md", text);

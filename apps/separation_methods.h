@@ -29,6 +29,10 @@ SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n
 /// {"methods": [{"name", "sdr_db", "mse", "nrmse", "band_power_difference_db", "dtw_n_m_per_pair",
 ///  "delay_ms", "paper_snr_db"}]}; null where no truth is given.
 nlohmann::json separation_json(const std::vector<SeparatedSignal>& signals);
+/// The scores as columns of a table, and one signal's cells of them.
+std::vector<report::Column> metric_columns();
+std::vector<report::Cell> metric_cells(const SeparatedSignal& signal);
+/// One row a method.
 report::Table separation_table(const std::vector<SeparatedSignal>& signals);
 
 /// What the columns mean: windows, bands, normalisation.
