@@ -28,9 +28,17 @@ Reproduction reproduce_paper(const ReproduceOptions& options, const bool show_pr
   auto simulation = simulate_paper_simulation(sensors);
   auto experiment = simulate_paper_experiment(sensors);
   auto readings = compare_fdaf_readings(sensors, experiment);
-  const double whisker_fit = whisker_fit_percent(sensors);
-  return {std::move(sensors), std::move(simulation), std::move(experiment), whisker_fit,
-          std::move(readings)};
+  using separation::IdentifyMethod;
+  const auto whisker = paper_simulation_records(sensors.whisker).vibration_only;
+  const double flow_srivc =
+      held_out_fit_percent(simulation.records.vibration_only, IdentifyMethod::srivc);
+  return {.sensors = std::move(sensors),
+          .simulation = std::move(simulation),
+          .experiment = std::move(experiment),
+          .flow_srivc_fit_percent = flow_srivc,
+          .whisker_fit_percent = held_out_fit_percent(whisker, IdentifyMethod::output_error),
+          .whisker_srivc_fit_percent = held_out_fit_percent(whisker, IdentifyMethod::srivc),
+          .readings = std::move(readings)};
 }
 
 void write_figures(const fs::path& folder, const Reproduction& result) {

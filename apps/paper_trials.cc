@@ -24,9 +24,12 @@ std::vector<double> simulation_lines() {
   return signals::multisine_lines(1., 200., 10, 1. / period_s);
 }
 
-separation::Identification identify_in_time(const signals::Record& record) {
+separation::Identification identify_in_time(
+    const signals::Record& record,
+    const separation::IdentifyMethod method = separation::IdentifyMethod::output_error) {
   const auto [fit, held_out] = separation::hold_out_last_third(record);
   separation::IdentifyOptions options;
+  options.method = method;
   options.hold = separation::Hold::first_order;  // as the rig interpolates its input
   return separation::identify_bvrm(fit, held_out, options);
 }
@@ -125,9 +128,9 @@ PaperTrial simulate_paper_simulation(const PaperSensors& sensors) {
   return separate(std::move(records), std::move(identified), separation::paper_simulation_fdaf());
 }
 
-double whisker_fit_percent(const PaperSensors& sensors) {
-  return identify_in_time(paper_simulation_records(sensors.whisker).vibration_only)
-      .held_out_fit_percent;
+double held_out_fit_percent(const signals::Record& vibration_only,
+                            const separation::IdentifyMethod method) {
+  return identify_in_time(vibration_only, method).held_out_fit_percent;
 }
 
 PaperTrial simulate_paper_experiment(const PaperSensors& sensors) {

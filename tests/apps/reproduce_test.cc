@@ -55,6 +55,8 @@ TEST(Reproduce, LeavesEveryFigureAsDataAndTheTableOfNumbers) {
 TEST(Reproduce, CleanRecordsOfBothSensorsFitTo99Point5PercentOnHeldOutData) {
   EXPECT_GT(ours("fit, simulated flow sensor"), 99.5);
   EXPECT_GT(ours("fit, simulated whisker sensor"), 99.5);
+  EXPECT_GT(ours("fit by SRIVC, simulated flow sensor"), 99.5);
+  EXPECT_GT(ours("fit by SRIVC, simulated whisker sensor"), 99.5);
 }
 
 TEST(Reproduce, IdentifiesTheBuiltSensorInTheSimulatedExperiment) {
