@@ -5,6 +5,7 @@
 
 #include "report/json_file.h"
 #include "separation/dtw.h"
+#include "separation/dtw_path.h"
 #include "separation/metrics.h"
 #include "signals/error.h"
 
@@ -21,6 +22,10 @@ std::vector<double> difference(const std::span<const double> x, const std::span<
   return result;
 }
 
+std::size_t dtw_window(const double rate_hz) {
+  return static_cast<std::size_t>(dtw_window_s * rate_hz);
+}
+
 void score_against_truth(SeparatedSignal& signal, const std::span<const double> truth,
                          const std::span<const double> estimate, const double rate_hz) {
   signal.sdr_db = separation::sdr_db(truth, estimate);
@@ -28,8 +33,7 @@ void score_against_truth(SeparatedSignal& signal, const std::span<const double> 
   signal.nrmse = separation::nrmse(truth, estimate);
   signal.band_difference_db =
       separation::band_power_difference_db(truth, estimate, rate_hz, wind_band);
-  const auto window = static_cast<std::size_t>(dtw_window_s * rate_hz);
-  signal.dtw_n_m = separation::dtw(truth, estimate, window).cost_per_pair();
+  signal.dtw_n_m = separation::dtw(truth, estimate, dtw_window(rate_hz)).cost_per_pair();
   const auto largest_delay = static_cast<std::size_t>(largest_delay_s * rate_hz);
   signal.delay_ms = 1e3 * separation::delay_samples(truth, estimate, largest_delay) / rate_hz;
 }
@@ -95,6 +99,22 @@ report::Table separation_table(const std::vector<SeparatedSignal>& signals) {
     std::vector<report::Cell> row = metric_cells(signal);
     row.insert(row.begin(), signal.name);
     table.add_row(row);
+  }
+  return table;
+}
+
+report::Table warping_table(const std::vector<SeparatedSignal>& signals,
+                            const signals::Record& record, const std::span<const double> truth,
+                            const double settling_s) {
+  const double rate_hz = record.sampling_rate_hz();
+  const auto skipped = static_cast<std::size_t>(settling_s * rate_hz);
+  report::Table table({{"method", ""}, {"truth", "s"}, {"estimate", "s"}});
+  for (const auto& signal : signals) {
+    const auto estimate = std::span<const double>(signal.wind_moment_n_m).subspan(skipped);
+    for (const auto& [i, j] :
+         separation::dtw_path(truth.subspan(skipped), estimate, dtw_window(rate_hz))) {
+      table.add_row({signal.name, record.time_s(skipped + i), record.time_s(skipped + j)});
+    }
   }
   return table;
 }

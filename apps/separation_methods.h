@@ -35,6 +35,12 @@ std::vector<report::Cell> metric_cells(const SeparatedSignal& signal);
 /// One row a method.
 report::Table separation_table(const std::vector<SeparatedSignal>& signals);
 
+/// What the time warping of the DTW score lays beside what: method, time of the truth and time of
+/// the estimate [s], one row a pair. truth: not empty.
+report::Table warping_table(const std::vector<SeparatedSignal>& signals,
+                            const signals::Record& record, std::span<const double> truth,
+                            double settling_s);
+
 /// What the columns mean: windows, bands, normalisation.
 std::string metric_notes(double settling_s);
 
