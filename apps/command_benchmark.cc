@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "apps/command.h"
+#include "apps/paper_rig.h"
 #include "apps/paper_sensors.h"
 #include "apps/record_options.h"
 #include "apps/separation_suite.h"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct SuiteOptions {
   CommonOptions common;
-  std::string flow_case = "cases/flow_sensor.prm", whisker_case = "cases/whisker_sensor.prm";
+  std::string flow_case = "cases/flow_sensor.prm";
   std::string recordings;
   std::vector<std::string> datasets;
   RecordOptions record;
@@ -37,10 +38,10 @@ Scenario dataset_scenario(const SuiteOptions& options, const std::string& file) 
 
 std::vector<Scenario> scenarios_of(const SuiteOptions& options, const bool show_progress,
                                    std::vector<std::string>& left_out) {
-  auto sensors = make_paper_sensors(options.flow_case, options.whisker_case, show_progress);
+  auto sensors = make_flow_sensors(options.flow_case, show_progress);
   ScenarioRig rig;
   rig.sensor = std::move(sensors.built);
-  rig.simulated_sensor = std::move(sensors.flow);
+  rig.simulated_sensor = std::move(sensors.simulated);
   rig.recordings = options.recordings;
   auto scenarios = make_scenarios(rig, left_out);
   for (const auto& file : options.datasets) scenarios.push_back(dataset_scenario(options, file));
@@ -50,7 +51,7 @@ std::vector<Scenario> scenarios_of(const SuiteOptions& options, const bool show_
 std::string report_text(const std::vector<ScenarioResult>& results,
                         const std::vector<std::string>& left_out) {
   std::string text = sdr_table(results).to_markdown() + "\n" + suite_table(results).to_markdown() +
-                     "\n" + metric_notes(2.) + "\n";
+                     "\n" + metric_notes(paper::settling_s) + "\n";
   for (const auto& line : left_out) text += "Left out: " + line + "\n";
   return text;
 }
@@ -59,9 +60,7 @@ void benchmark_separation(const SuiteOptions& options) {
   const bool quiet = options.common.quiet || options.common.json;
   std::vector<std::string> left_out;
   const auto scenarios = scenarios_of(options, !quiet, left_out);
-  const report::RunFolder folder =
-      options.folder ? report::RunFolder(*options.folder)
-                     : report::RunFolder::first_free(fs::path("runs/benchmark_separation"));
+  const auto folder = report::RunFolder::given_or_free(options.folder, "runs/benchmark_separation");
   folder.write_run({given_command_line(), {}, {}});
   signals::Progress progress("scenarios", scenarios.size(), !quiet);
   std::vector<ScenarioResult> results;
@@ -96,8 +95,6 @@ void add_benchmark_command(CLI::App& app) {
   auto* command = benchmark->add_subcommand(
       "separation", "All separation methods on all scenarios: one table, one picture");
   command->add_option("--flow-case", options->flow_case, "Case of the flow sensor")
-      ->capture_default_str();
-  command->add_option("--whisker-case", options->whisker_case, "Case of the whisker sensor")
       ->capture_default_str();
   command->add_option("--recordings", options->recordings,
                       "Folder of recorded vibration and wind for the scenarios that need it");

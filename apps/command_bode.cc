@@ -6,6 +6,7 @@
 #include "apps/bode_data.h"
 #include "apps/case_file.h"
 #include "apps/command.h"
+#include "apps/measured_response.h"
 #include "apps/record_options.h"
 #include "fem/reduction.h"
 #include "fem/solver_session.h"
@@ -22,8 +23,8 @@ struct BodeOptions {
   RecordOptions record;
   std::string input;
   std::optional<std::string> folder;
-  std::size_t period_samples = 0;
-  std::size_t segment_samples = 2048;
+  ResponseOptions response;
+  std::vector<std::string> realisations;
   double low_hz = 1., high_hz = 200.;
 };
 
@@ -45,62 +46,56 @@ BodeCurve of_case(const BodeOptions& options) {
   return of_model(model, options);
 }
 
-BodeCurve of_record(const BodeOptions& options) {
-  const signals::Record record = options.record.read(options.input);
-  const auto a = record.channel(signals::channel::base_acceleration);
-  const auto m = record.channel(signals::channel::base_moment);
-  if (options.period_samples > 0) {
-    return {"whole periods", report::CurveStyle::points,
-            signals::periodic_response(a, m, record.sampling_rate_hz(), options.period_samples)};
-  }
-  return {"Welch", report::CurveStyle::line,
-          signals::welch_response(a, m, record.sampling_rate_hz(), {options.segment_samples})};
+MeasuredResponse of_record(const BodeOptions& options) {
+  std::vector<signals::Record> records = {options.record.read(options.input)};
+  for (const auto& file : options.realisations) records.push_back(options.record.read(file));
+  return measure_response(records, options.response);
 }
 
-BodeCurve make_curve(const BodeOptions& options) {
+MeasuredResponse make_response(const BodeOptions& options) {
   if (!(options.low_hz > 0. && options.low_hz < options.high_hz)) {
     throw signals::UserError("--low must be positive and below --high");
   }
   const auto extension = std::filesystem::path(options.input).extension();
-  if (extension == ".prm") return of_case(options);
-  if (extension == ".json") return of_model(signals::read_reduced_model(options.input), options);
-  return of_record(options);
+  if (extension != ".prm" && extension != ".json") return of_record(options);
+  if (options.response.method || options.response.period_samples > 0 ||
+      !options.realisations.empty()) {
+    throw signals::UserError("--method, --period and --realisation are for records, and " +
+                             options.input + " is a model");
+  }
+  return {extension == ".prm" ? of_case(options)
+                              : of_model(signals::read_reduced_model(options.input), options),
+          {},
+          {},
+          {}};
 }
 
-nlohmann::json response_json(const signals::FrequencyResponse& response) {
-  nlohmann::json points = nlohmann::json::array();
-  for (std::size_t i = 0; i < response.frequency_hz.size(); ++i) {
-    nlohmann::json point{{"frequency_hz", response.frequency_hz[i]},
-                         {"real", response.value[i].real()},
-                         {"imaginary", response.value[i].imag()}};
-    if (!response.coherence.empty()) point["coherence"] = response.coherence[i];
-    if (!response.standard_deviation.empty()) {
-      point["standard_deviation"] = response.standard_deviation[i];
-    }
-    points.push_back(point);
-  }
-  return {{"unit", "N m s^2/m"}, {"convention", "exp(+j w t)"}, {"points", points}};
+void write_folder(const std::string& folder, const MeasuredResponse& measured) {
+  signals::make_new_folder(folder);
+  report::write_figure(folder, bode_figure({measured.curve}));
+  const auto write = [&](const std::string& name, const report::Table& table) {
+    signals::write_file(std::filesystem::path(folder) / name,
+                        [&](std::ostream& out) { out << table.to_csv(); });
+  };
+  write("response.csv", response_table(measured));
+  if (!measured.detection.empty()) write("detection.csv", detection_table(measured.detection));
 }
 
 void bode(const BodeOptions& options) {
-  const BodeCurve curve = make_curve(options);
+  const MeasuredResponse measured = make_response(options);
   if (options.folder) {
-    signals::make_new_folder(*options.folder);
-    report::write_figure(*options.folder, bode_figure({curve}));
+    write_folder(*options.folder, measured);
     const auto pictures = report::draw_pictures(*options.folder);
-    if (!options.common.json) std::cout << pictures.message << "\n";
+    if (!options.common.json) {
+      std::cout << pictures.message << "\n"
+                << measured.words << (measured.words.empty() ? "" : "\n");
+    }
   }
   if (options.common.json) {
-    print_json(response_json(curve.response));
+    print_json(response_json(measured));
     return;
   }
-  if (options.folder) return;
-  std::cout << "frequency_hz,magnitude_n_m_s2_per_m,phase_deg\n";
-  const auto figure = bode_figure({curve});
-  for (std::size_t i = 0; i < curve.response.frequency_hz.size(); ++i) {
-    std::cout << curve.response.frequency_hz[i] << "," << figure.panels[0].curves[0].y[i] << ","
-              << figure.panels[1].curves[0].y[i] << "\n";
-  }
+  if (!options.folder) std::cout << response_table(measured).to_csv();
 }
 
 }  // namespace
@@ -113,13 +108,19 @@ void add_bode_command(CLI::App& app) {
       ->add_option("input", options->input,
                    "Case file (.prm), reduced model (.json) or record (.csv)")
       ->required();
-  command->add_option("-o,--output", options->folder, "New folder for figure, picture and CSV");
+  command->add_option("-o,--output", options->folder,
+                      "New folder for figure, picture and response.csv");
   command->add_option(
-      "--period", options->period_samples,
-      "Period of a periodic record [samples]: averages of whole periods, no leakage");
+      "--period", options->response.period_samples,
+      "Period of a periodic record in steady state [samples]; the last whole periods are used");
+  command->add_option(
+      "--method", options->response.method,
+      "For records (default: periods with --period, else welch):" + response_method_help());
+  command->add_option("--realisation", options->realisations,
+                      "Further record with other phases, for --method robust (may be repeated)");
   command
-      ->add_option("--segment", options->segment_samples,
-                   "Segment length for records that are not periodic [samples]")
+      ->add_option("--segment", options->response.segment_samples,
+                   "Segment length of Welch's method [samples]")
       ->capture_default_str();
   command->add_option("--low", options->low_hz, "Lowest frequency of a model's diagram [Hz]")
       ->capture_default_str();

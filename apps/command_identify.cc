@@ -1,12 +1,15 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "apps/command.h"
 #include "apps/identification_report.h"
 #include "apps/record_options.h"
 #include "separation/c_header.h"
 #include "separation/identify.h"
+#include "separation/output_only.h"
 #include "signals/error.h"
 
 namespace vibrissa::apps {
@@ -20,21 +23,56 @@ struct IdentifyCommandOptions {
   std::optional<std::string> held_out_file, model_file, c_header_file;
   separation::IdentifyOptions identify;
   std::optional<std::string> hold;
-  bool no_direct_term = false, cross_validation = false;
+  std::string method = "output-error";
+  bool no_direct_term = false, cross_validation = false, output_only = false;
+  std::size_t max_lags = separation::OutputOnlyOptions{}.max_lags;
 };
+
+void refuse_what_needs_an_input(const IdentifyCommandOptions& options) {
+  const std::vector<std::pair<bool, std::string>> given = {
+      {options.held_out_file.has_value(), "--held-out"},
+      {options.model_file.has_value(), "-o"},
+      {options.c_header_file.has_value(), "--c-header"},
+      {options.hold.has_value(), "--hold"},
+      {options.no_direct_term, "--no-direct-term"},
+      {options.cross_validation, "--cross-validation"},
+      {options.identify.period_samples > 0, "--period"},
+      {options.method != "output-error", "--method"}};
+  for (const auto& [is_given, name] : given) {
+    if (is_given)
+      throw signals::UserError(name +
+                               " needs the base acceleration, which --output-only does "
+                               "without; leave one of them out");
+  }
+}
+
+void identify_from_output(const IdentifyCommandOptions& options) {
+  refuse_what_needs_an_input(options);
+  const signals::Record record = options.record.read(options.record_file);
+  separation::OutputOnlyOptions output_only;
+  output_only.max_lags = options.max_lags;
+  if (options.identify.order) output_only.max_order = *options.identify.order;
+  const auto found = separation::identify_output_only(record.channel(signals::channel::base_moment),
+                                                      record.sampling_rate_hz(), output_only);
+  if (options.common.json) {
+    print_json(output_only_json(found));
+    return;
+  }
+  std::cout << output_only_table(found).to_text() << found.words << "\n";
+}
 
 void identify(const IdentifyCommandOptions& options) {
   const signals::Record all = options.record.read(options.record_file);
   separation::IdentifyOptions identify = options.identify;
+  identify.method = separation::parse_identify_method(options.method);
   if (options.hold) identify.hold = separation::parse_hold(*options.hold);
   identify.direct_term = !options.no_direct_term;
   if (options.cross_validation) identify.order_rule = separation::OrderRule::cross_validation;
   // Without a second file the last third is held out, never used to fit.
-  const std::size_t n_fit = options.held_out_file ? all.n_samples() : 2 * all.n_samples() / 3;
-  const signals::Record fit = all.slice(0, n_fit);
-  const signals::Record held_out = options.held_out_file
-                                       ? options.record.read(*options.held_out_file)
-                                       : all.slice(n_fit, all.n_samples() - n_fit);
+  const auto [fit, held_out] =
+      options.held_out_file
+          ? separation::SplitRecord{all, options.record.read(*options.held_out_file)}
+          : separation::hold_out_last_third(all);
   const auto result = separation::identify_bvrm(fit, held_out, identify);
   if (options.model_file) separation::write_bvrm(*options.model_file, result.fit.model);
   if (options.c_header_file) {
@@ -46,6 +84,7 @@ void identify(const IdentifyCommandOptions& options) {
     nlohmann::json document = identification_json(result);
     document.update(evidence_json(evidence));
     document["order_words"] = result.order_words;
+    document["method"] = options.method;
     print_json(document);
     return;
   }
@@ -83,12 +122,31 @@ void add_identify_command(CLI::App& app) {
                       "Input between samples: first_order, zero_order or band_limited (default: "
                       "first_order or band_limited, whichever fits better)");
   command->add_flag("--no-direct-term", options->no_direct_term, "Strictly proper model");
+  command
+      ->add_option("--method", options->method,
+                   "output-error; srivc, refined instrumental variables; or frequency, the fit of "
+                   "the frequency response (of whole periods with --period, else Welch's)")
+      ->capture_default_str();
+  command->add_flag("--output-only", options->output_only,
+                    "Resonances and damping from base_moment alone, for a drive that nobody "
+                    "measured and that is taken for white: no gain, no model. --order is then "
+                    "the highest tried (default 20)");
+  command
+      ->add_option("--lags", options->max_lags,
+                   "--output-only: half the longest lag of the covariances [samples]; a few "
+                   "periods of the lowest resonance should fit into twice as many")
+      ->capture_default_str();
   command->add_option("-o,--output", options->model_file, "Model written as JSON");
   command->add_option("--c-header", options->c_header_file,
                       "Model written as C header for a microcontroller, at the record's rate");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
-  command->callback([options] { identify(*options); });
+  command->callback([options] {
+    if (options->output_only)
+      identify_from_output(*options);
+    else
+      identify(*options);
+  });
 }
 
 }  // namespace vibrissa::apps

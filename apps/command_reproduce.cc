@@ -7,6 +7,7 @@
 #include "apps/command.h"
 #include "apps/paper_figures.h"
 #include "apps/paper_numbers.h"
+#include "apps/paper_rig.h"
 #include "report/pictures.h"
 #include "report/run_folder.h"
 
@@ -27,9 +28,17 @@ Reproduction reproduce_paper(const ReproduceOptions& options, const bool show_pr
   auto simulation = simulate_paper_simulation(sensors);
   auto experiment = simulate_paper_experiment(sensors);
   auto readings = compare_fdaf_readings(sensors, experiment);
-  const double whisker_fit = whisker_fit_percent(sensors);
-  return {std::move(sensors), std::move(simulation), std::move(experiment), whisker_fit,
-          std::move(readings)};
+  using separation::IdentifyMethod;
+  const auto whisker = paper_simulation_records(sensors.whisker).vibration_only;
+  const double flow_srivc =
+      held_out_fit_percent(simulation.records.vibration_only, IdentifyMethod::srivc);
+  return {.sensors = std::move(sensors),
+          .simulation = std::move(simulation),
+          .experiment = std::move(experiment),
+          .flow_srivc_fit_percent = flow_srivc,
+          .whisker_fit_percent = held_out_fit_percent(whisker, IdentifyMethod::output_error),
+          .whisker_srivc_fit_percent = held_out_fit_percent(whisker, IdentifyMethod::srivc),
+          .readings = std::move(readings)};
 }
 
 void write_figures(const fs::path& folder, const Reproduction& result) {
@@ -52,16 +61,14 @@ std::string report_text(const Reproduction& result) {
          readings_table(result.readings).to_markdown() + "\n" + explain(result.readings) + "\n" +
          "\nSimulation\n\n" + separation_table(result.simulation.separated).to_markdown() +
          "\nSimulated experiment\n\n" +
-         separation_table(result.experiment.separated).to_markdown() + "\n" + metric_notes(2.) +
-         "\n";
+         separation_table(result.experiment.separated).to_markdown() + "\n" +
+         metric_notes(paper::settling_s) + "\n";
 }
 
 void reproduce(const ReproduceOptions& options) {
   const bool quiet = options.common.quiet || options.common.json;
   const Reproduction result = reproduce_paper(options, !quiet);
-  const report::RunFolder folder = options.folder
-                                       ? report::RunFolder(*options.folder)
-                                       : report::RunFolder::first_free(fs::path("runs/reproduce"));
+  const auto folder = report::RunFolder::given_or_free(options.folder, "runs/reproduce");
   folder.write_run({given_command_line(), {}, {}});
   const std::string text = report_text(result);
   folder.write_text("reproduction.md", text);

@@ -11,6 +11,7 @@
 #include "separation/input_hold.h"
 #include "separation/wind_speed.h"
 #include "signals/error.h"
+#include "signals/output_file.h"
 #include "signals/record_io.h"
 #include "signals/reduced_model.h"
 
@@ -22,7 +23,7 @@ struct SeparateOptions {
   CommonOptions common;
   RecordOptions record;
   std::string record_file;
-  std::optional<std::string> model_file, truth_column, output_file;
+  std::optional<std::string> model_file, truth_column, output_file, dtw_path_file;
   std::string hold = "first_order";
   separation::FdafOptions fdaf = {64, 512, {}, {}, 0.};
   std::vector<std::string> methods = {"fdaf"};
@@ -32,11 +33,8 @@ struct SeparateOptions {
 };
 
 std::vector<SeparatedSignal> separate_all(const SeparateOptions& options,
-                                          const signals::Record& record) {
-  std::vector<double> truth;
-  if (options.truth_column) {
-    truth = options.record.read_column(options.record_file, *options.truth_column);
-  }
+                                          const signals::Record& record,
+                                          const std::vector<double>& truth) {
   const auto measured = record.channel(signals::channel::base_moment);
   std::vector<SeparatedSignal> signals{score("nothing removed", {measured.begin(), measured.end()},
                                              record, truth, options.settling_s)};
@@ -97,8 +95,21 @@ void separate(const SeparateOptions& options) {
   if (options.sensor_model_file && !options.output_file) {
     throw signals::UserError("--sensor-model adds wind speeds to the output record: name it (-o)");
   }
+  if (options.dtw_path_file && !options.truth_column) {
+    throw signals::UserError(
+        "--dtw-path lays estimates beside the true wind moment: name its "
+        "column (--truth)");
+  }
   const signals::Record record = options.record.read(options.record_file);
-  const auto signals = separate_all(options, record);
+  std::vector<double> truth;
+  if (options.truth_column) {
+    truth = options.record.read_column(options.record_file, *options.truth_column);
+  }
+  const auto signals = separate_all(options, record, truth);
+  if (options.dtw_path_file) {
+    const auto table = warping_table(signals, record, truth, options.settling_s);
+    signals::write_file(*options.dtw_path_file, [&](std::ostream& out) { out << table.to_csv(); });
+  }
   if (options.output_file) {
     signals::Record output = output_record(record, signals);
     if (options.sensor_model_file) add_wind_speeds(options, signals, output);
@@ -145,6 +156,9 @@ void add_separate_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--truth", options->truth_column,
                       "Column with the true wind moment [N m], for the scores");
+  command->add_option("--dtw-path", options->dtw_path_file,
+                      "CSV written: which time of each estimate the DTW score lays beside which "
+                      "of the truth");
   command->add_option("-o,--output", options->output_file,
                       "CSV record written, with a wind moment for each method");
   command

@@ -78,6 +78,43 @@ report::Table identification_table(const separation::Identification& identificat
   return table;
 }
 
+nlohmann::json output_only_json(const separation::OutputOnlyIdentification& found) {
+  nlohmann::json modes = nlohmann::json::array(), undamped = nlohmann::json::array();
+  for (const auto& mode : found.modes) {
+    modes.push_back({{"frequency_hz", mode.frequency_hz.value},
+                     {"frequency_sd_hz", mode.frequency_hz.standard_deviation},
+                     {"damping_ratio", mode.damping_ratio.value},
+                     {"damping_sd", mode.damping_ratio.standard_deviation},
+                     {"n_orders", mode.n_orders}});
+  }
+  for (const auto& line : found.undamped_hz) {
+    undamped.push_back(
+        {{"frequency_hz", line.value}, {"frequency_sd_hz", line.standard_deviation}});
+  }
+  return {{"modes", modes},
+          {"undamped", undamped},
+          {"n_orders", found.n_orders},
+          {"words", found.words}};
+}
+
+report::Table output_only_table(const separation::OutputOnlyIdentification& found) {
+  report::Table table({{"what", ""},
+                       {"frequency", "Hz", 6},
+                       {"+- sd", "Hz", 2},
+                       {"damping ratio", ""},
+                       {"+- sd", "", 2},
+                       {"stands in orders", ""}});
+  for (const auto& mode : found.modes) {
+    table.add_row({"mode", mode.frequency_hz.value, mode.frequency_hz.standard_deviation,
+                   mode.damping_ratio.value, mode.damping_ratio.standard_deviation, mode.n_orders});
+  }
+  for (const auto& line : found.undamped_hz) {
+    table.add_row({"does not decay", line.value, line.standard_deviation, report::Cell(),
+                   report::Cell(), report::Cell()});
+  }
+  return table;
+}
+
 ModelEvidence examine(const separation::Identification& identification,
                       const signals::Record& fitted, const signals::Record& held_out) {
   const auto& model = identification.fit.model;

@@ -6,6 +6,7 @@
 #include "report/table.h"
 #include "separation/hold_check.h"
 #include "separation/identify.h"
+#include "separation/output_only.h"
 #include "separation/poles_zeros.h"
 #include "separation/residual_tests.h"
 
@@ -17,6 +18,12 @@ namespace vibrissa::apps {
 ///  "order", "hold", "end"}.
 nlohmann::json identification_json(const separation::Identification& identification);
 report::Table identification_table(const separation::Identification& identification);
+
+/// {"modes": [{"frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd", "n_orders"}],
+///  "undamped": [{"frequency_hz", "frequency_sd_hz"}], "n_orders", "words"}.
+nlohmann::json output_only_json(const separation::OutputOnlyIdentification& found);
+/// One row a mode, and one without damping for each frequency that does not decay.
+report::Table output_only_table(const separation::OutputOnlyIdentification& found);
 
 /// What a record says about a model beyond its fit.
 struct ModelEvidence {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/bode_data.h"
+#include "apps/paper_rig.h"
 #include "apps/run_figures.h"
 #include "report/table.h"
 
@@ -10,7 +11,7 @@ namespace vibrissa::apps {
 
 namespace {
 
-constexpr double g = 9.80665;
+using paper::g_m_s2;
 constexpr double mn_mm = 1e-6;  // N m
 
 std::string text(const double value) {
@@ -27,7 +28,7 @@ std::vector<double> logarithmic(const double low, const double high, const std::
 
 report::Curve step_curve(const signals::ReducedModel& beam, const double amplitude_g) {
   constexpr double rate_hz = 20000.;
-  const std::vector<double> step(static_cast<std::size_t>(0.3 * rate_hz), amplitude_g * g);
+  const std::vector<double> step(static_cast<std::size_t>(0.3 * rate_hz), amplitude_g * g_m_s2);
   const auto moment = signals::simulate(beam, {rate_hz, step.size(), step}).base_moment;
   report::Curve curve;
   curve.label = text(amplitude_g) + " g";
@@ -80,7 +81,7 @@ report::Figure steady_responses(const PaperSensors& sensors) {
       by_wind.x.push_back(u);
       by_wind.y.push_back(std::abs(signals::steady_wind_moment(*model, u)) / mn_mm);
     }
-    for (const double a : logarithmic(0.01 * g, 1.5 * g, 20)) {
+    for (const double a : logarithmic(0.01 * g_m_s2, 1.5 * g_m_s2, 20)) {
       by_base.x.push_back(a);
       by_base.y.push_back(static_gain_kg_m(*model) * a / mn_mm);
     }

@@ -21,7 +21,7 @@ struct PaperNumber {
 struct Reproduction {
   PaperSensors sensors;
   PaperTrial simulation, experiment;
-  double whisker_fit_percent = 0.;
+  double flow_srivc_fit_percent = 0., whisker_fit_percent = 0., whisker_srivc_fit_percent = 0.;
   std::vector<FdafReading> readings;
 };
 

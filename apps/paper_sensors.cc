@@ -40,6 +40,16 @@ signals::Beam free_wire(const fem::SensorParameters& whisker) {
 
 }  // namespace
 
+FlowSensors make_flow_sensors(const std::filesystem::path& flow_case, const bool show_progress) {
+  const auto flow = read_sensor(flow_case);
+  const fem::SolverSession session;
+  signals::Progress progress("sensor", 1, show_progress);
+  auto simulated = make_reduced_model(fem::Sensor(flow), flow, false);
+  progress.advance();
+  auto built = built_sensor(simulated);
+  return {std::move(simulated), std::move(built)};
+}
+
 PaperSensors make_paper_sensors(const std::filesystem::path& flow_case,
                                 const std::filesystem::path& whisker_case,
                                 const bool show_progress) {

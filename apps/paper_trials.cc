@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "flow/wind.h"
+#include "apps/paper_rig.h"
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
 #include "separation/identify_frequency.h"
@@ -17,53 +17,30 @@ namespace vibrissa::apps {
 
 namespace {
 
-constexpr double g = 9.80665;
-constexpr double settling_s = 2.;
 constexpr double period_s = 1.;
-
-Case rig_case(const double rate_hz, const double duration_s) {
-  Case parameters;
-  parameters.records.sampling_rate_hz = rate_hz;
-  parameters.records.duration_s = duration_s;
-  return parameters;
-}
-
-std::vector<double> turbulent_wind(const Case& parameters, const double length_scale_m) {
-  flow::WindParameters wind;
-  wind.kind = flow::WindKind::turbulent;
-  wind.mean_speed = 2.;
-  wind.turbulence_intensity = 0.25;
-  wind.length_scale = length_scale_m;
-  const auto& records = parameters.records;
-  return flow::make_wind(wind, records.sampling_rate_hz, records.n_samples(), records.seed);
-}
-
-std::vector<double> multisine(const Case& parameters, const std::vector<double>& lines_hz,
-                              const double peak_m_s2, const signals::MultisinePhase phase) {
-  const auto& records = parameters.records;
-  return signals::make_multisine(lines_hz, peak_m_s2, phase)
-      .sample(records.sampling_rate_hz, records.n_samples());
-}
 
 // Ten lines on whole periods of one second, spread over the band, one beside the resonance.
 std::vector<double> simulation_lines() {
   return signals::multisine_lines(1., 200., 10, 1. / period_s);
 }
 
-separation::Identification identify_in_time(const signals::Record& record) {
-  const std::size_t n_fit = 2 * record.n_samples() / 3;
+separation::Identification identify_in_time(
+    const signals::Record& record,
+    const separation::IdentifyMethod method = separation::IdentifyMethod::output_error) {
+  const auto [fit, held_out] = separation::hold_out_last_third(record);
   separation::IdentifyOptions options;
+  options.method = method;
   options.hold = separation::Hold::first_order;  // as the rig interpolates its input
-  return separation::identify_bvrm(record.slice(0, n_fit),
-                                   record.slice(n_fit, record.n_samples() - n_fit), options);
+  return separation::identify_bvrm(fit, held_out, options);
 }
 
-// One mode and a direct term from the lines of whole periods; the last third is held out.
+// One mode and a direct term from the lines of whole periods after the first, in which the sensor
+// still settles; the last third is held out.
 separation::Identification identify_from_periods(const signals::Record& record) {
   const double rate = record.sampling_rate_hz();
   const auto period = static_cast<std::size_t>(period_s * rate);
-  const std::size_t n_fit = 2 * record.n_samples() / 3 / period * period;
-  const auto fit = record.slice(period, n_fit - period);  // the first period still settles
+  const auto [settling_and_fit, held_out] = separation::hold_out_last_third(record, period);
+  const auto fit = settling_and_fit.slice(period, settling_and_fit.n_samples() - period);
   separation::FrequencyFitOptions options;
   options.sampling = separation::Sampling{rate, separation::Hold::first_order};
   separation::Identification identified;
@@ -73,7 +50,6 @@ separation::Identification identify_from_periods(const signals::Record& record) 
       signals::periodic_response(fit.channel(signals::channel::base_acceleration),
                                  fit.channel(signals::channel::base_moment), rate, period),
       options);
-  const auto held_out = record.slice(n_fit, record.n_samples() - n_fit);
   const auto moment = held_out.channel(signals::channel::base_moment);
   identified.held_out_fit_percent = separation::fit_percent(
       moment, separation::simulate_like(identified.fit.model,
@@ -108,13 +84,13 @@ PaperTrial separate(RigRecords records, separation::Identification identified,
   separation::Fdaf fdaf(fdaf_options);
   const auto scored = [&](separation::Separator& method) {
     return score(method.name(), separation::separate_record(method, record), record,
-                 records.true_wind_moment_n_m, settling_s);
+                 records.true_wind_moment_n_m, paper::settling_s);
   };
   const auto measured = record.channel(signals::channel::base_moment);
   std::vector<SeparatedSignal> separated = {
       scored(bvrm), scored(fdaf),
       score("nothing removed", {measured.begin(), measured.end()}, record,
-            records.true_wind_moment_n_m, settling_s)};
+            records.true_wind_moment_n_m, paper::settling_s)};
   const auto convergence =
       convergence_s(separated[1].wind_moment_n_m, records.true_wind_moment_n_m, rate);
   const double early_db = left_early_db(separated[1].wind_moment_n_m, records);
@@ -139,11 +115,11 @@ double missing_energy(const signals::ReducedModel& model, const double rate_hz,
 }  // namespace
 
 RigRecords paper_simulation_records(const signals::ReducedModel& model) {
-  const Case parameters = rig_case(1000., 21.);
-  return measure_on_rig(
-      model, parameters,
-      {multisine(parameters, simulation_lines(), 1.5 * g, signals::MultisinePhase::schroeder),
-       turbulent_wind(parameters, 0.1)});
+  const Case parameters = paper::rig_case(1000., 21.);
+  return measure_on_rig(model, parameters,
+                        {paper::multisine(parameters, simulation_lines(), 1.5 * paper::g_m_s2,
+                                          signals::MultisinePhase::schroeder),
+                         paper::turbulent_wind(parameters, 0.1)});
 }
 
 PaperTrial simulate_paper_simulation(const PaperSensors& sensors) {
@@ -152,22 +128,22 @@ PaperTrial simulate_paper_simulation(const PaperSensors& sensors) {
   return separate(std::move(records), std::move(identified), separation::paper_simulation_fdaf());
 }
 
-double whisker_fit_percent(const PaperSensors& sensors) {
-  return identify_in_time(paper_simulation_records(sensors.whisker).vibration_only)
-      .held_out_fit_percent;
+double held_out_fit_percent(const signals::Record& vibration_only,
+                            const separation::IdentifyMethod method) {
+  return identify_in_time(vibration_only, method).held_out_fit_percent;
 }
 
 PaperTrial simulate_paper_experiment(const PaperSensors& sensors) {
-  Case parameters = rig_case(500., 60.);
-  parameters.records.accelerometer_noise_m_s2 = 0.008 * g;
-  parameters.records.moment_noise_n_m = 1e-6;  // 5.43 uT
+  Case parameters = paper::rig_case(500., 60.);
+  parameters.records.accelerometer_noise_m_s2 = paper::accelerometer_noise_m_s2;
+  parameters.records.moment_noise_n_m = paper::moment_noise_n_m;
   const std::vector<double> lines_hz = {12., 15., 19., 23., 26., 29.};
   // n S(n) of von Karman's density is largest at n L / U = 0.146: this scale puts it at 1.6 Hz.
   constexpr double length_scale_m = 0.146 * 2. / 1.6;
-  auto records =
-      measure_on_rig(sensors.built, parameters,
-                     {multisine(parameters, lines_hz, 0.4 * g, signals::MultisinePhase::ascending),
-                      turbulent_wind(parameters, length_scale_m)});
+  auto records = measure_on_rig(sensors.built, parameters,
+                                {paper::multisine(parameters, lines_hz, 0.4 * paper::g_m_s2,
+                                                  signals::MultisinePhase::ascending),
+                                 paper::turbulent_wind(parameters, length_scale_m)});
   auto identified = identify_from_periods(records.vibration_only);
   return separate(std::move(records), std::move(identified), separation::paper_experiment_fdaf());
 }
@@ -181,7 +157,7 @@ std::vector<FdafReading> compare_fdaf_readings(const PaperSensors& sensors,
   const auto add = [&](const std::string& name, const separation::FdafOptions& options) {
     separation::Fdaf fdaf(options);
     const auto scored =
-        score(name, separation::separate_record(fdaf, record), record, truth, settling_s);
+        score(name, separation::separate_record(fdaf, record), record, truth, paper::settling_s);
     readings.push_back({name, options.block_length, fdaf.n_taps(), options.step.step,
                         *scored.sdr_db, *experiment.separated[2].sdr_db,
                         convergence_s(scored.wind_moment_n_m, truth, rate),

@@ -33,9 +33,10 @@ PaperTrial simulate_paper_simulation(const PaperSensors& sensors);
 /// 0.001; BVRM from frequency-domain data, the periods of a record without wind.
 PaperTrial simulate_paper_experiment(const PaperSensors& sensors);
 
-/// The whisker sensor's own records under the same vibration as the flow sensor's: fit in percent
-/// on held-out data.
-double whisker_fit_percent(const PaperSensors& sensors);
+/// Fit in percent on the held-out last third of a simulated record without wind; order by
+/// information criterion.
+double held_out_fit_percent(const signals::Record& vibration_only,
+                            separation::IdentifyMethod method);
 
 /// One reading of the paper's FDAF settings, tried on the experiment.
 struct FdafReading {

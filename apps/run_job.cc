@@ -34,14 +34,12 @@ namespace fs = std::filesystem;
 constexpr std::size_t n_animated_modes = 6;
 
 separation::Identification identify(const RigRecords& records, const Case& parameters) {
-  const auto& record = records.vibration_only;
-  const std::size_t n_fit = 2 * record.n_samples() / 3;
   separation::IdentifyOptions options;
   options.max_order = parameters.separation.largest_order;
   // The rig's base motion is linear between samples by construction.
   options.hold = separation::Hold::first_order;
-  return separation::identify_bvrm(record.slice(0, n_fit),
-                                   record.slice(n_fit, record.n_samples() - n_fit), options);
+  const auto [fit, held_out] = separation::hold_out_last_third(records.vibration_only);
+  return separation::identify_bvrm(fit, held_out, options);
 }
 
 // The best that any model of the vibration can do: the true response, driven by the noisy
@@ -186,10 +184,8 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
 
-  const report::RunFolder folder =
-      parameters.output.folder
-          ? report::RunFolder(*parameters.output.folder)
-          : report::RunFolder::first_free(fs::path("runs") / fs::path(chosen.case_file).stem());
+  const auto folder = report::RunFolder::given_or_free(
+      parameters.output.folder, fs::path("runs") / fs::path(chosen.case_file).stem());
   folder.write_text("resolved.prm", file.resolved());
   folder.write_run({command_line,
                     parameters.records.seed,

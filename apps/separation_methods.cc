@@ -1,10 +1,11 @@
 #include "apps/separation_methods.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/json_file.h"
 #include "separation/dtw.h"
+#include "separation/dtw_path.h"
 #include "separation/metrics.h"
 #include "signals/error.h"
 
@@ -15,18 +16,14 @@ namespace {
 constexpr double dtw_window_s = 0.02, largest_delay_s = 0.1;
 constexpr separation::Band wind_band{0.1, 10.};
 
-nlohmann::json json_or_null(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? nlohmann::json(*value) : nlohmann::json();
-}
-
-report::Cell cell_or_nothing(const std::optional<double>& value) {
-  return value ? report::Cell(*value) : report::Cell();
-}
-
 std::vector<double> difference(const std::span<const double> x, const std::span<const double> y) {
   std::vector<double> result(x.size());
   std::transform(x.begin(), x.end(), y.begin(), result.begin(), std::minus<>());
   return result;
+}
+
+std::size_t dtw_window(const double rate_hz) {
+  return static_cast<std::size_t>(dtw_window_s * rate_hz);
 }
 
 void score_against_truth(SeparatedSignal& signal, const std::span<const double> truth,
@@ -36,8 +33,7 @@ void score_against_truth(SeparatedSignal& signal, const std::span<const double> 
   signal.nrmse = separation::nrmse(truth, estimate);
   signal.band_difference_db =
       separation::band_power_difference_db(truth, estimate, rate_hz, wind_band);
-  const auto window = static_cast<std::size_t>(dtw_window_s * rate_hz);
-  signal.dtw_n_m = separation::dtw(truth, estimate, window).cost_per_pair();
+  signal.dtw_n_m = separation::dtw(truth, estimate, dtw_window(rate_hz)).cost_per_pair();
   const auto largest_delay = static_cast<std::size_t>(largest_delay_s * rate_hz);
   signal.delay_ms = 1e3 * separation::delay_samples(truth, estimate, largest_delay) / rate_hz;
 }
@@ -70,32 +66,55 @@ SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n
 nlohmann::json separation_json(const std::vector<SeparatedSignal>& signals) {
   nlohmann::json methods = nlohmann::json::array();
   for (const auto& signal : signals) {
-    methods.push_back({{"name", signal.name},
-                       {"sdr_db", json_or_null(signal.sdr_db)},
-                       {"mse", json_or_null(signal.mse_n2_m2)},
-                       {"nrmse", json_or_null(signal.nrmse)},
-                       {"band_power_difference_db", json_or_null(signal.band_difference_db)},
-                       {"dtw_n_m_per_pair", json_or_null(signal.dtw_n_m)},
-                       {"delay_ms", json_or_null(signal.delay_ms)},
-                       {"paper_snr_db", json_or_null(signal.paper_snr_db)}});
+    methods.push_back(
+        {{"name", signal.name},
+         {"sdr_db", report::json_or_null(signal.sdr_db)},
+         {"mse", report::json_or_null(signal.mse_n2_m2)},
+         {"nrmse", report::json_or_null(signal.nrmse)},
+         {"band_power_difference_db", report::json_or_null(signal.band_difference_db)},
+         {"dtw_n_m_per_pair", report::json_or_null(signal.dtw_n_m)},
+         {"delay_ms", report::json_or_null(signal.delay_ms)},
+         {"paper_snr_db", report::json_or_null(signal.paper_snr_db)}});
   }
   return {{"methods", methods}};
 }
 
+std::vector<report::Column> metric_columns() {
+  return {{"SDR", "dB"},          {"mean square error", "N\u00b2 m\u00b2", 3},
+          {"NRMSE", "", 3},       {"wind band power", "dB", 3},
+          {"DTW", "N m", 3},      {"delay", "ms", 3},
+          {"paper's ratio", "dB"}};
+}
+
+std::vector<report::Cell> metric_cells(const SeparatedSignal& s) {
+  return {s.sdr_db,  s.mse_n2_m2, s.nrmse,       s.band_difference_db,
+          s.dtw_n_m, s.delay_ms,  s.paper_snr_db};
+}
+
 report::Table separation_table(const std::vector<SeparatedSignal>& signals) {
-  report::Table table({{"method", ""},
-                       {"SDR", "dB"},
-                       {"mean square error", "N\u00b2 m\u00b2", 3},
-                       {"NRMSE", "", 3},
-                       {"wind band power", "dB", 3},
-                       {"DTW", "N m", 3},
-                       {"delay", "ms", 3},
-                       {"paper's ratio", "dB"}});
-  for (const auto& s : signals) {
-    table.add_row({s.name, cell_or_nothing(s.sdr_db), cell_or_nothing(s.mse_n2_m2),
-                   cell_or_nothing(s.nrmse), cell_or_nothing(s.band_difference_db),
-                   cell_or_nothing(s.dtw_n_m), cell_or_nothing(s.delay_ms),
-                   cell_or_nothing(s.paper_snr_db)});
+  std::vector<report::Column> columns = metric_columns();
+  columns.insert(columns.begin(), report::Column{"method", ""});
+  report::Table table(columns);
+  for (const auto& signal : signals) {
+    std::vector<report::Cell> row = metric_cells(signal);
+    row.insert(row.begin(), signal.name);
+    table.add_row(row);
+  }
+  return table;
+}
+
+report::Table warping_table(const std::vector<SeparatedSignal>& signals,
+                            const signals::Record& record, const std::span<const double> truth,
+                            const double settling_s) {
+  const double rate_hz = record.sampling_rate_hz();
+  const auto skipped = static_cast<std::size_t>(settling_s * rate_hz);
+  report::Table table({{"method", ""}, {"truth", "s"}, {"estimate", "s"}});
+  for (const auto& signal : signals) {
+    const auto estimate = std::span<const double>(signal.wind_moment_n_m).subspan(skipped);
+    for (const auto& [i, j] :
+         separation::dtw_path(truth.subspan(skipped), estimate, dtw_window(rate_hz))) {
+      table.add_row({signal.name, record.time_s(skipped + i), record.time_s(skipped + j)});
+    }
   }
   return table;
 }

@@ -29,7 +29,17 @@ SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n
 /// {"methods": [{"name", "sdr_db", "mse", "nrmse", "band_power_difference_db", "dtw_n_m_per_pair",
 ///  "delay_ms", "paper_snr_db"}]}; null where no truth is given.
 nlohmann::json separation_json(const std::vector<SeparatedSignal>& signals);
+/// The scores as columns of a table, and one signal's cells of them.
+std::vector<report::Column> metric_columns();
+std::vector<report::Cell> metric_cells(const SeparatedSignal& signal);
+/// One row a method.
 report::Table separation_table(const std::vector<SeparatedSignal>& signals);
+
+/// What the time warping of the DTW score lays beside what: method, time of the truth and time of
+/// the estimate [s], one row a pair. truth: not empty.
+report::Table warping_table(const std::vector<SeparatedSignal>& signals,
+                            const signals::Record& record, std::span<const double> truth,
+                            double settling_s);
 
 /// What the columns mean: windows, bands, normalisation.
 std::string metric_notes(double settling_s);

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/paper_rig.h"
 #include "apps/paper_trials.h"
 #include "apps/recorded_input.h"
 #include "apps/rig.h"
-#include "flow/wind.h"
 #include "signals/fft.h"
-#include "signals/multisine.h"
 #include "signals/oscillator_step.h"
+#include "signals/swept_sine.h"
 
 namespace vibrissa::apps {
 
@@ -20,18 +20,13 @@ namespace fs = std::filesystem;
 using signals::channel::base_acceleration;
 using signals::channel::base_moment;
 
-constexpr double g = 9.80665;
 constexpr double rate_hz = 500.;
-constexpr double accelerometer_noise_m_s2 = 0.008 * g;
-constexpr double moment_noise_n_m = 1e-6;  // 5.43 uT
 
 Case rig_case(const ScenarioRig& rig, const double noise_m_s2) {
-  Case parameters;
-  parameters.records.sampling_rate_hz = rate_hz;
-  parameters.records.duration_s = rig.duration_s;
+  Case parameters = paper::rig_case(rate_hz, rig.duration_s);
   parameters.records.seed = rig.seed;
   parameters.records.accelerometer_noise_m_s2 = noise_m_s2;
-  parameters.records.moment_noise_n_m = moment_noise_n_m;
+  parameters.records.moment_noise_n_m = paper::moment_noise_n_m;
   return parameters;
 }
 
@@ -40,28 +35,25 @@ std::size_t n_samples(const ScenarioRig& rig) {
 }
 
 std::vector<double> turbulence(const ScenarioRig& rig) {
-  flow::WindParameters wind;
-  wind.mean_speed = 2.;
-  wind.turbulence_intensity = 0.25;
-  wind.length_scale = 0.18;  // its spectrum is centred on 1.6 Hz
-  return flow::make_wind(wind, rate_hz, n_samples(rig), rig.seed);
+  constexpr double length_scale_m = 0.18;  // the spectrum is centred on 1.6 Hz
+  return paper::turbulent_wind(rig_case(rig, 0.), length_scale_m);
 }
 
 std::vector<double> lines(const ScenarioRig& rig, const std::vector<double>& frequency_hz,
                           const double peak_g) {
-  return signals::make_multisine(frequency_hz, peak_g * g, signals::MultisinePhase::schroeder)
-      .sample(rate_hz, n_samples(rig));
+  return paper::multisine(rig_case(rig, 0.), frequency_hz, peak_g * paper::g_m_s2,
+                          signals::MultisinePhase::schroeder);
 }
 
 // From 5 to 200 Hz and again, ten seconds each, at equal time for each octave.
 std::vector<double> swept_sine(const ScenarioRig& rig) {
-  constexpr double low_hz = 5., high_hz = 200., sweep_s = 10.;
-  const double growth = std::log(high_hz / low_hz) / sweep_s;
+  const auto sweep = signals::sample({.low_hz = 5.,
+                                      .high_hz = 200.,
+                                      .peak = 0.4 * paper::g_m_s2,
+                                      .n_samples = static_cast<std::size_t>(10. * rate_hz)},
+                                     rate_hz);
   std::vector<double> a(n_samples(rig));
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double t = std::fmod(static_cast<double>(i) / rate_hz, sweep_s);
-    a[i] = 0.4 * g * std::sin(2. * std::numbers::pi * low_hz * std::expm1(growth * t) / growth);
-  }
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = sweep[i % sweep.size()];
   return a;
 }
 
@@ -78,7 +70,7 @@ std::vector<double> contacts(const ScenarioRig& rig) {
 }
 
 Scenario measure(const ScenarioRig& rig, const std::string& name, const std::string& about,
-                 Inputs inputs, const double noise_m_s2 = accelerometer_noise_m_s2) {
+                 Inputs inputs, const double noise_m_s2 = paper::accelerometer_noise_m_s2) {
   auto records = measure_on_rig(rig.sensor, rig_case(rig, noise_m_s2), inputs);
   return {name, about, std::move(records.both), std::move(records.true_wind_moment_n_m),
           std::move(records.vibration_only)};

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/paper_rig.h"
 #include "apps/stream_methods.h"
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
@@ -16,13 +17,10 @@ namespace {
 
 using signals::Record;
 
-constexpr double settling_s = 2.;
-
 std::vector<double> by_bvrm(const Scenario& scenario) {
   const Record& record = scenario.vibration_only ? *scenario.vibration_only : scenario.record;
-  const std::size_t n_fit = 2 * record.n_samples() / 3;
-  const auto identified = separation::identify_bvrm(
-      record.slice(0, n_fit), record.slice(n_fit, record.n_samples() - n_fit));
+  const auto [fit, held_out] = separation::hold_out_last_third(record);
+  const auto identified = separation::identify_bvrm(fit, held_out);
   separation::BvrmSeparator separator(identified.fit.model, record.sampling_rate_hz(),
                                       identified.hold);
   return separation::separate_record(separator, scenario.record);
@@ -60,10 +58,6 @@ const std::vector<Method>& methods() {
   return list;
 }
 
-report::Cell cell_or_nothing(const std::optional<double>& value) {
-  return value ? report::Cell(*value) : report::Cell();
-}
-
 }  // namespace
 
 std::size_t n_suite_methods() {
@@ -78,27 +72,20 @@ ScenarioResult separate_by_all(const Scenario& scenario) {
                         {}};
   for (const auto& method : methods()) {
     result.methods.push_back(score(method.name, method.separate(scenario), scenario.record,
-                                   scenario.true_wind_moment_n_m, settling_s));
+                                   scenario.true_wind_moment_n_m, paper::settling_s));
   }
   return result;
 }
 
 report::Table suite_table(const std::vector<ScenarioResult>& results) {
-  report::Table table({{"scenario", ""},
-                       {"method", ""},
-                       {"SDR", "dB"},
-                       {"mean square error", "N\u00b2 m\u00b2", 3},
-                       {"NRMSE", "", 3},
-                       {"wind band power", "dB", 3},
-                       {"DTW", "N m", 3},
-                       {"delay", "ms", 3},
-                       {"paper's ratio", "dB"}});
+  std::vector<report::Column> columns = metric_columns();
+  columns.insert(columns.begin(), {report::Column{"scenario", ""}, report::Column{"method", ""}});
+  report::Table table(columns);
   for (const auto& result : results) {
-    for (const auto& m : result.methods) {
-      table.add_row({result.name, m.name, cell_or_nothing(m.sdr_db), cell_or_nothing(m.mse_n2_m2),
-                     cell_or_nothing(m.nrmse), cell_or_nothing(m.band_difference_db),
-                     cell_or_nothing(m.dtw_n_m), cell_or_nothing(m.delay_ms),
-                     cell_or_nothing(m.paper_snr_db)});
+    for (const auto& method : result.methods) {
+      std::vector<report::Cell> row = metric_cells(method);
+      row.insert(row.begin(), {result.name, method.name});
+      table.add_row(row);
     }
   }
   return table;
@@ -110,7 +97,7 @@ report::Table sdr_table(const std::vector<ScenarioResult>& results) {
   report::Table table(columns);
   for (const auto& result : results) {
     std::vector<report::Cell> row = {result.name};
-    for (const auto& method : result.methods) row.push_back(cell_or_nothing(method.sdr_db));
+    for (const auto& method : result.methods) row.push_back(method.sdr_db);
     table.add_row(row);
   }
   return table;

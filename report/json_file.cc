@@ -1,6 +1,7 @@
 #include "report/json_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -57,6 +58,10 @@ void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
     print(out, json, "");
     out << '\n';
   });
+}
+
+nlohmann::json json_or_null(const std::optional<double>& number) {
+  return number && std::isfinite(*number) ? nlohmann::json(*number) : nlohmann::json();
 }
 
 }  // namespace vibrissa::report

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "signals/error.h"
@@ -13,6 +14,9 @@ nlohmann::json read_json(const std::filesystem::path& file);
 
 /// Two-space indented, lists of numbers on one line each; the file is whole or not there at all.
 void write_json(const std::filesystem::path& file, const nlohmann::json& json);
+
+/// The number; null for nothing and for one that is not finite, which JSON cannot hold.
+nlohmann::json json_or_null(const std::optional<double>& number);
 
 /// json[key] as a T. Throws UserError that names the key when it is missing or of another type.
 template <typename T>

@@ -31,6 +31,11 @@ RunFolder RunFolder::first_free(const std::filesystem::path& base) {
   return RunFolder(signals::free_folder_name(base));
 }
 
+RunFolder RunFolder::given_or_free(const std::optional<std::filesystem::path>& given,
+                                   const std::filesystem::path& base) {
+  return given ? RunFolder(*given) : first_free(base);
+}
+
 std::filesystem::path RunFolder::file(const std::string& name) const {
   const auto relative = std::filesystem::path(name).lexically_normal();
   if (!relative.has_filename() || relative.is_absolute() || *relative.begin() == ".." ||

@@ -27,6 +27,10 @@ class RunFolder {
   /// Makes the first free one of base, base-2, base-3, ...
   static RunFolder first_free(const std::filesystem::path& base);
 
+  /// The folder that was asked for, as above; without one the first free one of base.
+  static RunFolder given_or_free(const std::optional<std::filesystem::path>& given,
+                                 const std::filesystem::path& base);
+
   const std::filesystem::path& path() const { return path_; }
 
   /// Path of a file in the folder; makes the sub-folder that the name asks for ("figures/a.csv").

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,6 +13,9 @@ class Cell {
  public:
   Cell() = default;
   Cell(const double number) : value_(number) {}
+  Cell(const std::optional<double>& number) {
+    if (number) value_ = *number;
+  }
   Cell(const std::integral auto count) : value_(static_cast<long long>(count)) {}
   Cell(std::string text) : value_(std::move(text)) {}
   Cell(const char* text) : value_(std::string(text)) {}

@@ -24,6 +24,11 @@ class AllPoleFilter {
     }
   }
 
+  /// v[n] from u[n], v[n-1] and v[n-2]: a single sample, without the eight lanes.
+  static double step(double u, double pole1, double pole2, double last, double older) {
+    return (u - pole2 * older) - pole1 * last;
+  }
+
   /// v[0 .. n) from u[0 .. n) and the two samples before v[0], which stand at v[-1] and v[-2].
   void run(const double* u, double* v, std::ptrdiff_t n) const {
     std::ptrdiff_t i = 0;
@@ -38,7 +43,7 @@ class AllPoleFilter {
       even += by_last_ * v[i - 1];
       Eigen::Map<Lanes>(v + i) = even;
     }
-    for (; i < n; ++i) v[i] = (u[i] - pole2_ * v[i - 2]) - pole1_ * v[i - 1];
+    for (; i < n; ++i) v[i] = step(u[i], pole1_, pole2_, v[i - 1], v[i - 2]);
   }
 
  private:

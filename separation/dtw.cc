@@ -4,40 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
-#include "signals/error.h"
+#include "separation/dtw_window.h"
 
 namespace vibrissa::separation {
 
 namespace {
 
-using signals::UserError;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void check_signal(std::span<const double> x, const std::string& which) {
-  if (x.empty()) throw UserError("time warping: the " + which + " signal has no samples");
-  const auto bad = std::ranges::find_if_not(x, [](double value) { return std::isfinite(value); });
-  if (bad != x.end())
-    throw UserError("time warping: sample " + std::to_string(bad - x.begin()) + " of the " + which +
-                    " signal is not finite");
-}
-
-// The half width of the band; without a window one that leaves nothing out.
-std::ptrdiff_t checked_window(std::span<const double> x, std::span<const double> y,
-                              std::optional<std::size_t> window) {
-  check_signal(x, "first");
-  check_signal(y, "second");
-  const std::size_t longest = std::max(x.size(), y.size());
-  const std::size_t difference = longest - std::min(x.size(), y.size());
-  if (window && *window < difference)
-    throw UserError("time warping: a window of " + std::to_string(*window) +
-                    " samples has no path between signals of " + std::to_string(x.size()) +
-                    " and " + std::to_string(y.size()) + " samples; take at least " +
-                    std::to_string(difference));
-  return static_cast<std::ptrdiff_t>(std::min(window.value_or(longest), longest));
+std::ptrdiff_t half_width(std::span<const double> x, std::span<const double> y,
+                          std::optional<std::size_t> window) {
+  return static_cast<std::ptrdiff_t>(checked_dtw_window(x, y, window));
 }
 
 // One anti-diagonal of the table: slot r + 1 belongs to row r of the strip, slot 0 to the last row
@@ -161,12 +140,12 @@ class Strips {
 
 DtwResult dtw(std::span<const double> x, std::span<const double> y,
               std::optional<std::size_t> window) {
-  return Strips<true>(x, y, checked_window(x, y, window)).run();
+  return Strips<true>(x, y, half_width(x, y, window)).run();
 }
 
 double dtw_cost(std::span<const double> x, std::span<const double> y,
                 std::optional<std::size_t> window) {
-  return Strips<false>(x, y, checked_window(x, y, window)).run().cost;
+  return Strips<false>(x, y, half_width(x, y, window)).run().cost;
 }
 
 }  // namespace vibrissa::separation

@@ -1,14 +1,17 @@
 #include "separation/identify.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "separation/identify_frequency.h"
 #include "separation/metrics.h"
 #include "separation/order_selection.h"
 #include "separation/output_error.h"
+#include "separation/srivc.h"
 #include "signals/error.h"
 #include "signals/frequency_response.h"
 #include "signals/number_text.h"
@@ -16,6 +19,11 @@
 namespace vibrissa::separation {
 
 namespace {
+
+const std::array<std::pair<IdentifyMethod, std::string>, 3> method_names = {
+    {{IdentifyMethod::output_error, "output-error"},
+     {IdentifyMethod::srivc, "srivc"},
+     {IdentifyMethod::frequency, "frequency"}}};
 
 using signals::Record;
 using signals::UserError;
@@ -160,12 +168,33 @@ class Identifier {
 
   double duration_s() const { return n_samples_ / rate_; }
 
+  /// The same order and hold by another method.
+  FittedBvrm refit(IdentifyMethod method, std::size_t order, Hold hold) const {
+    if (method == IdentifyMethod::srivc) {
+      SrivcOptions srivc;
+      srivc.hold = hold;
+      srivc.direct_term = options_.direct_term;
+      srivc.nuisance = options_.nuisance;
+      return refine_srivc(frequency_fit(order, hold).model, segments_, rate_, srivc);
+    }
+    return frequency_fit(order, hold);
+  }
+
  private:
   void try_hold(Hold hold, std::vector<Trial>& trials) const {
     for (FittedBvrm& fit :
          fit_orders(response_, segments_, rate_, order_, options_.delay_s, fit_options(hold)))
       if (!options_.order || fit.model.order() == *options_.order)
         trials.push_back(summarise(std::move(fit), hold));
+  }
+
+  FittedBvrm frequency_fit(std::size_t order, Hold hold) const {
+    FrequencyFitOptions frequency;
+    frequency.order = order;
+    frequency.direct_term = options_.direct_term;
+    frequency.delay_s = options_.delay_s;
+    frequency.sampling = Sampling{rate_, hold};
+    return identify_frequency(response_, frequency);
   }
 
   OutputErrorOptions fit_options(Hold hold) const {
@@ -253,6 +282,27 @@ std::vector<double> free_simulation(const Bvrm& model, const Record& record, Hol
 
 }  // namespace
 
+std::string to_string(IdentifyMethod method) {
+  for (const auto& [value, name] : method_names)
+    if (value == method) return name;
+  return {};
+}
+
+IdentifyMethod parse_identify_method(const std::string& name) {
+  std::vector<std::string> known;
+  for (const auto& [value, text] : method_names) {
+    if (text == name) return value;
+    known.push_back(text);
+  }
+  throw UserError(signals::unknown_name("identification method", name, known));
+}
+
+SplitRecord hold_out_last_third(const Record& record, std::size_t multiple) {
+  const std::size_t n_fit = 2 * record.n_samples() / 3 / multiple * multiple;
+  return {.fit = record.slice(0, n_fit),
+          .held_out = record.slice(n_fit, record.n_samples() - n_fit)};
+}
+
 Identification identify_bvrm(std::span<const Record> fit_records, const Record& held_out,
                              const IdentifyOptions& options) {
   check_all(fit_records, held_out, options);
@@ -279,7 +329,9 @@ Identification identify_bvrm(std::span<const Record> fit_records, const Record& 
                             std::to_string(best.summary.order) + " is given";
     }
   }
-  result.fit = best.fit;
+  result.fit = options.method == IdentifyMethod::output_error
+                   ? best.fit
+                   : identifier.refit(options.method, best.summary.order, best.summary.hold);
   result.hold = best.summary.hold;
   result.order = best.summary.order;
   for (const Trial& trial : trials) result.trials.push_back(trial.summary);

@@ -16,7 +16,18 @@ namespace vibrissa::separation {
 /// What chooses the order: see OrderSelection.
 enum class OrderRule { information, cross_validation };
 
+/// Who gives the model, once output-error fits have chosen what is not given of order and hold.
+enum class IdentifyMethod {
+  output_error,  // see refine_output_error()
+  srivc,         // refine_srivc(), from the fit of the frequency response
+  frequency      // identify_frequency() on the frequency response of the longest fit record
+};
+std::string to_string(IdentifyMethod method);
+/// Throws UserError that lists the known names.
+IdentifyMethod parse_identify_method(const std::string& name);
+
 struct IdentifyOptions {
+  IdentifyMethod method = IdentifyMethod::output_error;
   /// Number of poles, even. Nothing: chosen on the fit records, after whitening; on records of less
   /// than 400 samples by the criterion of the trials.
   std::optional<std::size_t> order = std::nullopt;
@@ -53,12 +64,21 @@ struct Identification {
   std::string order_words;  // how sure the order is; empty when it was given
 };
 
+/// A record cut in time into what a model is fitted to and what only scores it.
+struct SplitRecord {
+  signals::Record fit, held_out;
+};
+
+/// The last third held out. multiple: the number of samples to fit is rounded down to one of it, to
+/// whole periods for instance. Proven by tests/separation/identify_test.cc.
+SplitRecord hold_out_last_third(const signals::Record& record, std::size_t multiple = 1);
+
 /// Identifies the base-vibration response model from base_acceleration to base_moment. The
 /// frequency response of the longest fit record (from whole periods, or Welch's) gives the start of
 /// every order, the output-error fit to all fit records the model, its error never rising with the
-/// order (see fit_orders()); the held-out record only scores it. Throws UserError: no such channel,
-/// a constant or not finite one, unequal rates, a record too short for the order, an odd order.
-/// Proven by tests/separation/identify_test.cc.
+/// order (see fit_orders()), or another method when asked; the held-out record only scores it.
+/// Throws UserError: no such channel, a constant or not finite one, unequal rates, a record too
+/// short for the order, an odd order. Proven by tests/separation/identify_test.cc.
 Identification identify_bvrm(std::span<const signals::Record> fit_records,
                              const signals::Record& held_out, const IdentifyOptions& options = {});
 Identification identify_bvrm(const signals::Record& fit_record, const signals::Record& held_out,

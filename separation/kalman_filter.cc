@@ -41,7 +41,7 @@ PartitionedKalman::PartitionedKalman(const KalmanOptions& options)
       options_(options),
       fft_(2 * options.block_length),
       input_(options.block_length, count_partitions(options)),
-      filter_(options.block_length, input_.n_partitions(), Constraint::constrained),
+      filter_(options.block_length, input_.n_partitions()),
       error_(input_.n_bins()),
       covariance_(input_.n_bins(), static_cast<Eigen::Index>(input_.n_partitions())),
       gain_(covariance_.rows(), covariance_.cols()),

@@ -59,7 +59,7 @@ void ModalBank::Mode::start(const ModalState& state, double first_node) {
 void ModalBank::Mode::add_sample(double node, double& output) {
   static_assert(history == 3);
   const double older = v[1], last = v[2];
-  const double now = (node - pole2 * older) - pole1 * last;
+  const double now = AllPoleFilter::step(node, pole1, pole2, last, older);
   output += taps[0] * now + taps[1] * last + taps[2] * older + taps[3] * v[0];
   v[0] = older;
   v[1] = last;

@@ -26,8 +26,8 @@ struct OutputErrorOptions {
 /// equation, by filtering. Covariance: residual variance times (J^T J)^-1. Several segments are
 /// fitted as one; the noise is taken as equally large in all. Throws UserError for an unstable
 /// start or one beyond half the sampling rate, segments of unequal lengths, values that are not
-/// finite, or fewer samples than unknowns. Proven by tests/separation/output_error_test.cc:
-/// gradient, Cramer-Rao bound.
+/// finite, or fewer samples than unknowns. Proven by output_error_test.cc (gradient, Cramer-Rao
+/// bound) and time_domain_fit_test.cc in tests/separation.
 FittedBvrm refine_output_error(const Bvrm& start, std::span<const Segment> segments,
                                double sampling_rate_hz, const OutputErrorOptions& options = {});
 

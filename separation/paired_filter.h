@@ -5,11 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "separation/partitioned_filter.h"
 #include "separation/spectra_buffer.h"
 #include "signals/fft.h"
 
 namespace vibrissa::separation {
+
+/// What keeps the filter a linear convolution (the second half of each partition's taps zero).
+enum class Constraint {
+  constrained,   // every partition, every block: two transforms each
+  alternating,   // every block, but one partition in turn
+  unconstrained  // never: circular wrap-around stays as an error
+};
 
 /// FIR filter in the frequency domain, cut into P partitions of the block length
 /// (partitioned-block overlap-save; Soo & Pang 1990), together with the spectra of its input. Two

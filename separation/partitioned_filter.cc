@@ -12,10 +12,8 @@ Eigen::Map<Spectrum> spectrum_of(signals::RealFft& fft) {
 
 }  // namespace
 
-PartitionedFilter::PartitionedFilter(std::size_t block_length, std::size_t n_partitions,
-                                     Constraint constraint)
+PartitionedFilter::PartitionedFilter(std::size_t block_length, std::size_t n_partitions)
     : block_length_(block_length),
-      constraint_(constraint),
       weights_(static_cast<Eigen::Index>(block_length) + 1,
                static_cast<Eigen::Index>(n_partitions)) {
   clear();
@@ -23,7 +21,6 @@ PartitionedFilter::PartitionedFilter(std::size_t block_length, std::size_t n_par
 
 void PartitionedFilter::clear() {
   weights_.setZero();
-  next_constrained_ = 0;
 }
 
 void PartitionedFilter::apply(const SpectraBuffer& input, Spectrum& output) const {
@@ -32,48 +29,17 @@ void PartitionedFilter::apply(const SpectraBuffer& input, Spectrum& output) cons
     output += input.spectrum(p) * weights_.col(static_cast<Eigen::Index>(p));
 }
 
-// What the transform holds as a spectrum loses the second half of its samples.
-void PartitionedFilter::constrain(signals::RealFft& fft) const {
-  fft.inverse();
-  std::ranges::fill(fft.time().subspan(block_length_), 0.);
-  fft.forward();
-}
-
-template <typename ErrorOf>
-void PartitionedFilter::adapt_each(const SpectraBuffer& input, const ErrorOf& error_of,
-                                   signals::RealFft& fft) {
-  auto work = spectrum_of(fft);
-  for (std::size_t p = 0; p < input.n_partitions(); ++p) {
-    const auto j = static_cast<Eigen::Index>(p);
-    if (constraint_ == Constraint::constrained) {
-      work = input.spectrum(p).conjugate() * error_of(j);
-      constrain(fft);
-      weights_.col(j) += work;
-    } else {
-      weights_.col(j) += input.spectrum(p).conjugate() * error_of(j);
-    }
-  }
-  if (constraint_ == Constraint::alternating) constrain_in_turn(fft);
-}
-
-void PartitionedFilter::adapt(const SpectraBuffer& input, const Spectrum& scaled_error,
-                              signals::RealFft& fft) {
-  adapt_each(
-      input, [&](Eigen::Index) -> const Spectrum& { return scaled_error; }, fft);
-}
-
 void PartitionedFilter::adapt(const SpectraBuffer& input, const Spectrum& error,
                               const Eigen::ArrayXXd& step, signals::RealFft& fft) {
-  adapt_each(
-      input, [&](Eigen::Index p) { return step.col(p) * error; }, fft);
-}
-
-void PartitionedFilter::constrain_in_turn(signals::RealFft& fft) {
-  auto work = spectrum_of(fft);
-  work = weights_.col(next_constrained_);
-  constrain(fft);
-  weights_.col(next_constrained_) = work;
-  next_constrained_ = (next_constrained_ + 1) % weights_.cols();
+  auto update = spectrum_of(fft);
+  for (std::size_t p = 0; p < input.n_partitions(); ++p) {
+    const auto j = static_cast<Eigen::Index>(p);
+    update = input.spectrum(p).conjugate() * (step.col(j) * error);
+    fft.inverse();
+    std::ranges::fill(fft.time().subspan(block_length_), 0.);
+    fft.forward();
+    weights_.col(j) += update;
+  }
 }
 
 std::vector<double> PartitionedFilter::impulse_response(signals::RealFft& fft) const {

@@ -33,7 +33,7 @@ struct SrivcOptions {
 /// reflected. Covariance: residual variance times the inverse of the instruments' inner products.
 /// end is step_limit when it still moves, unstable when a pole goes beyond what the grid tells from
 /// its aliases. Throws UserError as refine_output_error does. Proven by
-/// tests/separation/srivc_test.cc and tests/separation/cramer_rao_test.cc.
+/// srivc_test.cc, time_domain_fit_test.cc and cramer_rao_test.cc in tests/separation.
 FittedBvrm refine_srivc(const Bvrm& start, std::span<const Segment> segments,
                         double sampling_rate_hz, const SrivcOptions& options = {});
 

@@ -45,33 +45,48 @@ std::size_t checked_length(std::size_t n) {
   return n;
 }
 
-}  // namespace
-
-// The planner only estimates: measured plans vary from run to run in their last digits, and equal
-// input must give equal output.
-struct RealFft::Plans {
-  explicit Plans(std::size_t n)
-      : time(aligned_buffer<double>(n)), spectrum(aligned_buffer<fftw_complex>(n / 2 + 1)) {
+/// A forward and an inverse plan between two buffers of their own. The planner only estimates:
+/// measured plans vary from run to run in their last digits, and equal input must give equal
+/// output.
+template <typename Time>
+struct PlanPair {
+  template <typename Forward, typename Inverse>
+  PlanPair(std::size_t n_time, std::size_t n_spectrum, Forward plan_forward, Inverse plan_inverse)
+      : time(aligned_buffer<Time>(n_time)), spectrum(aligned_buffer<fftw_complex>(n_spectrum)) {
     const std::lock_guard lock(planner_mutex());
-    const int length = static_cast<int>(n);
-    forward = fftw_plan_dft_r2c_1d(length, time.get(), spectrum.get(), FFTW_ESTIMATE);
-    inverse = fftw_plan_dft_c2r_1d(length, spectrum.get(), time.get(), FFTW_ESTIMATE);
+    forward = plan_forward(time.get(), spectrum.get());
+    inverse = plan_inverse(spectrum.get(), time.get());
     assert(forward && inverse);
   }
-  ~Plans() {
+  ~PlanPair() {
     const std::lock_guard lock(planner_mutex());
     fftw_destroy_plan(forward);
     fftw_destroy_plan(inverse);
   }
-  Plans(const Plans&) = delete;
-  Plans& operator=(const Plans&) = delete;
+  PlanPair(const PlanPair&) = delete;
+  PlanPair& operator=(const PlanPair&) = delete;
 
-  std::unique_ptr<double, Free> time;
+  std::unique_ptr<Time, Free> time;
   std::unique_ptr<fftw_complex, Free> spectrum;
   fftw_plan forward = nullptr, inverse = nullptr;
 };
 
-RealFft::RealFft(std::size_t n) : n_(checked_length(n)), plans_(std::make_unique<Plans>(n)) {
+}  // namespace
+
+struct RealFft::Plans : PlanPair<double> {
+  explicit Plans(int n)
+      : PlanPair(
+            static_cast<std::size_t>(n), static_cast<std::size_t>(n) / 2 + 1,
+            [n](double* x, fftw_complex* s) {
+              return fftw_plan_dft_r2c_1d(n, x, s, FFTW_ESTIMATE);
+            },
+            [n](fftw_complex* s, double* x) {
+              return fftw_plan_dft_c2r_1d(n, s, x, FFTW_ESTIMATE);
+            }) {}
+};
+
+RealFft::RealFft(std::size_t n)
+    : n_(checked_length(n)), plans_(std::make_unique<Plans>(static_cast<int>(n))) {
   std::ranges::fill(time(), 0.);
   std::ranges::fill(spectrum(), 0.);
 }
@@ -99,28 +114,21 @@ void RealFft::inverse() {
   for (double& x : time()) x *= scale;
 }
 
-struct ComplexFft::Plans {
-  explicit Plans(std::size_t n)
-      : time(aligned_buffer<fftw_complex>(n)), spectrum(aligned_buffer<fftw_complex>(n)) {
-    const std::lock_guard lock(planner_mutex());
-    const int length = static_cast<int>(n);
-    forward = fftw_plan_dft_1d(length, time.get(), spectrum.get(), FFTW_FORWARD, FFTW_ESTIMATE);
-    inverse = fftw_plan_dft_1d(length, spectrum.get(), time.get(), FFTW_BACKWARD, FFTW_ESTIMATE);
-    assert(forward && inverse);
-  }
-  ~Plans() {
-    const std::lock_guard lock(planner_mutex());
-    fftw_destroy_plan(forward);
-    fftw_destroy_plan(inverse);
-  }
-  Plans(const Plans&) = delete;
-  Plans& operator=(const Plans&) = delete;
+struct ComplexFft::Plans : PlanPair<fftw_complex> {
+  explicit Plans(int n)
+      : PlanPair(static_cast<std::size_t>(n), static_cast<std::size_t>(n), Towards{n, FFTW_FORWARD},
+                 Towards{n, FFTW_BACKWARD}) {}
 
-  std::unique_ptr<fftw_complex, Free> time, spectrum;
-  fftw_plan forward = nullptr, inverse = nullptr;
+  struct Towards {
+    int n, direction;
+    fftw_plan operator()(fftw_complex* from, fftw_complex* to) const {
+      return fftw_plan_dft_1d(n, from, to, direction, FFTW_ESTIMATE);
+    }
+  };
 };
 
-ComplexFft::ComplexFft(std::size_t n) : n_(checked_length(n)), plans_(std::make_unique<Plans>(n)) {
+ComplexFft::ComplexFft(std::size_t n)
+    : n_(checked_length(n)), plans_(std::make_unique<Plans>(static_cast<int>(n))) {
   std::ranges::fill(time(), 0.);
   std::ranges::fill(spectrum(), 0.);
 }

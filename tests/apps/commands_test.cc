@@ -123,6 +123,27 @@ TEST(Separate, GivesNullScoresWithoutTruthAndNumbersWithIt) {
   EXPECT_TRUE(scored.json()["methods"][1]["sdr_db"].is_number());
 }
 
+TEST(Separate, WritesTheWarpingPathOfTheEstimatesOnRequest) {
+  const Folder folder;
+  std::string rows = "time_s,base_acceleration_m_s2,base_moment_N_m,truth\n";
+  for (int i = 0; i < 200; ++i) {
+    const std::string wind = std::to_string(std::sin(0.1 * i));
+    rows +=
+        std::to_string(0.002 * i) + "," + std::to_string(i % 7) + "," + wind + "," + wind + "\n";
+  }
+  const std::string record = folder.write("r.csv", rows), path = folder.file("path.csv");
+  const auto result =
+      vibrissa("separate '" + record + "' --method nlms --settling 0.1 --truth truth" +
+               " --dtw-path '" + path + "'");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  // What removes nothing is the truth itself here: its path is the diagonal from 0.1 s on.
+  EXPECT_THAT(content(path), testing::StartsWith("method,truth [s],estimate [s]\n"
+                                                 "nothing removed,0.1,0.1\n"
+                                                 "nothing removed,0.102,0.102\n"));
+  EXPECT_THAT(content(path), testing::HasSubstr("nlms,0.398,0.398\n"));
+  EXPECT_EQ(vibrissa("separate '" + record + "' --dtw-path '" + path + "'").status, 2);
+}
+
 TEST(Excite, LeavesDrivesInProportionAndTheirDescription) {
   const Folder folder;
   const std::string drives = folder.file("drives");

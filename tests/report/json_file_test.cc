@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/signals/temporary_folder.h"
 
 namespace vibrissa::report {
@@ -25,6 +27,12 @@ TEST(JsonFile, ComesBackAsItWasWritten) {
                       {"g", {json{{"h", 1}}, json{{"h", 2}}}}};
   write_json(folder.path() / "a.json", given);
   EXPECT_EQ(read_json(folder.path() / "a.json"), given);
+}
+
+TEST(JsonFile, HoldsNullForANumberThatIsMissingOrNotFinite) {
+  EXPECT_EQ(json_or_null(0.25), json(0.25));
+  EXPECT_TRUE(json_or_null(std::nullopt).is_null());
+  EXPECT_TRUE(json_or_null(std::numeric_limits<double>::infinity()).is_null());
 }
 
 TEST(JsonFile, KeepsListsOfNumbersOnOneLine) {

@@ -32,6 +32,15 @@ TEST(RunFolder, FindsAFreeName) {
   EXPECT_EQ(RunFolder::first_free(base.path() / "run").path(), base.path() / "run-2");
 }
 
+TEST(RunFolder, IsTheGivenOneOrElseTheFirstFree) {
+  const TemporaryFolder base;
+  EXPECT_EQ(RunFolder::given_or_free(base.path() / "mine", base.path() / "run").path(),
+            base.path() / "mine");
+  for (const std::string name : {"run", "run-2"})
+    EXPECT_EQ(RunFolder::given_or_free(std::nullopt, base.path() / "run").path(),
+              base.path() / name);
+}
+
 TEST(RunFolder, MakesSubFolders) {
   const TemporaryFolder base;
   const RunFolder run(base.path() / "run");

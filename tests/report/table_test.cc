@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace vibrissa::report {
 namespace {
@@ -22,6 +23,12 @@ TEST(Table, CsvKeepsAllDigitsAndQuotes) {
             "1,37.3,\"bending, x\"\n"
             "2,147.123456789,torsion\n"
             "3,,a|b\n");
+}
+
+TEST(Cell, OfANumberThatMayBeMissingIsTheNumberOrNothing) {
+  EXPECT_EQ(Cell(std::optional(0.25)).exact(), "0.25");
+  EXPECT_EQ(Cell(std::optional<double>()).exact(), "");
+  EXPECT_EQ(Cell(std::optional<double>()).rounded(3), "-");
 }
 
 TEST(Table, MarkdownRoundsAlignsAndEscapes) {

@@ -43,6 +43,19 @@ Record smooth_record(const Bvrm& model, std::size_t n, std::uint64_t seed,
   return make_record(lines.sample(n, rate_hz), lines.answer(model, n, rate_hz));
 }
 
+TEST(HoldOutLastThird, CutsEverySampleOnceAndOnWholePeriodsWhenAsked) {
+  const Record record = make_record(test::white_noise(1000, 1., 1), test::white_noise(1000, 1., 2));
+  for (const auto& [multiple, n_fit] : {std::pair(1u, 666u), std::pair(250u, 500u)}) {
+    const auto [fit, held_out] = hold_out_last_third(record, multiple);
+    EXPECT_EQ(fit.n_samples(), n_fit);
+    ASSERT_EQ(fit.n_samples() + held_out.n_samples(), record.n_samples());
+    EXPECT_EQ(fit.channel(channel::base_moment)[n_fit - 1],
+              record.channel(channel::base_moment)[n_fit - 1]);
+    EXPECT_EQ(held_out.channel(channel::base_moment)[0],
+              record.channel(channel::base_moment)[n_fit]);
+  }
+}
+
 TEST(Identify, RecoversCleanModalModelsOfOneToThreeModesAndTheirOrder) {
   for (std::size_t n_modes = 1; n_modes <= 3; ++n_modes) {
     Bvrm truth = test::sensor(n_modes, -2e-7);
@@ -75,6 +88,48 @@ TEST(Identify, TellsASmoothDriveFromStraightLinesAndFitsIt) {
     EXPECT_NEAR(found.fit.modes[0].frequency_hz.value, 31.47, 1e-3);
     EXPECT_NEAR(found.fit.modes[1].frequency_hz.value, 172., 0.02);
   }
+}
+
+TEST(Identify, GivesTheSensorByEveryMethodOnPeriodsWithNoise) {
+  const Bvrm truth = test::sensor(2, -2e-7);
+  const auto noisy = [&](std::size_t n, std::uint64_t seed) {
+    const Record clean = smooth_record(truth, n, seed, 1000);
+    const auto input = clean.channel(channel::base_acceleration);
+    const auto output = clean.channel(channel::base_moment);
+    return make_record(
+        {input.begin(), input.end()},
+        test::plus_noise({output.begin(), output.end()}, 0.02 * test::rms(output), seed + 100));
+  };
+  const Record fit = noisy(6000, 3), held_out = noisy(3000, 4);
+  std::vector<Estimate> first_hz;
+  for (const IdentifyMethod method :
+       {IdentifyMethod::output_error, IdentifyMethod::srivc, IdentifyMethod::frequency}) {
+    const Identification found = identify_bvrm(
+        fit, held_out,
+        {.method = method, .order = 4, .period_samples = 1000, .hold = Hold::band_limited});
+    EXPECT_EQ(found.fit.end, FitEnd::converged) << to_string(method);
+    EXPECT_GT(found.held_out_fit_percent, 97.) << to_string(method);
+    ASSERT_EQ(found.fit.modes.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Estimate& f = found.fit.modes[k].frequency_hz;
+      EXPECT_NEAR(f.value, truth.modes[k].frequency_hz(), 4. * f.standard_deviation)
+          << to_string(method);
+    }
+    first_hz.push_back(found.fit.modes[0].frequency_hz);
+  }
+  const auto moved = [&](std::size_t i) {
+    return std::abs(first_hz[i].value - first_hz[0].value) / first_hz[0].standard_deviation;
+  };
+  EXPECT_LT(moved(1), 0.01) << "SRIVC ends where the output error does,";
+  EXPECT_GT(moved(1), 0.) << "but for the last digits";
+  EXPECT_GT(moved(2), 0.01) << "the scatter between periods weighs the lines";
+}
+
+TEST(Identify, KnowsItsMethodsByName) {
+  for (const std::string name : {"output-error", "srivc", "frequency"})
+    EXPECT_EQ(to_string(parse_identify_method(name)), name);
+  EXPECT_THAT([] { parse_identify_method("arx"); },
+              ThrowsMessage<UserError>(HasSubstr("output-error, srivc, frequency")));
 }
 
 // Noise of the accelerometer is carried through the model by whoever identifies it.

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "path_signals.h"
+#include "separator_checks.h"
 #include "signals/error.h"
 
 namespace vibrissa::separation {
@@ -14,12 +15,6 @@ using signals::UserError;
 using test::Signal;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-Signal run(PartitionedKalman& filter, const Signal& x, const Signal& d) {
-  Signal wind(x.size());
-  filter.process(x, d, wind);
-  return wind;
-}
 
 TEST(PartitionedKalman, ComesNearTheLeastSquaresLimitOnWhiteAndColouredInput) {
   constexpr std::size_t n = 30000, n_taps = 400;
@@ -33,7 +28,7 @@ TEST(PartitionedKalman, ComesNearTheLeastSquaresLimitOnWhiteAndColouredInput) {
       options.block_length = block;
       options.filter_length = n_taps;
       PartitionedKalman filter(options);
-      run(filter, x, d);
+      test::run(filter, x, d);
       const double found_db = test::misalignment_db(filter.impulse_response(), taps);
       EXPECT_LT(found_db, limit_db + within_db) << memory << ", block " << block;
       RecordProperty("above_limit_db_" + std::to_string(block) + (memory > 0. ? "_ar" : "_white"),
@@ -55,7 +50,7 @@ TEST(PartitionedKalman, FollowsAChangeOnlyWhenItsTransitionIsBelowOne) {
     options.filter_length = 60;
     options.transition = transition;
     PartitionedKalman filter(options);
-    run(filter, x, measured);
+    test::run(filter, x, measured);
     return test::misalignment_db(filter.impulse_response(), after);
   };
   EXPECT_LT(misalignment(0.999), -20.);
@@ -72,7 +67,7 @@ TEST(PartitionedKalman, LearnsNothingFromGapsGivenAsZeros) {
   options.block_length = 32;
   options.filter_length = 60;
   PartitionedKalman filter(options);
-  run(filter, x, d);
+  test::run(filter, x, d);
   EXPECT_LT(test::misalignment_db(filter.impulse_response(), taps), -45.);
 }
 
@@ -85,16 +80,16 @@ TEST(PartitionedKalman, LearnsWhenTheMomentComesLongAfterTheAcceleration) {
   options.block_length = 32;
   options.filter_length = 60;
   PartitionedKalman filter(options);
-  run(filter, x, d);
+  test::run(filter, x, d);
   EXPECT_LT(test::misalignment_db(filter.impulse_response(), taps), -40.);
 }
 
 TEST(PartitionedKalman, GivesTheSameAgainAfterAReset) {
   const Signal x = test::white_noise(2000, 2., 15), d = test::white_noise(2000, 2., 16);
   PartitionedKalman filter(KalmanOptions{});
-  const Signal first = run(filter, x, d);
+  const Signal first = test::run(filter, x, d);
   filter.reset();
-  EXPECT_EQ(run(filter, x, d), first);
+  EXPECT_EQ(test::run(filter, x, d), first);
 }
 
 TEST(PartitionedKalman, RefusesOptionsOutOfRange) {

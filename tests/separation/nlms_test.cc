@@ -1,25 +1,21 @@
 #include "separation/nlms.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "path_signals.h"
-#include "signals/error.h"
+#include "separator_checks.h"
 
 namespace vibrissa::separation {
 namespace {
 
-using signals::UserError;
 using test::Signal;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
 
 TEST(Nlms, EqualsThePlainRecursion) {
   const Signal x = test::coloured_noise(3000, 0.5, 1);
   const Signal d = test::plus_noise(test::convolve(test::decaying_taps(20, 5., 2), x), 0.1, 3);
   constexpr std::size_t n_taps = 20;
   Nlms filter({.filter_length = n_taps, .step = 0.3, .regularisation = 0.});
-  Signal e(x.size());
-  filter.process(x, d, e);
+  const Signal e = test::run(filter, x, d);
   std::vector<long double> taps(n_taps, 0.L);
   for (std::size_t i = 0; i < x.size(); ++i) {
     long double y = 0.L, energy = 0.L;
@@ -40,25 +36,19 @@ TEST(Nlms, LeavesTheExcessErrorOfTheTheory) {
   const Signal d = test::plus_noise(test::convolve(taps, x), 0.1, 6);
   for (const double step : {0.2, 1.}) {
     Nlms filter({.filter_length = 100, .step = step, .regularisation = 0.});
-    Signal e(x.size());
-    filter.process(x, d, e);
+    const Signal e = test::run(filter, x, d);
     const double power = std::pow(test::rms(std::span(e).last(150000)), 2);
     EXPECT_NEAR(power / 0.01, 2. / (2. - step), 0.03 * 2. / (2. - step)) << step;
   }
 }
 
 TEST(Nlms, PassesTheWindUnchangedWhenTheBaseDoesNotMove) {
-  const Signal wind = test::white_noise(1000, 1., 14);
   Nlms filter(NlmsOptions{});
-  Signal e(wind.size());
-  filter.process(Signal(1000, 0.), wind, e);
-  EXPECT_EQ(e, wind);
+  test::expect_wind_unchanged_when_the_base_rests(filter);
 }
 
 TEST(Nlms, RefusesOptionsOutOfRange) {
-  const auto refuse = [](const NlmsOptions& options, const std::string& message) {
-    EXPECT_THAT([&] { Nlms filter(options); }, ThrowsMessage<UserError>(HasSubstr(message)));
-  };
+  const auto refuse = test::expect_refusal<Nlms, NlmsOptions>;
   refuse({.filter_length = 0}, "NLMS filter: filter_length = 0");
   refuse({.step = 0.}, "step = 0");
   refuse({.step = 2.}, "step = 2");

@@ -9,22 +9,6 @@ namespace {
 
 using test::Signal;
 
-// Cross-correlation of a block of errors with the input: what adapt() adds to the taps.
-Signal correlation(const Signal& x, const Signal& e, std::size_t block_start, std::size_t n_taps) {
-  Signal taps(n_taps, 0.);
-  for (std::size_t tap = 0; tap < n_taps; ++tap)
-    for (std::size_t i = 0; i < e.size(); ++i)
-      if (block_start + i >= tap) taps[tap] += e[i] * x[block_start + i - tap];
-  return taps;
-}
-
-Spectrum error_spectrum(const Signal& e) {
-  signals::RealFft fft(2 * e.size());
-  std::ranges::copy(e, fft.time().last(e.size()).begin());
-  fft.forward();
-  return Eigen::Map<const Spectrum>(fft.spectrum().data(), static_cast<Eigen::Index>(fft.n_bins()));
-}
-
 TEST(PairedFilter, LearnsTheCorrelationAndFiltersLikeAPlainConvolution) {
   for (const std::size_t block : {1u, 2u, 5u, 8u})
     for (const std::size_t n_partitions : {1u, 2u, 3u, 4u, 7u}) {
@@ -40,8 +24,8 @@ TEST(PairedFilter, LearnsTheCorrelationAndFiltersLikeAPlainConvolution) {
         for (std::size_t i = 0; i < block; ++i)
           ASSERT_NEAR(y[i], plain[b * block + i], 1e-10) << block << ", " << n_partitions;
         if (b != adapt_at) continue;
-        filter.adapt(error_spectrum(e));
-        taps = correlation(x, e, b * block, taps.size());
+        filter.adapt(test::error_spectrum(e));
+        taps = test::correlation(x, e, b * block, taps.size());
         const Signal learnt = filter.impulse_response();
         ASSERT_EQ(learnt.size(), filter.n_taps());
         for (std::size_t tap = 0; tap < taps.size(); ++tap)
@@ -61,7 +45,7 @@ TEST(PairedFilter, WrapsAroundWhenUnconstrainedAndForgetsItInTurnWhenAlternating
     for (std::size_t b = 0; b < 4 + n_idle_blocks; ++b)
       for (PairedFilter* one : {&filter, &plain}) {
         one->push(std::span(x).subspan(b * block, block));
-        one->adapt(error_spectrum(b < 4 ? e : Signal(block, 0.)));
+        one->adapt(test::error_spectrum(b < 4 ? e : Signal(block, 0.)));
       }
     filter.apply(y);
     plain.apply(expected);

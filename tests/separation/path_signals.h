@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
+#include "separation/spectra_buffer.h"
+#include "signals/fft.h"
 #include "test_signals.h"
 
 namespace vibrissa::separation::test {
@@ -27,6 +30,24 @@ inline Signal convolve(const Signal& taps, const Signal& x) {
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t tap = 0; tap < taps.size() && tap <= i; ++tap) y[i] += taps[tap] * x[i - tap];
   return y;
+}
+
+/// Cross-correlation of a block of errors with the input: what a filter's adapt() adds to its taps.
+inline Signal correlation(const Signal& x, const Signal& e, std::size_t block_start,
+                          std::size_t n_taps) {
+  Signal taps(n_taps, 0.);
+  for (std::size_t tap = 0; tap < n_taps; ++tap)
+    for (std::size_t i = 0; i < e.size(); ++i)
+      if (block_start + i >= tap) taps[tap] += e[i] * x[block_start + i - tap];
+  return taps;
+}
+
+/// Of the error of a block in the second half of its transform, the first half zero.
+inline Spectrum error_spectrum(const Signal& e) {
+  signals::RealFft fft(2 * e.size());
+  std::ranges::copy(e, fft.time().last(e.size()).begin());
+  fft.forward();
+  return Eigen::Map<const Spectrum>(fft.spectrum().data(), static_cast<Eigen::Index>(fft.n_bins()));
 }
 
 /// The FIR filter with least sum of squares of d - taps * x, x at rest before its first sample, by

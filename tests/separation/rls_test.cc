@@ -1,23 +1,14 @@
 #include "separation/rls.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "path_signals.h"
-#include "signals/error.h"
+#include "separator_checks.h"
 
 namespace vibrissa::separation {
 namespace {
 
-using signals::UserError;
 using test::Signal;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
-
-Signal run(Rls& filter, const Signal& x, const Signal& d) {
-  Signal e(x.size());
-  filter.process(x, d, e);
-  return e;
-}
 
 TEST(Rls, SolvesTheWeightedNormalEquationsAtEveryTime) {
   constexpr std::size_t n_taps = 25;
@@ -27,7 +18,7 @@ TEST(Rls, SolvesTheWeightedNormalEquationsAtEveryTime) {
     for (const std::size_t n : {60u, 300u, 800u}) {
       Rls filter({.filter_length = n_taps, .forgetting = forgetting, .regularisation = 0.});
       const Signal begin_x(x.begin(), x.begin() + n), begin_d(d.begin(), d.begin() + n);
-      run(filter, begin_x, begin_d);
+      test::run(filter, begin_x, begin_d);
       const Signal oracle = test::least_squares_taps(begin_x, begin_d, n_taps, forgetting);
       EXPECT_LT(test::rms(test::minus(filter.impulse_response(), oracle)), 1e-9 * test::rms(oracle))
           << forgetting << ", " << n;
@@ -38,9 +29,9 @@ TEST(Rls, GivesTheErrorBeforeItsUpdate) {
   const Signal x = test::white_noise(300, 1., 4);
   const Signal d = test::plus_noise(test::convolve(test::decaying_taps(8, 4., 5), x), 0.1, 6);
   Rls filter({.filter_length = 8, .forgetting = 0.99});
-  const Signal e = run(filter, x, d);
+  const Signal e = test::run(filter, x, d);
   Rls shorter({.filter_length = 8, .forgetting = 0.99});
-  run(shorter, {x.begin(), x.end() - 1}, {d.begin(), d.end() - 1});
+  test::run(shorter, {x.begin(), x.end() - 1}, {d.begin(), d.end() - 1});
   double estimate = 0.;
   for (std::size_t k = 0; k < 8; ++k) estimate += shorter.impulse_response()[k] * x[299 - k];
   EXPECT_NEAR(e[299], d[299] - estimate, 1e-12);
@@ -55,21 +46,18 @@ TEST(Rls, StaysCalmUnderAPureToneAndFindsItsGain) {
   }
   const Signal noisy = test::plus_noise(d, 1e-3, 7);
   Rls filter({.filter_length = 30, .forgetting = 0.99});
-  const Signal e = run(filter, x, noisy);
+  const Signal e = test::run(filter, x, noisy);
   EXPECT_LT(test::rms(std::span(e).last(50000)), 1.1e-3);
   EXPECT_LT(test::rms(filter.impulse_response()), 1.);
 }
 
 TEST(Rls, PassesTheWindUnchangedWhenTheBaseDoesNotMove) {
-  const Signal wind = test::white_noise(1000, 1., 14);
   Rls filter(RlsOptions{});
-  EXPECT_EQ(run(filter, Signal(1000, 0.), wind), wind);
+  test::expect_wind_unchanged_when_the_base_rests(filter);
 }
 
 TEST(Rls, RefusesOptionsOutOfRange) {
-  const auto refuse = [](const RlsOptions& options, const std::string& message) {
-    EXPECT_THAT([&] { Rls filter(options); }, ThrowsMessage<UserError>(HasSubstr(message)));
-  };
+  const auto refuse = test::expect_refusal<Rls, RlsOptions>;
   refuse({.filter_length = 0}, "filter_length = 0");
   refuse({.forgetting = 0.}, "forgetting = 0");
   refuse({.forgetting = 1.1}, "forgetting = 1.1");

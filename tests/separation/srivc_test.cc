@@ -20,37 +20,6 @@ using testing::ThrowsMessage;
 
 constexpr double rate_hz = 500.;
 
-TEST(Srivc, RecoversOneToThreeModesAndTheDirectTermFromACleanRecord) {
-  const std::vector<ModalState> states{{1e-3, 0.1}, {-2e-4, 0.05}, {1e-4, -0.02}};
-  const Signal input = test::white_noise(3000, 3., 1);
-  for (std::size_t n_modes = 1; n_modes <= 3; ++n_modes)
-    for (const Hold hold : {Hold::first_order, Hold::zero_order, Hold::band_limited})
-      for (const double delay_s : {0., 0.0027, -0.004}) {
-        Bvrm truth = test::sensor(n_modes, -2e-7);
-        truth.delay_s = delay_s;
-        Signal output = simulate(truth, input, rate_hz, hold, std::span(states).first(n_modes));
-        for (double& m : output) m += 2e-5;
-        const Segment segment{input, output};
-        const FittedBvrm fit =
-            refine_srivc(disturbed(truth), std::span(&segment, 1), rate_hz, {.hold = hold});
-        EXPECT_EQ(fit.end, FitEnd::converged);
-        EXPECT_EQ(fit.model.delay_s, delay_s);
-        expect_equal_models(fit, truth, 1e-7);
-      }
-}
-
-TEST(Srivc, KnowsASensorAtRestWhenItIsTold) {
-  const Signal input = test::white_noise(300, 3., 2);
-  const Bvrm truth = test::sensor(1, -2e-7);
-  for (const Hold hold : {Hold::first_order, Hold::zero_order, Hold::band_limited}) {
-    const Signal output = simulate(truth, input, rate_hz, hold);
-    const Segment segment{input, output};
-    const SrivcOptions options{.hold = hold, .nuisance = {.initial_state = false, .offset = false}};
-    expect_equal_models(refine_srivc(disturbed(truth), std::span(&segment, 1), rate_hz, options),
-                        truth, 1e-8);
-  }
-}
-
 TEST(Srivc, FitsAModelWithoutADirectTerm) {
   const Bvrm truth = test::sensor(2);
   const Signal input = test::white_noise(2000, 3., 2), output = simulate(truth, input, rate_hz);

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace vibrissa::separation {
+
+/// Half the width of the band of dtw(); without a window one that leaves nothing out. Throws
+/// UserError as dtw() says.
+std::size_t checked_dtw_window(std::span<const double> x, std::span<const double> y,
+                               std::optional<std::size_t> window);
+
+}  // namespace vibrissa::separation
