@@ -1,7 +1,7 @@
-# deal.II with PETSc and SLEPc as one target. deal_ii_setup_target would force its own optimisation
+# deal.II with PETSc as one target. deal_ii_setup_target would force its own optimisation
 # level and language standard on every user, so its pieces are taken one by one.
 find_package(deal.II 9.4 REQUIRED)
-foreach(feature MPI PETSC SLEPC METIS)
+foreach(feature MPI PETSC)
   if(NOT DEAL_II_WITH_${feature})
     message(FATAL_ERROR "deal.II was built without ${feature}; install the package libdeal.ii-dev")
   endif()

@@ -11,7 +11,7 @@ namespace vibrissa::fem {
 
 namespace {
 
-constexpr Eigen::Index block_size = 4;
+constexpr Eigen::Index block_size = 8;
 constexpr Eigen::Index columns_each = 16;    // the basis may grow to this many for each pair
 constexpr double residual_tolerance = 1e-9;  // relative to the pair's own 1 / lambda
 constexpr double rounding = 1e-15;           // relative to the largest 1 / lambda

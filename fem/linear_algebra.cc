@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "fem/cholesky_settings.h"
 #include "signals/error.h"
 
 namespace vibrissa::fem {
@@ -22,14 +21,18 @@ std::unique_ptr<Matrix> with_clamped_rows(const Matrix& matrix, const dealii::In
   auto copy = std::make_unique<Matrix>();
   copy->reinit(matrix);
   copy->copy_from(matrix);
+  clamp_rows(*copy, clamped, diagonal);
+  return copy;
+}
+
+void clamp_rows(Matrix& matrix, const dealii::IndexSet& clamped, const double diagonal) {
   std::vector<PetscInt> rows;
   for (const auto row : clamped) rows.push_back(static_cast<PetscInt>(row));
-  const Mat raw = *copy;
+  const Mat raw = matrix;
   check_petsc(MatSetOption(raw, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE), "MatSetOption");
   check_petsc(MatZeroRowsColumns(raw, static_cast<PetscInt>(rows.size()), rows.data(), diagonal,
                                  nullptr, nullptr),
               "MatZeroRowsColumns");
-  return copy;
 }
 
 void zero_entries(Vector& vector, const dealii::IndexSet& entries) {
@@ -91,6 +94,8 @@ Columns sum_over_processes(const Columns& part, MPI_Comm communicator) {
   return total;
 }
 
+namespace {
+
 void use_mumps_cholesky(KSP solver) {
   PC preconditioner = nullptr;
   check_petsc(KSPSetType(solver, KSPPREONLY), "KSPSetType");
@@ -99,6 +104,8 @@ void use_mumps_cholesky(KSP solver) {
   check_petsc(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
 }
 
+// A node's three unknowns follow each other: ordered by nodes, the graph has a third of the size
+// and its order leads to fewer operations. Needs the operators.
 void order_by_nodes(KSP solver) {
   PC preconditioner = nullptr;
   Mat factors = nullptr;
@@ -123,10 +130,11 @@ void check_factors(KSP solver) {
   if (error != MAT_FACTOR_NOERROR) {
     throw signals::UserError(
         "the stiffness matrix is not positive definite: a part of the mesh is not held by the "
-        "clamp "
-        "or a material is unstable; check regions, boundaries and moduli");
+        "clamp or a material is unstable; check regions, boundaries and moduli");
   }
 }
+
+}  // namespace
 
 struct CholeskySolver::Factors {
   KSP solver = nullptr;

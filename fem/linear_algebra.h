@@ -17,11 +17,14 @@ using Vector = dealii::PETScWrappers::MPI::Vector;
 /// Several vectors side by side; each process holds its own rows.
 using Columns = Eigen::MatrixXd;
 
-/// Turns a PETSc or SLEPc error code into an exception that names the call.
+/// Turns a PETSc error code into an exception that names the call.
 void check_petsc(int error_code, const char* call);
 
-/// A copy of a symmetric matrix in which the given (owned) rows and columns are zero and their
-/// diagonal is as stated.
+/// Sets the given (owned) rows and columns of a symmetric matrix to zero and their diagonal as
+/// stated.
+void clamp_rows(Matrix& matrix, const dealii::IndexSet& clamped, double diagonal);
+
+/// A copy with clamped rows.
 std::unique_ptr<Matrix> with_clamped_rows(const Matrix& matrix, const dealii::IndexSet& clamped,
                                           double diagonal);
 

@@ -11,16 +11,16 @@
 
 namespace vibrissa::fem {
 
-/// Stiffness and mass of the whole solid at rest, once with all rows (for reactions and balances)
-/// and once with the clamp's rows and columns removed (for solving).
+/// Stiffness and mass of the whole solid at rest, with all rows (for reactions and balances) and
+/// with the clamp's rows and columns removed (for solving).
 struct SolidOperators {
-  std::unique_ptr<Matrix> stiffness, mass;
-  std::unique_ptr<InternalForce> internal_force;  // K u without loss of balance
+  std::unique_ptr<Matrix> mass;
+  std::unique_ptr<InternalForce> internal_force;  // K u of all rows, without loss of balance
   std::unique_ptr<Matrix> clamped_stiffness;      // clamp: unit diagonal
   std::unique_ptr<Matrix> clamped_mass;           // clamp: zero
 };
 
-/// Assembles both. Materials are looked up by region name; throws UserError for a region of the
+/// Assembles them. Materials are looked up by region name; throws UserError for a region of the
 /// mesh without material.
 SolidOperators assemble_operators(const SolidSpace& space,
                                   const std::map<std::string, materials::Material>& materials);

@@ -4,7 +4,7 @@
 
 namespace vibrissa::fem {
 
-/// Starts MPI, PETSc and SLEPc and stops them at the end of its life. One per process, before
+/// Starts MPI and PETSc and stops them at the end of its life. One per process, before
 /// anything else of this room is used.
 class SolverSession {
  public:
