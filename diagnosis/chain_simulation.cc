@@ -33,7 +33,8 @@ struct LinearPart {
 /// A joint K(s) (1 + D(s)) in place of K(s): with H = K B / (1 + K G) for the whisker pinned at its
 /// base (B, G its rotation from the load and from a moment there) the moment becomes
 /// H (1 + D) / (1 + D P), P = K G / (1 + K G); P from the joint model.
-LinearPart linear_part(const Chain& chain, const std::optional<JointModel>& joint, Complex s) {
+LinearPart linear_part(const Chain& chain, const std::optional<JointModel>& joint,
+                       const Complex static_response, const Complex s) {
   const NominalModel& model = chain.structure;
   const Complex reference = product(chain.reference, s);
   const Complex input = reference * product(chain.mount, s);
@@ -44,7 +45,7 @@ LinearPart linear_part(const Chain& chain, const std::optional<JointModel>& join
       const Complex d = sum(chain.relaxation, s);
       // What the modes above the first do to H they do to 1 / (1 + K G), too: B is that of the
       // load.
-      const Complex upper = part.base * (1. + joint->inertia_ratio(s)) / model.base_response(0.);
+      const Complex upper = part.base * (1. + joint->inertia_ratio(s)) / static_response;
       const Complex change = (1. + d) / (1. + d * (1. - joint->added_moment(s) * upper));
       part.base *= change;
       part.wind *= change;
@@ -79,7 +80,7 @@ bool is_dynamic(const Chain& chain, const PreparedRecord& record) {
 class DifferenceIntegrator {
  public:
   DifferenceIntegrator(const Chain& chain, const PreparedRecord& record, double dt)
-      : dt_(dt), integrator_(*joint_of(chain), dt) {
+      : dt_(dt), is_loaded_(chain.relative_wind.on), integrator_(*joint_of(chain), dt) {
     for (const JointLawMaker& maker : chain.joint) laws_.push_back(maker(record.number));
   }
 
@@ -87,20 +88,45 @@ class DifferenceIntegrator {
   /// joint moment. Returns the change of the base moment.
   template <typename Load>
   double advance(double y, double y_rate, double t_s, const Load& load) {
-    // Predict with the old extra moment held, then correct with the one at the step's end.
-    for (int pass = 0; pass < 2; ++pass) {
-      const Eigen::Vector3d state = integrator_.moved(torque_, external_);
-      const double rate = y_rate + integrator_.elastic_rate(state, torque_);
-      torque_ = torque(y + state(2), rate, t_s, false);
-      external_ = load(rate);
+    if (laws_.empty()) return advance_load(y_rate, load);
+    // The extra moment at the step's end acts back on the joint's rotation at once: a stiff law
+    // needs the solution of torque(y(T)) = T, found by the secant rule.
+    double from = torque_, from_excess = excess(y, y_rate, t_s, from);
+    double at = from + from_excess;
+    for (int i = 0; i < 4 && std::abs(from_excess) > 1e-9 * std::abs(at); ++i) {
+      const double at_excess = excess(y, y_rate, t_s, at);
+      const double slope = (at_excess - from_excess) / (at - from);
+      if (at_excess == 0. || !(slope < 0.)) break;
+      from = at;
+      from_excess = at_excess;
+      at -= at_excess / slope;
     }
+    torque_ = at;
+    if (is_loaded_) external_ = load(rate_at(y_rate, at));
     const Eigen::Vector3d state = integrator_.moved(torque_, external_);
-    torque(y + state(2), y_rate + integrator_.elastic_rate(state, torque_), t_s, true);
+    const double rate = y_rate + integrator_.elastic_rate(state, torque_);
+    torque(y + state(2), rate, t_s, true);
     integrator_.accept(state, torque_, external_);
     return integrator_.moment(state);
   }
 
  private:
+  template <typename Load>
+  double advance_load(double y_rate, const Load& load) {
+    for (int pass = 0; pass < 2; ++pass) external_ = load(rate_at(y_rate, 0.));
+    const Eigen::Vector3d state = integrator_.moved(0., external_);
+    integrator_.accept(state, 0., external_);
+    return integrator_.moment(state);
+  }
+  double rate_at(double y_rate, double torque) const {
+    return y_rate + integrator_.elastic_rate(integrator_.moved(torque, external_), torque);
+  }
+  /// Law's moment less the one assumed.
+  double excess(double y, double y_rate, double t_s, double assumed) {
+    const Eigen::Vector3d state = integrator_.moved(assumed, external_);
+    const double rate = y_rate + integrator_.elastic_rate(state, assumed);
+    return torque(y + state(2), rate, t_s, false) - assumed;
+  }
   double torque(double y, double y_rate, double t_s, bool commit) {
     double sum = 0.;
     for (const auto& law : laws_) sum += law->moment(y, y_rate, t_s, dt_, commit);
@@ -108,6 +134,7 @@ class DifferenceIntegrator {
   }
 
   double dt_;
+  bool is_loaded_;
   JointIntegrator integrator_;
   std::vector<std::unique_ptr<JointLaw>> laws_;
   double torque_ = 0., external_ = 0.;
@@ -224,6 +251,8 @@ WholeSpectra whole_spectra(const Chain& chain, const PreparedRecord& record) {
   const std::size_t n_lines = record.n_samples / 2 + 1;
   const std::vector<Complex> force = wind_force_spectrum(chain, record);
   const std::optional<JointModel> joint_model = joint_of(chain);
+  const Complex static_response =
+      chain.structure.has_base ? chain.structure.base_response(0.) : Complex(1.);
   WholeSpectra whole{std::vector<Complex>(n_lines), std::vector<LinearPart>(n_lines),
                      std::vector<Complex>(n_lines)};
   std::vector<Complex> joint(n_lines);
@@ -232,7 +261,7 @@ WholeSpectra whole_spectra(const Chain& chain, const PreparedRecord& record) {
   for (std::size_t k = 0; k < n_lines; ++k) {
     // At zero frequency filters may have poles; means are not judged.
     const Complex s = line_s(record, k);
-    const LinearPart part = linear_part(chain, joint_model, s);
+    const LinearPart part = linear_part(chain, joint_model, static_response, s);
     whole.linear[k] = part;
     whole.sensor[k] = product(chain.sensor, s);
     Complex moment = 0.;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -38,31 +39,68 @@ void average_periods(std::vector<Complex>& spectrum, std::size_t n_periods) {
     if (k % n_periods != 0) spectrum[k] = 0.;
 }
 
-/// Wiener's share P / (P + noise) per line, P from the mean power of the lines around it. Lines of
-/// periodic records are each judged alone: they are excited or they are not.
+/// Harmonics of a period that the drive excites, by the number of samples in the period: what
+/// stands out in one record is taken as excited in all, weak ones too.
+using ExcitedHarmonics = std::map<std::size_t, std::vector<bool>>;
+
+/// A line without excitation exceeds this multiple of the noise once in a hundred thousand.
+constexpr double standing_out = 12.;
+
+ExcitedHarmonics excited_harmonics(const signals::Dataset& dataset, signals::Split split,
+                                   double noise) {
+  ExcitedHarmonics excited;
+  for (const DatasetRecord& entry : dataset.records) {
+    const std::size_t period = entry.period_samples, n = entry.record.n_samples();
+    if (entry.split != split || !entry.excitation.base || period == 0 || n % period != 0) continue;
+    if (!entry.record.has(channel::base_acceleration)) continue;
+    const std::vector<Complex> spectrum =
+        spectrum_of(entry.record.channel(channel::base_acceleration));
+    std::vector<bool>& mask = excited.try_emplace(period, period / 2 + 1, false).first->second;
+    for (std::size_t h = 1; h < mask.size(); ++h)
+      if (std::norm(spectrum[h * (n / period)]) >
+          standing_out * static_cast<double>(n) * noise * noise)
+        mask[h] = true;
+  }
+  return excited;
+}
+
+/// Wiener's share P / (P + noise) of each of the chosen lines: P from the line itself where it
+/// stands out, else from the mean power of the chosen lines around it that do not.
 std::vector<double> signal_share(const std::vector<Complex>& spectrum, double noise_power,
-                                 bool periodic) {
-  const std::size_t n = spectrum.size();
-  std::vector<double> share(n, 0.);
-  const std::ptrdiff_t reach = periodic ? 0 : 4;
-  for (std::size_t k = 0; k < n; ++k) {
+                                 const std::vector<std::size_t>& lines) {
+  std::vector<double> share(spectrum.size(), 0.);
+  constexpr std::size_t reach = 4;
+  const auto stands_out = [&](std::size_t i) {
+    return std::norm(spectrum[lines[i]]) > standing_out * noise_power;
+  };
+  for (std::size_t i = 0; i < lines.size(); ++i) {
     double power = 0., count = 0.;
-    for (std::ptrdiff_t d = -reach; d <= reach; ++d) {
-      const std::ptrdiff_t j = static_cast<std::ptrdiff_t>(k) + d;
-      if (j < 1 || j >= static_cast<std::ptrdiff_t>(n)) continue;
-      power += std::norm(spectrum[j]);
-      count += 1.;
-    }
-    power = count > 0. ? power / count : 0.;
-    // A line without excitation exceeds this once in some thousand.
-    const double threshold = periodic ? 9. : 1.;
-    if (power > threshold * noise_power) share[k] = 1. - noise_power / power;
+    const std::size_t low = i < reach ? 0 : i - reach, high = std::min(lines.size(), i + reach + 1);
+    for (std::size_t j = low; j < high; ++j)
+      if (j == i || (!stands_out(j) && !stands_out(i))) {
+        power += std::norm(spectrum[lines[j]]);
+        count += 1.;
+      }
+    power /= count;
+    if (power > noise_power) share[lines[i]] = 1. - noise_power / power;
   }
   return share;
 }
 
+std::vector<std::size_t> driven_lines(const PreparedRecord& record, const DatasetRecord& entry,
+                                      const ExcitedHarmonics& excited) {
+  std::vector<std::size_t> lines;
+  const auto found = excited.find(entry.period_samples);
+  const std::size_t n_periods = record.periodic ? record.n_samples / entry.period_samples : 1;
+  for (std::size_t k = 1; k <= record.n_samples / 2; ++k)
+    if (!record.periodic ||
+        (k % n_periods == 0 && found != excited.end() && found->second[k / n_periods]))
+      lines.push_back(k);
+  return lines;
+}
+
 void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry, const double noise,
-                          const InputNoise treatment) {
+                          const ExcitedHarmonics& excited, const InputNoise treatment) {
   out.acceleration = spectrum_of(entry.record.channel(channel::base_acceleration));
   const double n = static_cast<double>(out.n_samples);
   if (treatment == InputNoise::as_measured) {
@@ -86,14 +124,15 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry, const
       }
     average_periods(out.acceleration, n_periods);
   }
-  out.noise_share = signal_share(out.acceleration, n * noise * noise, out.periodic);
+  out.noise_share =
+      signal_share(out.acceleration, n * noise * noise, driven_lines(out, entry, excited));
   for (std::size_t k = 0; k < out.acceleration.size(); ++k)
     out.acceleration[k] *= out.noise_share[k];
 }
 
 PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& entry,
                               std::size_t number, const ChannelNoise& noise,
-                              const InputNoise treatment) {
+                              const ExcitedHarmonics& excited, const InputNoise treatment) {
   PreparedRecord out;
   out.name = entry.name;
   out.excitation = entry.excitation;
@@ -114,7 +153,7 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
     out.n_judged = fast_length(out.n_samples - skip);
   }
   if (entry.record.has(channel::base_acceleration))
-    prepare_acceleration(out, entry, noise.acceleration_m_s2, treatment);
+    prepare_acceleration(out, entry, noise.acceleration_m_s2, excited, treatment);
   if (entry.record.has(channel::cross_acceleration))
     out.cross_acceleration = spectrum_of(entry.record.channel(channel::cross_acceleration));
   if (entry.excitation.wind) {
@@ -191,11 +230,12 @@ Experiment prepare_experiment(const NominalModel& nominal, const signals::Datase
   const ChannelNoise noise = channel_noise(dataset);
   experiment.moment_noise = noise.moment_n_m;
   experiment.acceleration_noise = noise.acceleration_m_s2;
+  const ExcitedHarmonics excited = excited_harmonics(dataset, split, noise.acceleration_m_s2);
   double repeats = 0., moving = 0.;
   for (std::size_t i = 0; i < dataset.records.size(); ++i) {
     const DatasetRecord& entry = dataset.records[i];
     if (entry.split != split || !compares(nominal, entry)) continue;
-    experiment.records.push_back(prepare_record(nominal, entry, i, noise, treatment));
+    experiment.records.push_back(prepare_record(nominal, entry, i, noise, excited, treatment));
     const PreparedRecord& record = experiment.records.back();
     experiment.has_base |= entry.excitation.base;
     experiment.has_wind |= entry.excitation.wind;

@@ -28,7 +28,14 @@ bool Hypothesis::contains(const std::string& id) const {
                      [&](const Effect* effect) { return effect->id == id; });
 }
 
+Hypothesis Hypothesis::discrepancy() {
+  Hypothesis hypothesis;
+  hypothesis.discrepancy_ = true;
+  return hypothesis;
+}
+
 std::string Hypothesis::name() const {
+  if (discrepancy_) return outside_catalogue;
   std::vector<std::string> ids;
   for (const Effect* effect : effects_) ids.push_back(effect->id);
   return joined_name(std::move(ids));

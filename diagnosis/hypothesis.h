@@ -16,7 +16,12 @@ class Hypothesis {
   Hypothesis() = default;
   explicit Hypothesis(std::vector<const Effect*> effects);
 
+  /// No physics: errors of unknown course, in proportion to the moment, their level free in each of
+  /// a few bands. Its name is outside_catalogue.
+  static Hypothesis discrepancy();
+
   const std::vector<const Effect*>& effects() const { return effects_; }
+  bool is_discrepancy() const { return discrepancy_; }
   bool contains(const std::string& id) const;
   /// Ids joined by '+' in alphabetical order; "none" when empty.
   std::string name() const;
@@ -25,7 +30,10 @@ class Hypothesis {
 
  private:
   std::vector<const Effect*> effects_;
+  bool discrepancy_ = false;
 };
+
+inline const std::string outside_catalogue = "outside_catalogue";
 
 /// Ids in alphabetical order joined by '+'; "none" for none.
 std::string joined_name(std::vector<std::string> ids);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +17,10 @@ constexpr std::size_t place_moment_noise = 0, place_acceleration_noise = 1, plac
 constexpr double usual_acceleration_noise = 0.05, usual_spread = 0.4;
 /// Misfit of the nominal form that is always allowed for.
 constexpr double least_misfit = 1e-4;
+/// Upper edges of the bands of a discrepancy, in frequencies of the first mode; the last has none.
+constexpr std::array<double, 4> discrepancy_edges{0.5, 0.9, 1.1, 2.};
+constexpr std::size_t n_discrepancy_bands = discrepancy_edges.size() + 1;
+
 /// A retune parameter within this of nominal is nominal: the simulation is not known better.
 double negligible(const std::string& id) {
   return id == "damping" ? 0.01 : 0.002;
@@ -38,13 +43,17 @@ std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothe
                 .scale = usual_spread,
                 .low = std::log(1e-6),
                 .high = std::log(20.)}};
-  // The silicone holds about two thirds of the compliance of sensors of this kind (paper.md,
-  // geometry.md): 0.56 and 0.71 are known examples.
-  figures[place_joint_share].description = normal("joint_share", "1", 0.65, 0.1, 0.3, 0.98, 1.);
+  figures[place_joint_share].description =
+      normal("joint_share", "1", experiment.nominal.joint_share,
+             experiment.nominal.joint_share_deviation, 0.3, 0.98, 1.);
   figures[place_joint_loss].description = normal("joint_loss_factor", "1", 1., 0.05, 0.7, 1.3, 1.);
   const auto add = [&](const Effect& effect, bool nuisance) {
-    for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+    for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
       figures.push_back({&effect, i, effect.parameters[i], nuisance});
+      // As a finding of its own a retune parameter may lie anywhere in its range.
+      if (effect.retune && !nuisance && i == 0)
+        figures.back().description.prior.kind = Prior::Kind::uniform;
+    }
   };
   for (const std::string& id : nuisance_ids()) {
     const Effect& effect = find_effect(id);
@@ -53,13 +62,12 @@ std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothe
     if (!hypothesis.contains(id)) add(effect, true);
   }
   for (const Effect* effect : hypothesis.effects()) add(*effect, false);
+  if (hypothesis.is_discrepancy())
+    for (std::size_t i = 0; i < n_discrepancy_bands; ++i)
+      figures.push_back({nullptr, i, log_uniform("discrepancy", "1", 1e-4, 1., 0.), false});
   if (!hypothesis.effects().empty())
     figures.push_back({nullptr, 0, uniform("form_error_share", "1", 0., 1., 0.), false});
   return figures;
-}
-
-bool has_form_error(const HypothesisFit& fit) {
-  return !fit.hypothesis.effects().empty();
 }
 
 Chain make_chain(const Experiment& experiment, const std::vector<FreeFigure>& figures,
@@ -70,7 +78,7 @@ Chain make_chain(const Experiment& experiment, const std::vector<FreeFigure>& fi
   chain.joint_loss_factor = x(place_joint_loss);
   for (std::size_t i = n_own_figures; i < figures.size();) {
     const Effect* effect = figures[i].effect;
-    if (effect == nullptr) break;
+    if (effect == nullptr) break;  // form error and discrepancy come last
     std::vector<double> values;
     for (; i < figures.size() && figures[i].effect == effect; ++i)
       values.push_back(figures[i].description.value(x(static_cast<Eigen::Index>(i))));
@@ -133,12 +141,17 @@ class RampShare {
 /// State of a fit at one x: predictions, slow parts of the variance held fixed.
 class Evaluation {
  public:
-  Evaluation(const Experiment& experiment, const std::vector<FreeFigure>& figures, bool form_error)
-      : experiment_(experiment), figures_(figures), form_error_(form_error) {}
+  Evaluation(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+             const Hypothesis& hypothesis)
+      : experiment_(experiment),
+        figures_(figures),
+        form_error_(!hypothesis.effects().empty()),
+        discrepancy_(hypothesis.is_discrepancy()) {}
 
   /// Renews what the variance takes from the mean: misfit of the nominal form, form error.
   void renew_slow_variance(const Eigen::VectorXd& x) {
     misfit_.clear();
+    power_.clear();
     form_.clear();
     const Chain chain = make_chain(experiment_, figures_, x);
     std::vector<std::pair<const Effect*, Chain>> without;
@@ -147,7 +160,8 @@ class Evaluation {
         without.emplace_back(figure.effect, make_chain(experiment_, figures_, x, figure.effect));
     for (const PreparedRecord& record : experiment_.records) {
       const std::vector<Complex> mean = simulate_mean(chain, record);
-      misfit_.push_back(smoothed_power(mean, nullptr));
+      power_.push_back(smoothed_power(mean, nullptr));
+      misfit_.push_back(power_.back());
       const double share = nominal_misfit(experiment_.nominal, record);
       for (double& value : misfit_.back()) value *= share * share;
       std::vector<double> form(mean.size(), 0.);
@@ -183,6 +197,11 @@ class Evaluation {
       out[b] = moment * prediction.moment_noise[b] +
                acceleration_variance * prediction.acceleration_noise[b] + prediction.own_noise[b] +
                misfit_[record][b] + form * form_[record][b];
+    if (discrepancy_)
+      for (std::size_t b = 0; b < out.size(); ++b) {
+        const double share = std::exp(x(discrepancy_place(record, b)));
+        out[b] += share * share * power_[record][b];
+      }
     return out;
   }
 
@@ -202,6 +221,16 @@ class Evaluation {
       sum += ramp.log_likelihood_gain() - accelerometer_term(record, a_variance);
     }
     return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
+  }
+
+  /// Figure of the discrepancy that a bin belongs to.
+  Eigen::Index discrepancy_place(std::size_t record, std::size_t b) const {
+    const PreparedRecord& prepared = experiment_.records[record];
+    const double ratio = 2. * std::numbers::pi * static_cast<double>(b + 1) * prepared.bin_hz() /
+                         experiment_.scales.first_mode_rad_s;
+    const auto band = std::upper_bound(discrepancy_edges.begin(), discrepancy_edges.end(), ratio) -
+                      discrepancy_edges.begin();
+    return static_cast<Eigen::Index>(figures_.size() - n_discrepancy_bands) + band;
   }
 
   double log_prior(const Eigen::VectorXd& x) const {
@@ -250,8 +279,8 @@ class Evaluation {
 
   const Experiment& experiment_;
   const std::vector<FreeFigure>& figures_;
-  bool form_error_;
-  std::vector<std::vector<double>> misfit_, form_;
+  bool form_error_, discrepancy_;
+  std::vector<std::vector<double>> misfit_, form_, power_;
 };
 
 /// Derivatives of mean and variance with respect to one figure, all records.
@@ -290,9 +319,13 @@ void Evaluation::linearise(const Eigen::VectorXd& x, const std::vector<Predictio
       continue;
     }
     if (figures_[place].effect == nullptr && place >= n_own_figures) {
+      const double level = 2. * std::exp(2. * x(i));
       for (std::size_t r = 0; r < n_records; ++r)
         for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
-          variance_columns(row, i) = form_[r][b] / s[r][b];
+          if (!discrepancy_)
+            variance_columns(row, i) = form_[r][b] / s[r][b];
+          else if (discrepancy_place(r, b) == i)
+            variance_columns(row, i) = level * power_[r][b] / s[r][b];
       continue;
     }
     Eigen::VectorXd moved = x;
@@ -380,6 +413,12 @@ void clamp(const std::vector<FreeFigure>& figures, Eigen::VectorXd& x) {
   }
 }
 
+bool hypothesis_has_effects(const std::vector<FreeFigure>& figures) {
+  return std::any_of(figures.begin(), figures.end(), [](const FreeFigure& figure) {
+    return figure.effect != nullptr && !figure.nuisance;
+  });
+}
+
 /// Coordinates to start from: noise as guessed, nuisances nominal or as in start, effects at one of
 /// their own starts or as in start.
 Eigen::VectorXd start_vector(const Experiment& experiment, const std::vector<FreeFigure>& figures,
@@ -387,14 +426,14 @@ Eigen::VectorXd start_vector(const Experiment& experiment, const std::vector<Fre
   Eigen::VectorXd x(static_cast<Eigen::Index>(figures.size()));
   x(place_moment_noise) = std::log(experiment.moment_noise);
   x(place_acceleration_noise) = std::log(experiment.acceleration_noise);
-  x(place_joint_share) = 0.65;
+  x(place_joint_share) = experiment.nominal.joint_share;
   x(place_joint_loss) = 1.;
   if (start != nullptr) x.head(n_own_figures) = start->x.head(n_own_figures);
   for (std::size_t i = n_own_figures; i < figures.size(); ++i) {
     const FreeFigure& figure = figures[i];
     double& value = x(static_cast<Eigen::Index>(i));
     if (figure.effect == nullptr) {
-      value = 0.2;
+      value = hypothesis_has_effects(figures) ? 0.2 : std::log(0.02);
       continue;
     }
     const double at = figure.nuisance ? (figure.parameter == 0 ? 1. : 0.5)
@@ -539,6 +578,14 @@ double HypothesisFit::form_energy(const Effect* but) const {
   return sum;
 }
 
+double HypothesisFit::form_energy(const std::vector<std::string>& ids) const {
+  double sum = 0.;
+  for (const auto& [effect, energy] : effect_energy)
+    if (std::find(ids.begin(), ids.end(), effect->id) != ids.end())
+      sum += effect->form_error * effect->form_error * energy;
+  return sum;
+}
+
 Chain HypothesisFit::chain(const Experiment& experiment) const {
   return make_chain(experiment, figures, x);
 }
@@ -563,7 +610,9 @@ Climb begin_climb(Evaluation& evaluation, const Eigen::VectorXd& x) {
 }
 
 void climb_on(Evaluation& evaluation, const std::vector<FreeFigure>& figures, Climb& climb,
-              int n_iterations, double tolerance) {
+              int n_iterations, const FitOptions& options) {
+  // This many further gains like the last one would not do.
+  constexpr double n_hopeful_gains = 15.;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;
   for (int i = 0; i < n_iterations && !climb.ended; ++i, ++climb.n_iterations) {
@@ -582,7 +631,10 @@ void climb_on(Evaluation& evaluation, const std::vector<FreeFigure>& figures, Cl
         climb.damping = std::max(1e-2, climb.damping * 8.);
         continue;
       }
-      climb.ended = posterior - climb.log_posterior < tolerance;
+      const double gain = posterior - climb.log_posterior;
+      const bool hopeless =
+          climb.n_iterations >= 3 && posterior + n_hopeful_gains * gain < options.to_beat;
+      climb.ended = gain < options.tolerance || hopeless;
       climb.x = x;
       climb.predictions = std::move(there);
       climb.log_posterior = posterior;
@@ -594,7 +646,7 @@ void climb_on(Evaluation& evaluation, const std::vector<FreeFigure>& figures, Cl
 
 /// A few iterations from the most promising starts tell which basin is the best.
 Climb best_start(Evaluation& evaluation, const std::vector<FreeFigure>& figures,
-                 const std::vector<Eigen::VectorXd>& starts, double tolerance) {
+                 const std::vector<Eigen::VectorXd>& starts, const FitOptions& options) {
   constexpr std::size_t n_promising = 3;
   constexpr int n_first_iterations = 2;
   std::vector<Climb> climbs;
@@ -605,7 +657,7 @@ Climb best_start(Evaluation& evaluation, const std::vector<FreeFigure>& figures,
   std::sort(climbs.begin(), climbs.end(), better);
   if (climbs.size() > 1) {
     climbs.resize(std::min(climbs.size(), n_promising));
-    for (Climb& climb : climbs) climb_on(evaluation, figures, climb, n_first_iterations, tolerance);
+    for (Climb& climb : climbs) climb_on(evaluation, figures, climb, n_first_iterations, options);
     std::sort(climbs.begin(), climbs.end(), better);
   }
   return std::move(climbs.front());
@@ -618,13 +670,13 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   HypothesisFit fit;
   fit.hypothesis = hypothesis;
   fit.figures = make_figures(experiment, hypothesis);
-  Evaluation evaluation(experiment, fit.figures, has_form_error(fit));
-  Climb climb =
-      best_start(evaluation, fit.figures, start_vectors(experiment, fit.figures, hypothesis, start),
-                 options.tolerance);
-  climb_on(evaluation, fit.figures, climb, options.max_iterations, options.tolerance);
+  Evaluation evaluation(experiment, fit.figures, fit.hypothesis);
+  Climb climb = best_start(evaluation, fit.figures,
+                           start_vectors(experiment, fit.figures, hypothesis, start), options);
+  climb_on(evaluation, fit.figures, climb, options.max_iterations, options);
   fit.x = climb.x;
   fit.n_iterations = climb.n_iterations;
+  fit.log_posterior = climb.log_posterior;
   evaluation.renew_slow_variance(fit.x);
   Eigen::VectorXd gradient;
   evaluation.linearise(fit.x, climb.predictions, gradient, fit.information);
@@ -640,7 +692,7 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
 
 std::vector<double> bin_variance(const Experiment& experiment, const HypothesisFit& fit,
                                  const PreparedRecord& record, const Prediction& prediction) {
-  Evaluation evaluation(experiment, fit.figures, has_form_error(fit));
+  Evaluation evaluation(experiment, fit.figures, fit.hypothesis);
   evaluation.renew_slow_variance(fit.x);
   for (std::size_t r = 0; r < experiment.records.size(); ++r)
     if (&experiment.records[r] == &record)
@@ -649,7 +701,7 @@ std::vector<double> bin_variance(const Experiment& experiment, const HypothesisF
 }
 
 WhitenedResidual whitened_residual(const Experiment& experiment, const HypothesisFit& fit) {
-  Evaluation evaluation(experiment, fit.figures, has_form_error(fit));
+  Evaluation evaluation(experiment, fit.figures, fit.hypothesis);
   evaluation.renew_slow_variance(fit.x);
   const std::vector<Prediction> predictions = evaluation.predict(fit.x);
   const double a_variance = evaluation.acceleration_variance(fit.x);

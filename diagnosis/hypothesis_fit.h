@@ -34,8 +34,9 @@ struct HypothesisFit {
   Eigen::MatrixXd information;  // Fisher's, with the priors' curvature
   Eigen::MatrixXd covariance;   // its inverse
   double log_likelihood = -std::numeric_limits<double>::infinity();
-  double log_evidence = -std::numeric_limits<double>::infinity();  // all nuisances free
-  std::vector<RetuneChoice> choices;                               // best first
+  double log_posterior = -std::numeric_limits<double>::infinity();  // density at x
+  double log_evidence = -std::numeric_limits<double>::infinity();   // all nuisances free
+  std::vector<RetuneChoice> choices;                                // best first
   int n_iterations = 0;
   /// Whitened energy of what each effect or retune does, sum |mean - mean without it|^2 / S.
   std::vector<std::pair<const Effect*, double>> effect_energy;
@@ -43,6 +44,8 @@ struct HypothesisFit {
   /// Form errors of all effects and retunes but one, in whitened energy: what gains less than this
   /// is not told from them.
   double form_energy(const Effect* but = nullptr) const;
+  /// Of these effects and retunes alone.
+  double form_energy(const std::vector<std::string>& ids) const;
   /// Value and standard deviation of an effect's parameter (of x).
   std::optional<std::size_t> place(const std::string& effect, std::size_t parameter) const;
   Chain chain(const Experiment& experiment) const;
@@ -58,6 +61,8 @@ struct FitOptions {
   int max_iterations = 14;
   /// Ends when an iteration gains less log posterior than this.
   double tolerance = 0.1;
+  /// Log posterior that another hypothesis has reached: a climb that is hopelessly below gives up.
+  double to_beat = -std::numeric_limits<double>::infinity();
 };
 
 /// Maximum posterior fit to all records of the experiment by Fisher scoring: DFT bins are

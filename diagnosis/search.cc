@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <set>
@@ -41,11 +42,8 @@ void for_each_parallel(std::size_t n, std::size_t n_threads,
 }
 
 bool testable(const Experiment& experiment, const Effect& effect, const SearchOptions& options) {
-  const std::vector<std::string>& nuisances = nuisance_ids();
-  const auto listed = [&](const std::vector<std::string>& ids) {
-    return std::find(ids.begin(), ids.end(), effect.id) != ids.end();
-  };
-  if (listed(nuisances) || listed(options.left_out)) return false;
+  const auto& out = options.left_out;
+  if (std::find(out.begin(), out.end(), effect.id) != out.end()) return false;
   if (effect.needs.base && !experiment.has_base) return false;
   if (effect.needs.wind && !experiment.has_wind) return false;
   return !effect.needs.cross || experiment.has_cross;
@@ -54,6 +52,9 @@ bool testable(const Experiment& experiment, const Effect& effect, const SearchOp
 void keep_first(std::vector<std::size_t>& list, std::size_t n) {
   if (list.size() > n) list.erase(list.begin() + static_cast<std::ptrdiff_t>(n), list.end());
 }
+
+/// An unknown effect is as likely as one or two of the known ones.
+constexpr double log_prior_of_discrepancy = -3.;
 
 double log_choose(std::size_t n, std::size_t k) {
   double sum = 0.;
@@ -65,11 +66,11 @@ double log_choose(std::size_t n, std::size_t k) {
 /// Half of all sensors are as simulated but for what is named, retunes included; the other half are
 /// a little off in every retune parameter, which is no finding of its own.
 double log_prior(const Hypothesis& hypothesis, std::size_t n_retunes, std::size_t n_testable) {
+  if (hypothesis.is_discrepancy()) return log_prior_of_discrepancy;
   const std::size_t n = hypothesis.effects().size(), all = nuisance_ids().size();
   double own = 0.;
   for (const Effect* effect : hypothesis.effects()) own += effect->log_prior;
-  const double exact =
-      log_prior_of_number(n + n_retunes) - log_choose(n_testable + all, n + n_retunes);
+  const double exact = log_prior_of_number(n + n_retunes) - log_choose(n_testable, n + n_retunes);
   const double as_built =
       log_prior_of_number(n) - log_choose(n_testable, n) - static_cast<double>(all) * std::log(2.);
   const double high = std::max(exact, as_built);
@@ -79,13 +80,6 @@ double log_prior(const Hypothesis& hypothesis, std::size_t n_retunes, std::size_
 double choice_posterior(const HypothesisFit& fit, const RetuneChoice& choice,
                         std::size_t n_testable) {
   return choice.log_evidence + log_prior(fit.hypothesis, choice.named.size(), n_testable);
-}
-
-double best_posterior(const HypothesisFit& fit, std::size_t n_testable) {
-  double best = -std::numeric_limits<double>::infinity();
-  for (const RetuneChoice& choice : fit.choices)
-    best = std::max(best, choice_posterior(fit, choice, n_testable));
-  return best;
 }
 
 /// How much of the whitened residual one effect's own shape explains, over all its starts: twice
@@ -129,6 +123,7 @@ class Searcher {
 
   SearchResult run() {
     fit_all({{Hypothesis{}, std::nullopt}});
+    fit_all({{Hypothesis::discrepancy(), std::size_t{0}}});
     std::vector<Task> tasks;
     for (const Effect* effect : testable_) tasks.push_back({Hypothesis({effect}), 0});
     fit_all(tasks);
@@ -152,7 +147,14 @@ class Searcher {
     fits_.resize(first + tasks.size());
     for_each_parallel(tasks.size(), options_.n_threads, [&](std::size_t i) {
       const HypothesisFit* start = tasks[i].start ? &fits_[*tasks[i].start] : nullptr;
-      fits_[first + i] = fit_hypothesis(experiment_, tasks[i].hypothesis, start);
+      FitOptions fit_options;
+      {
+        const std::lock_guard lock(mutex_);
+        fit_options.to_beat = best_log_posterior_;
+      }
+      fits_[first + i] = fit_hypothesis(experiment_, tasks[i].hypothesis, start, fit_options);
+      const std::lock_guard lock(mutex_);
+      best_log_posterior_ = std::max(best_log_posterior_, fits_[first + i].log_posterior);
       if (options_.on_fit) options_.on_fit();
     });
     for (std::size_t i = 0; i < tasks.size(); ++i) known_[tasks[i].hypothesis.name()] = first + i;
@@ -183,25 +185,38 @@ class Searcher {
   std::vector<std::size_t> best_of_size(std::size_t size) const {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < fits_.size(); ++i)
-      if (fits_[i].hypothesis.effects().size() == size && !hides_in_form_errors(fits_[i]))
+      if (!fits_[i].hypothesis.is_discrepancy() && fits_[i].hypothesis.effects().size() == size &&
+          std::isfinite(best_posterior(fits_[i])))
         order.push_back(i);
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return best_posterior(fits_[a], testable_.size()) >
-             best_posterior(fits_[b], testable_.size());
+      return best_posterior(fits_[a]) > best_posterior(fits_[b]);
     });
     return order;
   }
 
-  /// Does one of the effects gain less than the form errors of the others may hide?
-  bool hides_in_form_errors(const HypothesisFit& fit) const {
+  /// Does one of the effects gain less than the form errors of the others, and of the retunes that
+  /// are named beside it, may hide?
+  bool hides_in_form_errors(const HypothesisFit& fit, const RetuneChoice& choice) const {
     const auto& effects = fit.hypothesis.effects();
     for (std::size_t i = 0; i < effects.size(); ++i) {
       const auto found = known_.find(fit.hypothesis.without(*effects[i]).name());
       if (found == known_.end()) continue;
       const HypothesisFit& fewer = fits_[found->second];
-      if (2. * (fit.log_likelihood - fewer.log_likelihood) < fewer.form_energy()) return true;
+      std::vector<std::string> others;
+      for (const Effect* effect : fewer.hypothesis.effects()) others.push_back(effect->id);
+      const double hidden = fewer.form_energy(others) + fit.form_energy(choice.named);
+      if (2. * (fit.log_likelihood - fewer.log_likelihood) < hidden) return true;
     }
     return false;
+  }
+
+  double best_posterior(const HypothesisFit& fit) const {
+    double best = -std::numeric_limits<double>::infinity();
+    for (const RetuneChoice& choice : fit.choices) {
+      const double posterior = choice_posterior(fit, choice, testable_.size());
+      if (posterior > best && !hides_in_form_errors(fit, choice)) best = posterior;
+    }
+    return best;
   }
 
   /// More effects are tried only where the ones before have helped.
@@ -209,15 +224,13 @@ class Searcher {
     const std::vector<std::size_t> fewer = best_of_size(size - 1);
     const std::vector<std::size_t> before = best_of_size(size - 2);
     if (fewer.empty() || before.empty()) return false;
-    return best_posterior(fits_[fewer.front()], testable_.size()) >
-           best_posterior(fits_[before.front()], testable_.size());
+    return best_posterior(fits_[fewer.front()]) > best_posterior(fits_[before.front()]);
   }
 
   std::vector<Task> extensions(std::size_t size) {
     std::vector<std::size_t> bases = best_of_size(size - 1);
     keep_first(bases, size == 2 ? n_extended : n_extended / 2);
     std::vector<Task> tasks;
-    std::mutex mutex;
     std::set<std::string> names;
     for (const std::size_t base : bases)
       for (const Effect* partner : partners(base)) {
@@ -268,9 +281,10 @@ class Searcher {
 
   void add_choices(std::map<std::string, Candidate>& by_name, std::size_t i) const {
     const HypothesisFit& fit = fits_[i];
-    if (hides_in_form_errors(fit)) return;
     for (const RetuneChoice& choice : fit.choices) {
+      if (hides_in_form_errors(fit, choice)) continue;
       std::vector<std::string> ids = choice.named;
+      if (fit.hypothesis.is_discrepancy()) ids = {outside_catalogue};
       for (const Effect* effect : fit.hypothesis.effects()) ids.push_back(effect->id);
       const std::string name = joined_name(ids);
       const double posterior = choice_posterior(fit, choice, testable_.size());
@@ -284,6 +298,8 @@ class Searcher {
   const SearchOptions& options_;
   std::vector<const Effect*> testable_;
   std::vector<HypothesisFit> fits_;
+  std::mutex mutex_;
+  double best_log_posterior_ = -std::numeric_limits<double>::infinity();
   std::map<std::string, std::size_t> known_;  // number of the fit of a hypothesis
 };
 

@@ -11,7 +11,7 @@ Effect base_compliance() {
                 .confused_with = "stiffness (exact alias); second accelerometer, stiffer clamp",
                 .form_error = 0.02,
                 .log_prior = -1.5,
-                .parameters = {log_uniform("stiffness_ratio", "1", 0.5, 60., 1e9)},
+                .parameters = {log_uniform("stiffness_ratio", "1", 0.5, 60., 1e100)},
                 .starts = {{10.}, {30.}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
                   if (chain.structure.modes.empty()) return;

@@ -15,7 +15,7 @@ Effect relative_drag() {
       .starts = {{0.05}, {0.3}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         chain.relative_wind = {
-            .on = true,
+            .on = v[0] > 0.,
             .velocity_per_moment_rate = v[0] / (scales.first_mode_rad_s * scales.joint_moment_n_m)};
       }};
 }
