@@ -57,12 +57,17 @@ void check_clipping(const DatasetRecord& entry, std::vector<Finding>& findings) 
   }
 }
 
-/// Measured over nominal response to input, median over the lines where the nominal one is strong.
-std::optional<double> response_factor(std::span<const double> input, std::span<const double> output,
-                                      double rate_hz,
-                                      const std::function<Complex(Complex)>& response) {
+/// Measured over nominal response to input at the lines where the nominal one is strong.
+struct Ratio {
+  double median = 1.;
+  double spread = 0.;  // between quartiles of its logarithm
+};
+
+std::optional<Ratio> response_ratio(std::span<const double> input, std::span<const double> output,
+                                    double rate_hz,
+                                    const std::function<Complex(Complex)>& response) {
   const std::vector<Complex> in = spectrum_of(input), out = spectrum_of(output);
-  std::vector<double> predicted(in.size(), 0.), factors;
+  std::vector<double> predicted(in.size(), 0.), logs;
   double largest = 0.;
   for (std::size_t k = 1; k + 1 < in.size(); ++k) {
     const Complex s(0., 2. * std::numbers::pi * rate_hz * static_cast<double>(k) /
@@ -71,34 +76,34 @@ std::optional<double> response_factor(std::span<const double> input, std::span<c
     largest = std::max(largest, predicted[k]);
   }
   for (std::size_t k = 1; k + 1 < in.size(); ++k)
-    if (predicted[k] > 0.1 * largest) factors.push_back(std::abs(out[k]) / predicted[k]);
-  if (factors.empty()) return std::nullopt;
-  const auto middle = factors.begin() + static_cast<std::ptrdiff_t>(factors.size() / 2);
-  std::nth_element(factors.begin(), middle, factors.end());
-  return *middle;
+    if (predicted[k] > 0.1 * largest) logs.push_back(std::log(std::abs(out[k]) / predicted[k]));
+  if (logs.empty()) return std::nullopt;
+  std::sort(logs.begin(), logs.end());
+  const std::size_t n = logs.size();
+  return Ratio{std::exp(logs[n / 2]), logs[3 * n / 4] - logs[n / 4]};
 }
 
-std::optional<double> base_factor(const NominalModel& nominal, const DatasetRecord& entry,
-                                  bool exchanged) {
+std::optional<Ratio> base_ratio(const NominalModel& nominal, const DatasetRecord& entry,
+                                bool exchanged) {
   if (!nominal.has_base || !entry.excitation.base || entry.excitation.wind ||
       !entry.record.has(channel::base_acceleration))
     return std::nullopt;
   const auto a = entry.record.channel(channel::base_acceleration);
   const auto m = entry.record.channel(channel::base_moment);
-  return response_factor(exchanged ? m : a, exchanged ? a : m, entry.record.sampling_rate_hz(),
-                         [&](Complex s) { return nominal.base_response(s); });
+  return response_ratio(exchanged ? m : a, exchanged ? a : m, entry.record.sampling_rate_hz(),
+                        [&](Complex s) { return nominal.base_response(s); });
 }
 
-std::optional<double> wind_factor(const NominalModel& nominal, const DatasetRecord& entry) {
+std::optional<Ratio> wind_ratio(const NominalModel& nominal, const DatasetRecord& entry) {
   if (!nominal.has_wind || !entry.excitation.wind || entry.excitation.base ||
       !entry.record.has(channel::wind_speed))
     return std::nullopt;
   const auto u = entry.record.channel(channel::wind_speed);
   std::vector<double> force(u.begin(), u.end());
   for (double& value : force) value *= std::abs(value);
-  return response_factor(force, entry.record.channel(channel::base_moment),
-                         entry.record.sampling_rate_hz(),
-                         [&](Complex s) { return nominal.wind_response(s); });
+  return response_ratio(force, entry.record.channel(channel::base_moment),
+                        entry.record.sampling_rate_hz(),
+                        [&](Complex s) { return nominal.wind_response(s); });
 }
 
 /// A factor of the response that a wrong unit gives.
@@ -136,21 +141,22 @@ void check_units(const NominalModel& nominal, const DatasetRecord& entry,
       {1. / (3.6 * 3.6), "wind_speed_m_s seems to be in km/h; divide it by 3.6"},
       {1e3, "base_moment_N_m seems to be in N mm; multiply it by 1e-3"},
       {1e6, "base_moment_N_m seems to be in mN mm; multiply it by 1e-6"}};
-  if (const auto factor = base_factor(nominal, entry, false)) {
-    const auto exchanged = base_factor(nominal, entry, true);
-    const bool implausible = std::abs(std::log10(*factor)) > 4.;
-    if (implausible && exchanged && *exchanged > 0.05 && *exchanged < 20.) {
+  if (const auto ratio = base_ratio(nominal, entry, false)) {
+    const auto exchanged = base_ratio(nominal, entry, true);
+    const bool implausible = std::abs(std::log10(ratio->median)) > 4.;
+    if (implausible && exchanged && exchanged->median > 0.05 && exchanged->median < 20. &&
+        exchanged->spread < ratio->spread) {
       findings.push_back({FindingKind::swapped_columns, entry.name,
                           "base_acceleration_m_s2 and base_moment_N_m seem to be exchanged: as "
                           "they stand the response is " +
-                              text_of(*factor) + " times the simulated one, exchanged " +
-                              text_of(*exchanged) + " times"});
+                              text_of(ratio->median) + " times the simulated one, exchanged " +
+                              text_of(exchanged->median) + " times"});
       return;
     }
-    check_factor(*factor, entry.name, of_base, findings);
+    check_factor(ratio->median, entry.name, of_base, findings);
   }
-  if (const auto factor = wind_factor(nominal, entry))
-    check_factor(*factor, entry.name, of_wind, findings);
+  if (const auto ratio = wind_ratio(nominal, entry))
+    check_factor(ratio->median, entry.name, of_wind, findings);
 }
 
 void check_repeats(const DatasetRecord& entry, std::vector<Finding>& findings) {

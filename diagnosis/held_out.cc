@@ -186,7 +186,7 @@ std::optional<double> gap_closed(const Block& sum) {
 std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
                                               const Levels& levels, const HeldOutOptions& options) {
   constexpr std::size_t fewest_blocks = 8;
-  if (blocks.size() < fewest_blocks) return std::nullopt;
+  if (blocks.size() < fewest_blocks || options.n_resamples == 0) return std::nullopt;
   std::mt19937_64 random(options.seed);
   std::uniform_int_distribution<std::size_t> pick(0, blocks.size() - 1);
   std::normal_distribution<double> normal;

@@ -93,6 +93,24 @@ struct Direction {
   double half_prior = 0.;          // nats of a unit of it
 };
 
+/// A start moved so near to neutral that its effect is a direction, its shape kept.
+std::vector<double> faint(const Effect& effect, std::vector<double> values) {
+  constexpr double share = 0.1;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Parameter& parameter = effect.parameters[i];
+    const double low = parameter.value(parameter.prior.low);
+    const double high = parameter.value(parameter.prior.high);
+    const bool within = parameter.neutral >= low && parameter.neutral <= high;
+    if (!parameter.logarithmic)
+      values[i] = parameter.neutral + share * (values[i] - parameter.neutral);
+    else if (!within)
+      values[i] = parameter.neutral < low ? low : high;
+    else if (parameter.neutral == 1.)
+      values[i] = std::pow(values[i], share);
+  }
+  return values;
+}
+
 class Directions {
  public:
   Directions(const Experiment& experiment, const HypothesisFit& fit) : changes_(experiment, fit) {
@@ -108,7 +126,27 @@ class Directions {
   }
 
   const std::vector<Direction>& list() const { return list_; }
-  const Changes& changes() const { return changes_; }
+
+  /// What a named effect does: along its tangents from where it is to neutral, or as a whole where
+  /// neutral is infinitely far.
+  Eigen::VectorXd change_of(const Effect& effect, const Experiment& experiment,
+                            const HypothesisFit& fit) const {
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(columns_.rows());
+    Eigen::Index column = 0;
+    for (std::size_t i = 0; i < fit.figures.size(); ++i) {
+      const FreeFigure& figure = fit.figures[i];
+      if (figure.description.name == "form_error_share") continue;
+      if (figure.effect == &effect) {
+        const Parameter& parameter = figure.description;
+        const double neutral = parameter.coordinate(parameter.neutral);
+        if (!(neutral >= parameter.prior.low && neutral <= parameter.prior.high))
+          return changes_.of(state_at(experiment, fit, fit.x, &effect));
+        along += (neutral - fit.x(static_cast<Eigen::Index>(i))) * columns_.col(column);
+      }
+      ++column;
+    }
+    return along;
+  }
 
   /// Nats of a change that are left when the chosen directions follow it.
   double left(const Eigen::VectorXd& change, const std::vector<bool>& chosen) const {
@@ -155,7 +193,7 @@ class Directions {
       if (held || blind) continue;
       for (const std::vector<double>& values : effect.starts) {
         State moved = state;
-        effect.extend(moved.chain, values, experiment.scales);
+        effect.extend(moved.chain, faint(effect, values), experiment.scales);
         columns.push_back(changes_.of(moved));
         list_.push_back({&effect, true, 0.});
       }
@@ -229,9 +267,8 @@ std::vector<std::vector<std::string>> indistinguishable_sets(const Experiment& e
   if (named.empty()) return sets;
   const Directions directions(experiment, fit);
   for (const Effect* effect : named) {
-    const Eigen::VectorXd change =
-        directions.changes().of(state_at(experiment, fit, fit.x, effect));
-    for (std::vector<std::string>& set : Sets(directions, *effect, change).run())
+    for (std::vector<std::string>& set :
+         Sets(directions, *effect, directions.change_of(*effect, experiment, fit)).run())
       if (set.size() > 1) sets.push_back(std::move(set));
   }
   return sets;

@@ -62,6 +62,17 @@ double split(const MenuEntry& entry, const std::vector<Answer>& answers) {
   return 1. - same;
 }
 
+/// Weight of the answers that an entry shows in a way of its own: an effect that is merely absent
+/// proves less.
+double shown_share(const MenuEntry& entry, const std::vector<Answer>& answers) {
+  double shown = 0., total = 0.;
+  for (const Answer& answer : answers) {
+    if (!sign(entry, answer.name).empty()) shown += answer.weight;
+    total += answer.weight;
+  }
+  return shown / total;
+}
+
 std::string what_it_shows(const MenuEntry& entry, const std::vector<std::string>& ids) {
   std::string text;
   for (const std::string& id : ids)
@@ -180,9 +191,12 @@ NextExperiment next_experiment(const std::vector<Candidate>& candidates,
   const std::vector<Answer> answers = answers_left(candidates, confidence_set, indistinguishable);
   NextExperiment out;
   const MenuEntry* best = nullptr;
+  double best_worth = 0.;
   for (const MenuEntry& entry : experiment_menu()) {
     const double value = split(entry, answers);
-    if (value <= out.split_probability + 1e-9) continue;
+    const double worth = value * (0.5 + 0.5 * shown_share(entry, answers));
+    if (worth <= best_worth + 1e-9) continue;
+    best_worth = worth;
     out.split_probability = value;
     best = &entry;
   }
