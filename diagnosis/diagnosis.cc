@@ -145,7 +145,7 @@ Diagnosis diagnose(const NominalModel& nominal, const signals::Dataset& real,
       prepare_experiment(nominal, real, signals::Split::held_out, InputNoise::as_measured);
   if (has_moving(held_out)) score_answers(out, result, experiment, held_out, options);
   set_gap(out, nominal, real, result, experiment);
-  out.indistinguishable = indistinguishable_sets(experiment, result.fits[best.fit], best);
+  out.indistinguishable = indistinguishable_sets(experiment, result);
   out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable);
   return out;
 }

@@ -18,28 +18,25 @@ struct State {
   double moment_variance = 0., acceleration_variance = 0.;
 };
 
-/// The fit's chain at coordinates x, one effect at nominal.
+/// The fit's chain at coordinates x, without one effect.
 State state_at(const Experiment& experiment, const HypothesisFit& fit, const Eigen::VectorXd& x,
                const Effect* left_out = nullptr) {
+  HypothesisFit moved;
+  std::vector<double> kept;
   State state;
-  state.chain.structure = experiment.nominal;
-  for (std::size_t i = 0; i < fit.figures.size();) {
+  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
     const FreeFigure& figure = fit.figures[i];
+    if (left_out != nullptr && figure.effect == left_out) continue;
     const double at = x(static_cast<Eigen::Index>(i));
-    if (figure.effect == nullptr) {
-      const std::string& name = figure.description.name;
-      if (name == "moment_noise") state.moment_variance = std::exp(2. * at);
-      if (name == "acceleration_noise") state.acceleration_variance = std::exp(2. * at);
-      if (name == "joint_share") state.chain.joint_share = at;
-      ++i;
-      continue;
-    }
-    std::vector<double> values;
-    const Effect* effect = figure.effect;
-    for (; i < fit.figures.size() && fit.figures[i].effect == effect; ++i)
-      values.push_back(fit.figures[i].description.value(x(static_cast<Eigen::Index>(i))));
-    if (effect != left_out) effect->extend(state.chain, values, experiment.scales);
+    moved.figures.push_back(figure);
+    kept.push_back(at);
+    if (figure.effect != nullptr) continue;
+    if (figure.description.name == "moment_noise") state.moment_variance = std::exp(2. * at);
+    if (figure.description.name == "acceleration_noise")
+      state.acceleration_variance = std::exp(2. * at);
   }
+  moved.x = Eigen::Map<const Eigen::VectorXd>(kept.data(), static_cast<Eigen::Index>(kept.size()));
+  state.chain = moved.chain(experiment);
   return state;
 }
 
@@ -95,7 +92,7 @@ struct Direction {
 
 /// A start moved so near to neutral that its effect is a direction, its shape kept.
 std::vector<double> faint(const Effect& effect, std::vector<double> values) {
-  constexpr double share = 0.1;
+  constexpr double share = 1e-3;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Parameter& parameter = effect.parameters[i];
     const double low = parameter.value(parameter.prior.low);
@@ -104,11 +101,17 @@ std::vector<double> faint(const Effect& effect, std::vector<double> values) {
     if (!parameter.logarithmic)
       values[i] = parameter.neutral + share * (values[i] - parameter.neutral);
     else if (!within)
-      values[i] = parameter.neutral < low ? low : high;
+      values[i] = parameter.neutral < low ? low * share : high / share;
     else if (parameter.neutral == 1.)
       values[i] = std::pow(values[i], share);
   }
   return values;
+}
+
+/// Nats of a unit of a nuisance: within twice the spread of its prior, for the question is what the
+/// data say.
+double half_prior(const FreeFigure& figure, double x) {
+  return 0.5 * figure.description.prior.curvature(x) / 4.;
 }
 
 class Directions {
@@ -159,10 +162,16 @@ class Directions {
     const Eigen::VectorXd right = (columns_.transpose() * change)(places);
     const Eigen::MatrixXd matrix = gram_(places, places);
     const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-    Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-    scaled.diagonal().array() += 1e-10;
-    const Eigen::VectorXd scaled_right = scale.asDiagonal() * right;
-    return std::max(0., whole - scaled_right.dot(scaled.ldlt().solve(scaled_right)));
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+    const Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * right);
+    // Directions that are the same but for rounding count once.
+    constexpr double same = 1e-11;
+    double explained = 0.;
+    for (Eigen::Index i = 0; i < along.size(); ++i)
+      if (solver.eigenvalues()(i) > same)
+        explained += along(i) * along(i) / solver.eigenvalues()(i);
+    return std::max(0., whole - explained);
   }
 
  private:
@@ -177,7 +186,7 @@ class Directions {
       if (x(place) + h > figure.description.prior.high) h = -h;
       x(place) += h;
       columns.push_back(changes_.of(state_at(experiment, fit, x)) / h);
-      list_.push_back({figure.effect, false, 0.5 * figure.description.prior.curvature(x(place))});
+      list_.push_back({figure.effect, false, half_prior(figure, x(place))});
     }
   }
 
@@ -255,20 +264,38 @@ class Sets {
   std::vector<bool> free_;
 };
 
+/// Hypothesis with one effect in another's place.
+std::string exchanged(const Hypothesis& hypothesis, const Effect& effect, const Effect& rival) {
+  return hypothesis.without(effect).with(rival).name();
+}
+
+/// Effects that do in a fit of their own what the named one does in the best fit.
+void add_refitted(const SearchResult& result, const HypothesisFit& best, const Effect& effect,
+                  std::vector<std::vector<std::string>>& sets) {
+  for (const Effect& rival : effect_catalogue()) {
+    if (best.hypothesis.contains(rival.id)) continue;
+    const std::string name = exchanged(best.hypothesis, effect, rival);
+    for (const HypothesisFit& fit : result.fits)
+      if (fit.hypothesis.name() == name && best.log_likelihood - fit.log_likelihood < enough_nats)
+        sets.push_back({effect.id, rival.id});
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<std::string>> indistinguishable_sets(const Experiment& experiment,
-                                                             const HypothesisFit& fit,
-                                                             const Candidate& candidate) {
+                                                             const SearchResult& result) {
   std::vector<std::vector<std::string>> sets;
-  std::vector<const Effect*> named;
-  for (const std::string& id : effect_ids(candidate.name))
-    if (fit.place(id, 0)) named.push_back(&find_effect(id));
-  if (named.empty()) return sets;
-  const Directions directions(experiment, fit);
-  for (const Effect* effect : named) {
-    for (std::vector<std::string>& set :
-         Sets(directions, *effect, directions.change_of(*effect, experiment, fit)).run())
+  if (result.candidates.empty()) return sets;
+  const Candidate& candidate = result.candidates.front();
+  const HypothesisFit& best = result.fits[candidate.fit];
+  for (const Effect* effect : best.hypothesis.effects()) add_refitted(result, best, *effect, sets);
+  if (candidate.retunes.empty()) return sets;
+  const Directions directions(experiment, best);
+  for (const std::string& id : candidate.retunes) {
+    const Effect& effect = find_effect(id);
+    Eigen::VectorXd change = directions.change_of(effect, experiment, best);
+    for (std::vector<std::string>& set : Sets(directions, effect, std::move(change)).run())
       if (set.size() > 1) sets.push_back(std::move(set));
   }
   return sets;

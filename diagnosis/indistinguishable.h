@@ -7,13 +7,13 @@
 
 namespace vibrissa::diagnosis {
 
-/// Sets of effects of which this experiment cannot say which it is: for each effect that the
-/// candidate names, what it does at the size found (whitened change of mean and of log variance) is
-/// projected on what each other effect does, with the nuisances, the noise levels and the other
-/// effects of the hypothesis free within their priors. Less than two nats left: not told apart.
-/// First member: the named effect. Proven by tests/diagnosis/indistinguishable_test.cc.
+/// Sets of effects of which this experiment cannot say which it is, for the most probable
+/// candidate; first member: the effect that it names. Fewer than two nats between them. An effect:
+/// against what the data say of each other effect fitted in its place. A retune parameter: its
+/// tangent times its size (whitened mean and log variance) projected on the tangent of each other
+/// effect, with the other nuisances, the noise levels and the effects of the hypothesis free within
+/// twice the spread of their priors. Proven by tests/diagnosis/indistinguishable_test.cc.
 std::vector<std::vector<std::string>> indistinguishable_sets(const Experiment& experiment,
-                                                             const HypothesisFit& fit,
-                                                             const Candidate& candidate);
+                                                             const SearchResult& result);
 
 }  // namespace vibrissa::diagnosis

@@ -11,15 +11,36 @@ namespace vibrissa::diagnosis {
 namespace {
 
 /// The words that effects.md fixes, but sample_repeat, which is known by its equal neighbours.
-const std::set<std::string> ids_of_effects_md{
-    "stiffness",         "damping",          "mass",           "hardening",
-    "viscoelastic",      "softening_history", "temperature_drift", "extra_mode",
-    "base_compliance",   "mount_compliance", "stage_rocking",  "joint_friction",
-    "backlash",          "relative_drag",    "drag_error",     "flow_lag",
-    "vortex_shedding",   "turbulence",       "reference_gain", "reference_noise",
-    "reference_highpass", "cross_axis",      "sensor_gain",    "sensor_nonlinearity",
-    "coil_feedthrough",  "sensor_drift",     "hum",            "delay",
-    "sensor_lowpass",    "clock_drift"};
+const std::set<std::string> ids_of_effects_md{"stiffness",
+                                              "damping",
+                                              "mass",
+                                              "hardening",
+                                              "viscoelastic",
+                                              "softening_history",
+                                              "temperature_drift",
+                                              "extra_mode",
+                                              "base_compliance",
+                                              "mount_compliance",
+                                              "stage_rocking",
+                                              "joint_friction",
+                                              "backlash",
+                                              "relative_drag",
+                                              "drag_error",
+                                              "flow_lag",
+                                              "vortex_shedding",
+                                              "turbulence",
+                                              "reference_gain",
+                                              "reference_noise",
+                                              "reference_highpass",
+                                              "cross_axis",
+                                              "sensor_gain",
+                                              "sensor_nonlinearity",
+                                              "coil_feedthrough",
+                                              "sensor_drift",
+                                              "hum",
+                                              "delay",
+                                              "sensor_lowpass",
+                                              "clock_drift"};
 
 /// A base record, one under wind and one with both, all with a transverse acceleration.
 Experiment experiment_of_all_kinds() {
