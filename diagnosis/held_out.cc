@@ -131,35 +131,41 @@ void take_hum_off(Samples& error, double rate_hz, const HypothesisFit& fit) {
   }
 }
 
-double mean_of(std::span<const double> x) {
-  return std::accumulate(x.begin(), x.end(), 0.) / static_cast<double>(x.size());
+/// Slope of the straight line through samples, a sample.
+double slope_of(std::span<const double> x) {
+  const double n = static_cast<double>(x.size()), middle = 0.5 * (n - 1.);
+  double sum = 0.;
+  for (std::size_t i = 0; i < x.size(); ++i) sum += (static_cast<double>(i) - middle) * x[i];
+  return 12. * sum / (n * n * n);
 }
 
-/// Offset at sample i as samples [0, known) foretell it: with slope, or the level of their end.
-double foretold_offset(std::span<const double> error, std::size_t known, bool sloped, double i) {
-  const std::size_t end = known / 4;
-  const double last = mean_of(error.subspan(known - end, end));
-  if (!sloped) return last;
-  const double n = static_cast<double>(known), middle = 0.5 * (n - 1.);
-  double slope = 0.;
-  for (std::size_t j = 0; j < known; ++j) slope += (static_cast<double>(j) - middle) * error[j];
-  slope *= 12. / (n * n * n);
-  return mean_of(error.first(known)) + slope * (i - middle);
-}
-
-void take_drift_off(Samples& error) {
-  const std::size_t half = error.size() / 2, trial = half * 3 / 4;
-  double square[2] = {0., 0.};
-  for (const bool sloped : {false, true}) {
-    const double offset =
-        foretold_offset(error, trial, sloped, 0.5 * static_cast<double>(trial + half));
-    const double miss = mean_of(std::span(error).subspan(trial, half - trial)) - offset;
-    square[sloped] = miss * miss;
+double square_about_mean(std::span<const double> x, double slope) {
+  double sum = 0., square = 0.;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double value = x[i] - slope * static_cast<double>(i);
+    sum += value;
+    square += value * value;
   }
-  const bool sloped = square[1] < square[0];
-  const Samples known(error.begin(), error.begin() + static_cast<std::ptrdiff_t>(half));
-  for (std::size_t i = half; i < error.size(); ++i)
-    error[i] -= foretold_offset(known, half, sloped, static_cast<double>(i));
+  return square - sum * sum / static_cast<double>(x.size());
+}
+
+/// Takes a ramp off when the first part of the first half foretells the rest of that half with it.
+bool take_drift_off(Samples& error) {
+  const std::span<const double> half = std::span(error).first(error.size() / 2);
+  const std::span<const double> part = half.first(half.size() / 2);
+  const std::span<const double> rest = half.subspan(part.size());
+  if (square_about_mean(rest, slope_of(part)) >= square_about_mean(rest, 0.)) return false;
+  const double slope = slope_of(half);
+  for (std::size_t i = 0; i < error.size(); ++i) error[i] -= slope * static_cast<double>(i);
+  return true;
+}
+
+/// An offset tells nothing: the mean of what is judged goes.
+void take_mean_off(Samples& x, std::size_t first) {
+  double mean = 0.;
+  for (std::size_t i = first; i < x.size(); ++i)
+    mean += x[i] / static_cast<double>(x.size() - first);
+  for (double& value : x) value -= mean;
 }
 
 /// Sums over one block of time.
@@ -258,28 +264,34 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
   HeldOutScore out;
   for (const Effect* effect : fit.hypothesis.effects())
     if (effect->irreducible)
-      (effect->id == "hum" || effect->id == "sensor_drift" ? out.foretold : out.not_foretold)
-          .push_back(effect->id);
+      (effect->id == "hum" ? out.foretold : out.not_foretold).push_back(effect->id);
+  const bool halved = fit.hypothesis.contains("hum") || fit.hypothesis.contains("sensor_drift");
+  bool ramp = false;
   std::vector<Block> all;
   for (const PreparedRecord& record : held_out.records) {
     if (!record.excitation.base && !record.excitation.wind) continue;
     const Prediction prediction = simulate(chain, record);
-    const Samples before =
+    const std::size_t first = halved ? record.n_judged / 2 : 0;
+    Samples before =
         judged_samples(record, difference(record.moment, simulate_mean(nominal, record)));
     Samples after = judged_samples(record, difference(record.moment, prediction.mean));
-    for (const std::string& id : out.foretold)
-      id == "hum" ? take_hum_off(after, record.sampling_rate_hz, fit) : take_drift_off(after);
+    Samples measured = judged_samples(record, record.moment);
+    if (fit.hypothesis.contains("hum")) take_hum_off(after, record.sampling_rate_hz, fit);
+    if (fit.hypothesis.contains("sensor_drift")) ramp |= take_drift_off(after);
+    for (Samples* x : {&before, &after, &measured}) take_mean_off(*x, first);
     FloorParts floor = floor_parts(record, prediction, chain, levels.moment.variance,
                                    levels.acceleration.variance);
     if (out.not_foretold.empty()) floor.own = 0.;
-    const std::size_t first = out.foretold.empty() ? 0 : before.size() / 2;
     const std::vector<Block> blocks =
-        blocks_of(record, before, after, judged_samples(record, record.moment), first, floor,
-                  options.block_s);
+        blocks_of(record, before, after, measured, first, floor, options.block_s);
     out.records.push_back(score(record.name, blocks, levels, options));
     all.insert(all.end(), blocks.begin(), blocks.end());
   }
   if (all.empty()) throw signals::UserError("every held_out record is at rest: nothing to score");
+  if (ramp) {
+    std::erase(out.not_foretold, "sensor_drift");
+    out.foretold.push_back("sensor_drift");
+  }
   out.overall = score("", all, levels, options);
   return out;
 }
