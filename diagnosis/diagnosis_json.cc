@@ -146,10 +146,15 @@ std::string others_line(const Diagnosis& diagnosis) {
   return text;
 }
 
-std::string shortened(std::string line) {
+/// A line of at most 100 characters, or two, broken at a space; what is longer ends in dots.
+std::vector<std::string> wrapped(const std::string& line) {
   constexpr std::size_t longest = 100;
-  if (line.size() > longest) line = line.substr(0, longest - 3) + "...";
-  return line;
+  if (line.size() <= longest) return {line};
+  std::size_t cut = line.rfind(' ', longest);
+  if (cut == std::string::npos || cut < longest / 2) cut = longest;
+  std::string rest = "   " + line.substr(cut);
+  if (rest.size() > longest) rest = rest.substr(0, longest - 3) + "...";
+  return {line.substr(0, cut), rest};
 }
 
 }  // namespace
@@ -185,8 +190,10 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
 std::string verdict_text(const Diagnosis& diagnosis) {
   constexpr std::size_t most_lines = 15;
   std::vector<std::string> lines;
-  const auto add = [&](std::string line) {
-    if (!line.empty()) lines.push_back(shortened(std::move(line)));
+  const auto add = [&](const std::string& line) {
+    if (line.empty()) return;
+    for (std::string& part : wrapped(line))
+      if (lines.size() < most_lines) lines.push_back(std::move(part));
   };
   add(verdict_line(diagnosis));
   if (!diagnosis.ranking.empty()) {
@@ -202,7 +209,6 @@ std::string verdict_text(const Diagnosis& diagnosis) {
   if (diagnosis.next.name != "none")
     add("Measure next: " + diagnosis.next.name + " - " + diagnosis.next.why);
   for (const Finding& finding : diagnosis.findings) {
-    if (lines.size() == most_lines) break;
     add("Note: " + (finding.record.empty() ? "" : finding.record + ": ") + finding.message);
   }
   return joined(lines, "\n") + "\n";

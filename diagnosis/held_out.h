@@ -29,8 +29,8 @@ struct ErrorScore {
 struct HeldOutScore {
   ErrorScore overall{};
   std::vector<ErrorScore> records{};
-  /// Irreducible effects whose course was estimated on the first half of each record; when there is
-  /// one, only second halves are scored.
+  /// Irreducible effects whose course was estimated on the first half of each record. With hum or
+  /// sensor_drift in the fit only second halves are scored.
   std::vector<std::string> foretold{};
   /// Irreducible effects of which nothing can be foretold: their noise stays in nrmse_after.
   std::vector<std::string> not_foretold{};
@@ -43,11 +43,12 @@ struct HeldOutOptions {
 };
 
 /// Scores a fit on records that it has not seen, prepared with Split::held_out and
-/// InputNoise::as_measured. fitted_on: the experiment of the fit.
-/// The interval is a bootstrap over blocks of time, in which both noise levels vary as the fit
-/// knows them. A hum is foretold by a line fitted to the first half; a drift by its last level or
-/// its slope, whichever foretold the end of the first half better. Throws UserError when there is
-/// no record. Proven by tests/diagnosis/held_out_test.cc.
+/// InputNoise::as_measured. fitted_on: the experiment of the fit. The interval is a bootstrap over
+/// blocks of time, in which both noise levels vary as far as they are known. A hum is foretold by a
+/// line fitted to the first half; a drift by its slope, where its first quarter foretold the second
+/// with it: a random walk has nothing to foretell but its level, and the mean of what is judged
+/// counts nowhere. Throws UserError when there is no record. Proven by
+/// tests/diagnosis/held_out_test.cc.
 HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_out,
                             const HypothesisFit& fit, const HeldOutOptions& options = {});
 

@@ -288,6 +288,18 @@ void set_level_exponent(Location& out, const std::vector<RecordGap>& gaps) {
   out.level_exponent = std::abs(slope) > 2. * out.level_exponent_deviation ? slope : 0.;
 }
 
+/// Are the excited lines so far above the accelerometer's noise that none was taken for left out?
+bool every_line_stands_out(const PreparedRecord& record) {
+  std::vector<double> shares;
+  for (std::size_t k = 1; k < record.acceleration.size(); ++k)
+    if (std::norm(record.acceleration[k]) > 0.) shares.push_back(record.noise_share[k]);
+  if (shares.empty()) return false;
+  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
+  std::nth_element(shares.begin(), middle, shares.end());
+  constexpr double clear_share = 0.97;
+  return *middle > clear_share;
+}
+
 /// p-values of the lines that a multisine left out, [0] odd and [1] even multiples of its base
 /// line, against the noise between the lines of its period.
 std::array<double, 2> parity_p_values(const RecordGap& gap) {
@@ -298,7 +310,7 @@ std::array<double, 2> parity_p_values(const RecordGap& gap) {
       step = std::gcd(step, k);
       if (first == 0) first = k;
     }
-  if (step < 2) return {1., 1.};
+  if (step < 2 || !every_line_stands_out(record)) return {1., 1.};
   std::vector<double> between(gap.error.size(), 0.), counted(gap.error.size(), 0.);
   for (std::size_t b = 0; b < gap.error.size(); ++b)
     if ((b + 1) % step != 0) {
