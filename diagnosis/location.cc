@@ -302,7 +302,7 @@ bool every_line_stands_out(const PreparedRecord& record) {
 
 /// p-values of the lines that a multisine left out, [0] odd and [1] even multiples of its base
 /// line, against the noise between the lines of its period.
-std::array<double, 2> parity_p_values(const RecordGap& gap) {
+std::array<double, 2> parity_p_values(const RecordGap& gap, const RestNoise& rest) {
   const PreparedRecord& record = *gap.record;
   std::size_t step = 0, first = 0;
   for (std::size_t k = 1; k < record.acceleration.size(); ++k)
@@ -321,7 +321,7 @@ std::array<double, 2> parity_p_values(const RecordGap& gap) {
   const std::vector<double> noise = smoothed(between, reach), share = smoothed(counted, reach);
   std::array<double, 2> sum{}, n{};
   for (std::size_t k = std::max(step, first / 2 / step * step); k <= gap.error.size(); k += step) {
-    if (std::norm(record.acceleration[k]) > 0.) continue;
+    if (std::norm(record.acceleration[k]) > 0. || on_rest_line(rest, record, k - 1)) continue;
     const std::size_t parity = (k / step) % 2 == 0 ? 1 : 0;
     // The mean of m exponential variates, inverted, is too large by m / (m - 1).
     const double m = share[k - 1] * (2. * reach + 1.);
@@ -331,21 +331,22 @@ std::array<double, 2> parity_p_values(const RecordGap& gap) {
   const double n_between = 2. * std::accumulate(counted.begin(), counted.end(), 0.);
   std::array<double, 2> p{1., 1.};
   for (std::size_t i = 0; i < 2; ++i)
-    if (n[i] > 0.) p[i] = variance_ratio_tail(sum[i] / n[i], 2. * n[i], n_between);
+    // A ratio to the mean of some 15 neighbours scatters more than the line itself.
+    if (n[i] > 0.) p[i] = variance_ratio_tail(sum[i] / n[i], 2. * n[i] / 1.2, n_between);
   return p;
 }
 
-Harmonics harmonics_of(const std::vector<RecordGap>& gaps) {
+Harmonics harmonics_of(const std::vector<RecordGap>& gaps, const RestNoise& rest) {
   std::vector<double> p_values;
   for (const RecordGap& gap : gaps) {
     if (kind_of(*gap.record) != "base" || !gap.record->periodic) continue;
-    const std::array<double, 2> p = parity_p_values(gap);
+    const std::array<double, 2> p = parity_p_values(gap, rest);
     p_values.insert(p_values.end(), p.begin(), p.end());
   }
   const std::vector<double> corrected = holm_corrected(p_values);
   bool odd = false, even = false;
   for (std::size_t i = 0; i < corrected.size(); ++i)
-    (i % 2 == 0 ? odd : even) |= corrected[i] < significant;
+    (i % 2 == 0 ? odd : even) |= corrected[i] < 0.1 * significant;
   if (odd && even) return Harmonics::both;
   if (odd) return Harmonics::odd;
   return even ? Harmonics::even : Harmonics::none;
@@ -465,7 +466,7 @@ Location locate_gap(const Experiment& experiment) {
   out.mode = nearest_mode(experiment.nominal, out.map);
   out.channels = gap_channels(out.map, out.present_at_rest);
   set_level_exponent(out, gaps);
-  out.harmonics = harmonics_of(gaps);
+  out.harmonics = harmonics_of(gaps, rest);
   out.varies_in_time = varies_in_time(gaps);
   return out;
 }

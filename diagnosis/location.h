@@ -47,8 +47,8 @@ struct Location {
 /// Error of the nominal model on the fit records, whitened with the noise of both channels, by
 /// third-octave band and kind of record; parity at lines of periodic records that are not excited;
 /// trend of gain and phase over time; colour and lines of records at rest. A statement is made when
-/// its p-value, corrected for all tests of its kind, is below 0.01. experiment: Split::fit,
-/// InputNoise::reduced. Proven by tests/diagnosis/location_test.cc.
+/// its p-value, corrected for all tests of its kind, is below 0.01 (distortion: 0.001).
+/// experiment: Split::fit, InputNoise::reduced. Proven by tests/diagnosis/location_test.cc.
 Location locate_gap(const Experiment& experiment);
 
 /// Links of the effects named by the candidates, by the sum of their probabilities; above 0.1.
