@@ -71,6 +71,20 @@ TEST(Location, FindsTheWrongDragUnderWindAlone) {
   EXPECT_THAT(located(rig, {.wind = true}).channels, ElementsAre("wind"));
 }
 
+TEST(Location, NoticesAGainThatDriftsWithinARecord) {
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
+  for (signals::DatasetRecord& entry : dataset.records) {
+    const auto m = entry.record.channel(signals::channel::base_moment);
+    std::vector<double> drifting(m.begin(), m.end());
+    for (std::size_t i = 0; i < drifting.size(); ++i)
+      drifting[i] *= 1. + 0.2 * static_cast<double>(i) / static_cast<double>(drifting.size());
+    entry.record.set_channel(signals::channel::base_moment, std::move(drifting));
+  }
+  EXPECT_TRUE(locate_gap(prepare_experiment(test::nominal_of(test::OneModeRig{}, false), dataset,
+                                            signals::Split::fit, InputNoise::reduced))
+                  .varies_in_time);
+}
+
 TEST(Location, SumsProbabilitiesOfLinksOverCandidates) {
   SearchResult result;
   result.candidates = {{.name = "delay+stiffness", .fit = 0, .retunes = {}, .probability = 0.5},
