@@ -25,6 +25,7 @@ void print_json(const nlohmann::json& document);
 /// Each adds its subcommand; the work happens in the subcommand's callback.
 void add_benchmark_command(CLI::App& app);
 void add_bode_command(CLI::App& app);
+void add_diagnose_command(CLI::App& app);
 void add_draw_command(CLI::App& app);
 void add_excite_command(CLI::App& app);
 void add_identify_command(CLI::App& app);

@@ -4,12 +4,13 @@
 
 #include "apps/blas_kernel.h"
 #include "apps/command.h"
+#include "diagnosis/diagnosis.h"
 #include "report/revision.h"
 #include "signals/error.h"
 
 namespace {
 
-constexpr int bad_input = 2, internal_error = 70;
+constexpr int bad_input = 2, too_poor_data = 3, internal_error = 70;
 
 constexpr const char* about =
     "Vibrissa: why the whisker or airflow sensor on the bench differs from the one in the "
@@ -20,8 +21,10 @@ constexpr const char* footer =
     "Examples:\n"
     "  vibrissa run cases/flow_sensor.prm\n"
     "  vibrissa modes cases/whisker_sensor.prm --json\n"
+    "  vibrissa diagnose --sim simulated --real bench --out diagnosis\n"
     "  vibrissa identify recording.csv --column base_acceleration=z_mps2 --rate 500\n"
-    "Exit status: 0 done, 2 bad input (the message says what and where), 70 a fault of ours.";
+    "Exit status: 0 done, 2 bad input (the message says what and where), 3 too little "
+    "data to say anything, 70 a fault of ours.";
 
 int run(int argc, char** argv) {
   CLI::App app(about, "vibrissa");
@@ -37,6 +40,7 @@ int run(int argc, char** argv) {
   vibrissa::apps::add_excite_command(app);
   vibrissa::apps::add_identify_command(app);
   vibrissa::apps::add_separate_command(app);
+  vibrissa::apps::add_diagnose_command(app);
   vibrissa::apps::add_reproduce_command(app);
   vibrissa::apps::add_benchmark_command(app);
   vibrissa::apps::add_draw_command(app);
@@ -57,6 +61,9 @@ int main(int argc, char** argv) {
   } catch (const vibrissa::signals::UserError& error) {
     std::cerr << "vibrissa: " << error.what() << std::endl;
     return bad_input;
+  } catch (const vibrissa::diagnosis::TooPoorData& error) {
+    std::cerr << "vibrissa: " << error.what() << std::endl;
+    return too_poor_data;
   } catch (const std::exception& error) {
     std::cerr
         << "vibrissa: internal error: " << error.what()

@@ -11,7 +11,7 @@ namespace {
 
 /// Places of the figures that belong to no effect.
 constexpr std::size_t place_moment_noise = 0, place_acceleration_noise = 1, place_joint_share = 2,
-                      place_joint_loss = 3, n_own_figures = 4;
+                      place_joint_loss = 3, n_noise_figures = 2, n_own_figures = 4;
 
 /// An ADXL345 or its like at rest, a sample [m/s^2]: paper.md gives 0.008 g as its bound.
 constexpr double usual_acceleration_noise = 0.05, usual_spread = 0.4;
@@ -422,13 +422,15 @@ bool hypothesis_has_effects(const std::vector<FreeFigure>& figures) {
 /// Coordinates to start from: noise as guessed, nuisances nominal or as in start, effects at one of
 /// their own starts or as in start.
 Eigen::VectorXd start_vector(const Experiment& experiment, const std::vector<FreeFigure>& figures,
-                             const HypothesisFit* start) {
+                             const HypothesisFit* start, bool nominal_nuisances) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(figures.size()));
   x(place_moment_noise) = std::log(experiment.moment_noise);
   x(place_acceleration_noise) = std::log(experiment.acceleration_noise);
   x(place_joint_share) = experiment.nominal.joint_share;
   x(place_joint_loss) = 1.;
-  if (start != nullptr) x.head(n_own_figures) = start->x.head(n_own_figures);
+  if (start != nullptr)
+    x.head(nominal_nuisances ? n_noise_figures : n_own_figures) =
+        start->x.head(nominal_nuisances ? n_noise_figures : n_own_figures);
   for (std::size_t i = n_own_figures; i < figures.size(); ++i) {
     const FreeFigure& figure = figures[i];
     double& value = x(static_cast<Eigen::Index>(i));
@@ -439,7 +441,7 @@ Eigen::VectorXd start_vector(const Experiment& experiment, const std::vector<Fre
     const double at = figure.nuisance ? (figure.parameter == 0 ? 1. : 0.5)
                                       : figure.effect->starts.front()[figure.parameter];
     value = figure.description.coordinate(at);
-    if (start == nullptr) continue;
+    if (start == nullptr || (figure.nuisance && nominal_nuisances)) continue;
     if (const auto place = start->place(figure.effect->id, figure.parameter))
       value = start->x(static_cast<Eigen::Index>(*place));
   }
@@ -450,9 +452,9 @@ Eigen::VectorXd start_vector(const Experiment& experiment, const std::vector<Fre
 /// All combinations of the starts of effects that the given start does not hold.
 std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
                                            const std::vector<FreeFigure>& figures,
-                                           const Hypothesis& hypothesis,
-                                           const HypothesisFit* start) {
-  std::vector<Eigen::VectorXd> starts{start_vector(experiment, figures, start)};
+                                           const Hypothesis& hypothesis, const HypothesisFit* start,
+                                           bool nominal_nuisances) {
+  std::vector<Eigen::VectorXd> starts{start_vector(experiment, figures, start, nominal_nuisances)};
   for (const Effect* effect : hypothesis.effects()) {
     if (start != nullptr && start->hypothesis.contains(effect->id)) continue;
     std::vector<Eigen::VectorXd> more;
@@ -647,16 +649,16 @@ void climb_on(Evaluation& evaluation, const std::vector<FreeFigure>& figures, Cl
 /// A few iterations from the most promising starts tell which basin is the best.
 Climb best_start(Evaluation& evaluation, const std::vector<FreeFigure>& figures,
                  const std::vector<Eigen::VectorXd>& starts, const FitOptions& options) {
-  constexpr std::size_t n_promising = 3;
-  constexpr int n_first_iterations = 2;
+  constexpr std::size_t n_promising = 2;
+  constexpr int n_first_iterations = 3;
   std::vector<Climb> climbs;
   for (const Eigen::VectorXd& x : starts) climbs.push_back(begin_climb(evaluation, x));
   const auto better = [](const Climb& a, const Climb& b) {
     return a.log_posterior > b.log_posterior;
   };
   std::sort(climbs.begin(), climbs.end(), better);
-  if (climbs.size() > 1) {
-    climbs.resize(std::min(climbs.size(), n_promising));
+  climbs.resize(std::min(climbs.size(), n_promising));
+  {
     for (Climb& climb : climbs) climb_on(evaluation, figures, climb, n_first_iterations, options);
     std::sort(climbs.begin(), climbs.end(), better);
   }

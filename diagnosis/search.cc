@@ -125,7 +125,7 @@ class Searcher {
     fit_all({{Hypothesis{}, std::nullopt}});
     fit_all({{Hypothesis::discrepancy(), std::size_t{0}}});
     std::vector<Task> tasks;
-    for (const Effect* effect : testable_) tasks.push_back({Hypothesis({effect}), 0});
+    for (const Effect* effect : testable_) tasks.push_back({Hypothesis({effect}), std::nullopt});
     fit_all(tasks);
     for (std::size_t size = 2; size <= options_.max_effects; ++size) {
       if (!worth_extending(size)) break;
@@ -205,7 +205,10 @@ class Searcher {
       std::vector<std::string> others;
       for (const Effect* effect : fewer.hypothesis.effects()) others.push_back(effect->id);
       const double hidden = fewer.form_energy(others) + fit.form_energy(choice.named);
-      if (2. * (fit.log_likelihood - fewer.log_likelihood) < hidden) return true;
+      // What is gained may also lie in what is believable: a noise that needs no odd accelerometer.
+      const double gained = std::max(fit.log_likelihood - fewer.log_likelihood,
+                                     fit.log_evidence - fewer.log_evidence);
+      if (2. * gained < hidden) return true;
     }
     return false;
   }

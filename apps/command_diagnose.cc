@@ -1,0 +1,112 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/case_file.h"
+#include "apps/command.h"
+#include "apps/diagnosis_figures.h"
+#include "apps/sensor_model.h"
+#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/nominal_from_model.h"
+#include "diagnosis/nominal_identification.h"
+#include "fem/solver_session.h"
+#include "report/pictures.h"
+#include "report/run_folder.h"
+#include "signals/error.h"
+#include "signals/progress.h"
+
+namespace vibrissa::apps {
+namespace {
+
+struct DiagnoseCommand {
+  CommonOptions common;
+  std::optional<std::string> model, simulation;
+  std::string real;
+  std::optional<std::filesystem::path> folder;
+  std::size_t max_effects = 3;
+};
+
+signals::ReducedModel solve_case(const std::string& file, bool show_progress) {
+  Case parameters = CaseFile(file).read();
+  const fem::SolverSession session;
+  return make_reduced_model(fem::Sensor(parameters.sensor), parameters.sensor, show_progress);
+}
+
+/// The nominal model and the rate of the simulation's records, 0 when it is a model.
+std::pair<diagnosis::NominalModel, double> nominal_model(const DiagnoseCommand& options) {
+  if (options.model.has_value() == options.simulation.has_value())
+    throw signals::UserError(
+        "give the simulation either as --model CASE.prm|model.json or as --sim DATASET");
+  if (options.simulation) {
+    const signals::Dataset dataset = signals::read_dataset(*options.simulation);
+    return {diagnosis::identify_nominal(dataset),
+            dataset.records.front().record.sampling_rate_hz()};
+  }
+  const bool is_case = std::filesystem::path(*options.model).extension() == ".prm";
+  const bool show = !options.common.quiet && !options.common.json;
+  return {diagnosis::nominal_from(is_case ? solve_case(*options.model, show)
+                                          : signals::read_reduced_model(*options.model)),
+          0.};
+}
+
+void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& diagnosis) {
+  const auto folder =
+      report::RunFolder::given_or_free(options.folder, std::filesystem::path("results/diagnosis"));
+  folder.write_run({.command_line = given_command_line()});
+  folder.write_text("diagnosis.json", diagnosis::diagnosis_json(diagnosis));
+  folder.write_text("verdict.txt", diagnosis::verdict_text(diagnosis));
+  folder.write_text("ranking.csv", ranking_table(diagnosis).to_csv());
+  for (const report::Figure& figure : diagnosis_figures(diagnosis))
+    report::write_figure(folder.path(), figure);
+  const auto pictures = report::draw_pictures(folder.path());
+  if (options.common.json || options.common.quiet) return;
+  std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
+}
+
+void diagnose(const DiagnoseCommand& options) {
+  const auto [nominal, rate_hz] = nominal_model(options);
+  const signals::Dataset real = signals::read_dataset(options.real);
+  // About forty single effects and combinations are fitted.
+  constexpr std::size_t usual_fits = 75;
+  signals::Progress progress("fitting effects", usual_fits,
+                             !options.common.quiet && !options.common.json);
+  diagnosis::DiagnoseOptions settings;
+  settings.simulated_rate_hz = rate_hz;
+  settings.search.max_effects = options.max_effects;
+  settings.search.on_fit = [&] { progress.advance(); };
+  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(nominal, real, settings);
+  if (options.common.json)
+    std::cout << diagnosis::diagnosis_json(diagnosis) << std::endl;
+  else
+    std::cout << diagnosis::verdict_text(diagnosis) << std::endl;
+  if (options.folder || !options.common.json) write_results(options, diagnosis);
+}
+
+}  // namespace
+
+void add_diagnose_command(CLI::App& app) {
+  const auto options = std::make_shared<DiagnoseCommand>();
+  auto* command = app.add_subcommand(
+      "diagnose",
+      "Why the records differ from the simulation: where, which effect, how far the gap closes");
+  command->add_option("--model", options->model,
+                      "The simulation as a case file (.prm) or a reduced model (.json)");
+  command->add_option("--sim", options->simulation,
+                      "The simulation as a dataset: a folder of records with dataset.json");
+  command->add_option("--real", options->real, "Dataset of the real sensor")->required();
+  command->add_option("-o,--out", options->folder,
+                      "New folder for diagnosis.json, ranking.csv and pictures");
+  command
+      ->add_option("--max-effects", options->max_effects,
+                   "Most effects that are combined beside retuned parameters")
+      ->check(CLI::Range(1, 3))
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->footer(
+      "Example:\n  vibrissa diagnose --sim simulated --real bench --out diagnosis\n"
+      "Exit status: 0 an answer, 2 bad input, 3 too little data to say anything.");
+  command->callback([options] { diagnose(*options); });
+}
+
+}  // namespace vibrissa::apps

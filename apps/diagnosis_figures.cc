@@ -1,0 +1,119 @@
+#include "apps/diagnosis_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vibrissa::apps {
+namespace {
+
+report::Figure gap_map(const diagnosis::Location& location) {
+  report::Panel panel{.title = "Where the nominal simulation is wrong",
+                      .x_label = "Frequency [Hz]",
+                      .y_label = "Error power / noise power",
+                      .log_x = true,
+                      .log_y = true};
+  for (const diagnosis::ChannelGap& channel : location.map) {
+    report::Curve curve{.label = channel.channel};
+    for (const diagnosis::BandGap& band : channel.bands) {
+      curve.x.push_back(std::sqrt(band.low_hz * band.high_hz));
+      curve.y.push_back(band.excess);
+    }
+    panel.curves.push_back(std::move(curve));
+  }
+  return {.name = "gap_map",
+          .title = "Gap map",
+          .caption =
+              "Whitened error of the nominal model by third-octave band and kind of record; "
+              "1 is noise alone.",
+          .panels = {panel}};
+}
+
+report::Figure response_figure(const diagnosis::Diagnosis& diagnosis) {
+  const diagnosis::ResponseComparison& response = diagnosis.response;
+  std::vector<double> low, high;
+  for (std::size_t i = 0; i < response.measured.size(); ++i) {
+    low.push_back(
+        std::max(response.measured[i] - 2. * response.deviation[i], 0.01 * response.measured[i]));
+    high.push_back(response.measured[i] + 2. * response.deviation[i]);
+  }
+  report::Panel panel{.title = "Base moment per base acceleration, " + response.record,
+                      .x_label = "Frequency [Hz]",
+                      .y_label = "|M / a| [N m s²/m]",
+                      .log_x = true,
+                      .log_y = true};
+  panel.curves.push_back({.label = "measured, ± 2 deviations of noise",
+                          .style = report::CurveStyle::band,
+                          .x = response.frequency_hz,
+                          .y_low = low,
+                          .y_high = high});
+  panel.curves.push_back(
+      {.label = "simulation", .x = response.frequency_hz, .y = response.nominal});
+  panel.curves.push_back({.label = "with " + diagnosis.verdict,
+                          .style = report::CurveStyle::dashed,
+                          .x = response.frequency_hz,
+                          .y = response.mended});
+  return {.name = "response",
+          .title = "Response before and after",
+          .caption = "At the lines that the drive excites.",
+          .panels = {panel}};
+}
+
+report::Figure trace_figure(const diagnosis::Diagnosis& diagnosis) {
+  const diagnosis::TraceComparison& trace = diagnosis.trace;
+  // A second shows the swings; the CSV beside the picture holds what is drawn.
+  std::size_t n = 0;
+  while (n < trace.time_s.size() && trace.time_s[n] < trace.time_s.front() + 1.) ++n;
+  const auto part = [n](const std::vector<double>& x, double scale) {
+    std::vector<double> out(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
+    for (double& value : out) value *= scale;
+    return out;
+  };
+  report::Panel panel{.title = "Held-out record " + trace.record,
+                      .x_label = "Time [s]",
+                      .y_label = "Base moment [µN m]"};
+  panel.curves.push_back(
+      {.label = "measured", .x = part(trace.time_s, 1.), .y = part(trace.measured, 1e6)});
+  panel.curves.push_back(
+      {.label = "simulation", .x = part(trace.time_s, 1.), .y = part(trace.nominal, 1e6)});
+  panel.curves.push_back({.label = "with " + diagnosis.verdict,
+                          .style = report::CurveStyle::dashed,
+                          .x = part(trace.time_s, 1.),
+                          .y = part(trace.mended, 1e6)});
+  return {.name = "held_out_trace",
+          .title = "Held-out record before and after",
+          .caption = "Free simulation of a record that was not used to fit.",
+          .panels = {panel}};
+}
+
+}  // namespace
+
+std::vector<report::Figure> diagnosis_figures(const diagnosis::Diagnosis& diagnosis) {
+  std::vector<report::Figure> figures;
+  if (!diagnosis.location.map.empty()) figures.push_back(gap_map(diagnosis.location));
+  if (!diagnosis.response.frequency_hz.empty()) figures.push_back(response_figure(diagnosis));
+  if (!diagnosis.trace.time_s.empty()) figures.push_back(trace_figure(diagnosis));
+  return figures;
+}
+
+report::Table ranking_table(const diagnosis::Diagnosis& diagnosis) {
+  report::Table table({{"answer", ""},
+                       {"probability", "", 3},
+                       {"error before", "", 3},
+                       {"error after", "", 3},
+                       {"noise floor", "", 3},
+                       {"gap closed", "", 3}});
+  for (const diagnosis::RankedAnswer& answer : diagnosis.ranking) {
+    std::vector<report::Cell> row{answer.name, answer.probability};
+    if (answer.held_out) {
+      const diagnosis::ErrorScore& score = answer.held_out->overall;
+      row.insert(row.end(), {score.nrmse_before, score.nrmse_after, score.noise_floor,
+                             report::Cell(score.gap_closed)});
+    } else {
+      row.resize(6);
+    }
+    table.add_row(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/diagnosis.h"
+#include "report/figure.h"
+#include "report/table.h"
+
+namespace vibrissa::apps {
+
+/// Gap map, response and held-out trace before and after; what the data do not give is left out.
+/// Proven by tests/apps/diagnose_test.cc.
+std::vector<report::Figure> diagnosis_figures(const diagnosis::Diagnosis& diagnosis);
+
+/// One row an answer: probability, held-out errors before and after, share of the gap closed.
+report::Table ranking_table(const diagnosis::Diagnosis& diagnosis);
+
+}  // namespace vibrissa::apps

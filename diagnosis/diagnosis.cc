@@ -1,0 +1,155 @@
+#include "diagnosis/diagnosis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/indistinguishable.h"
+#include "signals/error.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+void refuse_spoilt_data(const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Finding& finding : findings)
+    if (spoils_everything(finding.kind)) {
+      if (!text.empty()) text += '\n';
+      text.append(finding.record).append(": ").append(finding.message);
+    }
+  if (!text.empty()) throw signals::UserError(text);
+}
+
+bool comparable(const NominalModel& nominal, const signals::DatasetRecord& entry) {
+  const bool base = nominal.has_base && entry.record.has(signals::channel::base_acceleration);
+  const bool wind = nominal.has_wind && entry.record.has(signals::channel::wind_speed);
+  if (entry.split != signals::Split::fit || entry.excitation == signals::Excitation{}) return false;
+  return (!entry.excitation.base || base) && (!entry.excitation.wind || wind);
+}
+
+void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
+                      const std::vector<Finding>& findings) {
+  if (std::any_of(real.records.begin(), real.records.end(),
+                  [&](const auto& entry) { return comparable(nominal, entry); }))
+    return;
+  std::string text =
+      "too little data to say anything: no fit record has an excitation that was measured and that "
+      "the simulation knows";
+  for (const Finding& finding : findings) {
+    text += '\n';
+    if (!finding.record.empty()) text.append(finding.record).append(": ");
+    text += finding.message;
+  }
+  throw TooPoorData(text);
+}
+
+bool has_moving(const Experiment& experiment) {
+  return experiment.has_base || experiment.has_wind;
+}
+
+/// Scores of the first few answers; answers that share a fit share its score.
+void score_answers(Diagnosis& out, const SearchResult& result, const Experiment& experiment,
+                   const Experiment& held_out, const DiagnoseOptions& options) {
+  for (std::size_t i = 0; i < std::min(options.n_scored, out.ranking.size()); ++i) {
+    const std::size_t fit = result.candidates[i].fit;
+    for (std::size_t j = 0; j < i && !out.ranking[i].held_out; ++j)
+      if (result.candidates[j].fit == fit) out.ranking[i].held_out = out.ranking[j].held_out;
+    if (!out.ranking[i].held_out)
+      out.ranking[i].held_out =
+          score_held_out(experiment, held_out, result.fits[fit], options.held_out);
+  }
+}
+
+void set_gap(Diagnosis& out, const NominalModel& nominal, const signals::Dataset& real,
+             const SearchResult& result, const Experiment& experiment) {
+  if (!out.ranking.front().held_out) {
+    const Experiment fit_records =
+        prepare_experiment(nominal, real, signals::Split::fit, InputNoise::as_measured);
+    const HypothesisFit& best = result.fits[result.candidates.front().fit];
+    const ErrorScore score =
+        score_held_out(experiment, fit_records, best, {.n_resamples = 0}).overall;
+    out.gap = {score.nrmse_before, score.noise_floor, out.location.p_value};
+    return;
+  }
+  const ErrorScore& score = out.ranking.front().held_out->overall;
+  out.gap = {score.nrmse_before, score.noise_floor, out.location.p_value};
+}
+
+void rank(Diagnosis& out, const SearchResult& result, const DiagnoseOptions& options) {
+  double listed = 0.;
+  for (std::size_t i = 0; i < std::min(options.n_ranked, result.candidates.size()); ++i) {
+    const Candidate& candidate = result.candidates[i];
+    out.ranking.push_back(
+        {.name = candidate.name,
+         .probability = candidate.probability,
+         .parameters = parameter_estimates(result.fits[candidate.fit], candidate.name),
+         .held_out = {}});
+    listed += candidate.probability;
+  }
+  out.probability_of_unlisted = std::max(0., 1. - listed);
+}
+
+}  // namespace
+
+std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
+                                                   const std::string& name) {
+  constexpr double normal_975 = 1.959964;
+  std::vector<ParameterEstimate> out;
+  for (const std::string& id : effect_ids(name))
+    for (std::size_t i = 0; i < fit.figures.size(); ++i) {
+      const FreeFigure& figure = fit.figures[i];
+      if (figure.effect == nullptr || figure.effect->id != id) continue;
+      const auto place = static_cast<Eigen::Index>(i);
+      const Parameter& parameter = figure.description;
+      const double x = fit.x(place), half = normal_975 * std::sqrt(fit.covariance(place, place));
+      const auto value = [&](double at) {
+        return parameter.value(std::clamp(at, parameter.prior.low, parameter.prior.high));
+      };
+      out.push_back({.effect = id,
+                     .name = parameter.name,
+                     .unit = parameter.unit,
+                     .value = value(x),
+                     .ci95 = {value(x - half), value(x + half)}});
+    }
+  return out;
+}
+
+std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates,
+                                        const double level) {
+  std::vector<std::string> names;
+  double sum = 0.;
+  for (const Candidate& candidate : candidates) {
+    if (sum >= level) break;
+    names.push_back(candidate.name);
+    sum += candidate.probability;
+  }
+  return names;
+}
+
+Diagnosis diagnose(const NominalModel& nominal, const signals::Dataset& real,
+                   const DiagnoseOptions& options) {
+  Diagnosis out;
+  out.guesses = real.guesses;
+  out.findings = check_data(nominal, real, options.simulated_rate_hz);
+  refuse_spoilt_data(out.findings);
+  refuse_poor_data(nominal, real, out.findings);
+  const Experiment experiment =
+      prepare_experiment(nominal, real, signals::Split::fit, InputNoise::reduced);
+  out.location = locate_gap(experiment);
+  const SearchResult result = search(experiment, options.search);
+  const Candidate& best = result.candidates.front();
+  out.verdict = best.name;
+  out.location.links = likely_links(result);
+  rank(out, result, options);
+  out.confidence_set = confidence_set(result.candidates, 0.95);
+  const Experiment held_out =
+      prepare_experiment(nominal, real, signals::Split::held_out, InputNoise::as_measured);
+  if (has_moving(held_out)) score_answers(out, result, experiment, held_out, options);
+  set_gap(out, nominal, real, result, experiment);
+  out.response = compare_response(experiment, result.fits[best.fit]);
+  out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);
+  out.indistinguishable = indistinguishable_sets(experiment, result);
+  out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable);
+  return out;
+}
+
+}  // namespace vibrissa::diagnosis

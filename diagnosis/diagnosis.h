@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "diagnosis/comparison.h"
+#include "diagnosis/data_checks.h"
+#include "diagnosis/held_out.h"
+#include "diagnosis/location.h"
+#include "diagnosis/next_experiment.h"
+#include "diagnosis/search.h"
+
+namespace vibrissa::diagnosis {
+
+/// The data are too poor to say anything; the message says what is missing. Programs end with exit
+/// status 3.
+class TooPoorData : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A parameter of a named effect with its 95 % interval, in its own unit.
+struct ParameterEstimate {
+  std::string effect{}, name{}, unit{};
+  double value = 0.;
+  std::array<double, 2> ci95{};
+};
+
+struct RankedAnswer {
+  std::string name{};
+  double probability = 0.;
+  std::vector<ParameterEstimate> parameters{};
+  std::optional<HeldOutScore> held_out{};  // of the first few
+};
+
+struct Gap {
+  double nrmse = 0.;  // nominal model, held-out records; fit records when there are none
+  double noise_floor = 0.;
+  double p_value = 1.;
+};
+
+struct Diagnosis {
+  Gap gap{};
+  Location location{};
+  std::string verdict = "none";
+  std::vector<RankedAnswer> ranking{};  // most probable first
+  double probability_of_unlisted = 0.;
+  /// Fewest answers that together have 95 %.
+  std::vector<std::string> confidence_set{};
+  std::vector<std::vector<std::string>> indistinguishable{};
+  NextExperiment next{};
+  std::vector<Finding> findings{};
+  std::vector<std::string> guesses{};  // of the dataset
+  /// Nominal model and best answer beside the records.
+  ResponseComparison response{};
+  TraceComparison trace{};
+};
+
+struct DiagnoseOptions {
+  SearchOptions search{};
+  HeldOutOptions held_out{};
+  std::size_t n_scored = 3;       // answers with a held-out score
+  std::size_t n_ranked = 12;      // answers listed
+  double simulated_rate_hz = 0.;  // 0: the simulation has none
+};
+
+/// Compares a simulation with records: noise, where, what, how far, how sure and what next. Throws
+/// UserError for exchanged columns and wrong units, TooPoorData when no fit record can be compared.
+/// Proven by tests/diagnosis/diagnosis_test.cc.
+Diagnosis diagnose(const NominalModel& nominal, const signals::Dataset& real,
+                   const DiagnoseOptions& options = {});
+
+/// Value and 95 % interval of each parameter that an answer names, back from the coordinates of the
+/// fit and within the parameter's bounds.
+std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
+                                                   const std::string& name);
+
+/// Shortest list of candidates, most probable first, whose probabilities reach the level.
+std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates, double level);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,217 @@
+#include "diagnosis/diagnosis_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json number(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json interval(const std::array<double, 2>& limits) {
+  return {number(limits[0]), number(limits[1])};
+}
+
+json location_json(const Location& location) {
+  json bands = json::array();
+  for (const auto& band : location.bands_hz) bands.push_back(interval(band));
+  json map = json::array();
+  for (const ChannelGap& channel : location.map)
+    for (const BandGap& band : channel.bands)
+      map.push_back({{"channel", channel.channel},
+                     {"band_hz", {band.low_hz, band.high_hz}},
+                     {"nrmse", number(band.nrmse)},
+                     {"power_over_noise", number(band.excess)},
+                     {"p_value", number(band.p_value)}});
+  return {{"links", location.links},
+          {"bands_hz", bands},
+          {"mode", location.mode ? json(*location.mode) : json(nullptr)},
+          {"level_exponent",
+           location.level_exponent ? number(*location.level_exponent) : json(nullptr)},
+          {"level_exponent_deviation", number(location.level_exponent_deviation)},
+          {"channels", location.channels},
+          {"harmonics", to_string(location.harmonics)},
+          {"varies_in_time", location.varies_in_time},
+          {"present_at_rest", location.present_at_rest},
+          {"sentence", location_sentence(location)},
+          {"map", map}};
+}
+
+json score_json(const ErrorScore& score) {
+  json out{{"nrmse_before", number(score.nrmse_before)},
+           {"nrmse_after", number(score.nrmse_after)},
+           {"noise_floor_nrmse", number(score.noise_floor)},
+           {"irreducible_floor_nrmse", number(score.irreducible_floor)},
+           {"gap_closed", score.gap_closed ? number(*score.gap_closed) : json(nullptr)},
+           {"gap_closed_ci95",
+            score.gap_closed_ci95 ? interval(*score.gap_closed_ci95) : json(nullptr)}};
+  if (!score.record.empty()) out["record"] = score.record;
+  return out;
+}
+
+json held_out_json(const HeldOutScore& score) {
+  json out = score_json(score.overall);
+  out["foretold"] = score.foretold;
+  out["not_foretold"] = score.not_foretold;
+  out["records"] = json::array();
+  for (const ErrorScore& record : score.records) out["records"].push_back(score_json(record));
+  return out;
+}
+
+json answer_json(const RankedAnswer& answer) {
+  json parameters = json::array();
+  for (const ParameterEstimate& parameter : answer.parameters)
+    parameters.push_back({{"effect", parameter.effect},
+                          {"name", parameter.name},
+                          {"value", number(parameter.value)},
+                          {"unit", parameter.unit},
+                          {"ci95", interval(parameter.ci95)}});
+  return {{"effect", answer.name},
+          {"probability", number(answer.probability)},
+          {"parameters", parameters},
+          {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)}};
+}
+
+std::string rounded(double value) {
+  std::ostringstream stream;
+  stream.precision(3);
+  stream << value;
+  return stream.str();
+}
+
+std::string percent(double share) {
+  std::ostringstream stream;
+  stream.precision(share > 0.1 ? 0 : 1);
+  stream << std::fixed << 100. * share << " %";
+  return stream.str();
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+  return text;
+}
+
+std::string verdict_line(const Diagnosis& diagnosis) {
+  const double probability = diagnosis.ranking.empty() ? 0. : diagnosis.ranking.front().probability;
+  const std::string odds = " (probability " + percent(probability) + ")";
+  if (diagnosis.verdict == "none") return "Verdict: no cause needed, noise explains it" + odds;
+  if (diagnosis.verdict == "outside_catalogue")
+    return "Verdict: something is there that no known effect explains" + odds;
+  const std::vector<std::string> ids = effect_ids(diagnosis.verdict);
+  const bool retune = std::all_of(ids.begin(), ids.end(), [](const std::string& id) {
+    const auto& all = effect_catalogue();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Effect& e) { return e.id == id && e.retune; });
+  });
+  return "Verdict: " + joined(ids, " + ") + odds + (retune ? ": recalibrate" : ": missing physics");
+}
+
+std::string parameters_line(const RankedAnswer& answer) {
+  std::string text;
+  for (const ParameterEstimate& p : answer.parameters) {
+    const std::string unit = p.unit == "1" ? "" : " " + p.unit;
+    text += (text.empty() ? "  " : "; ") + p.effect + " " + p.name + " " + rounded(p.value) + unit +
+            " (" + rounded(p.ci95[0]) + " .. " + rounded(p.ci95[1]) + ")";
+  }
+  return text;
+}
+
+std::string held_out_line(const HeldOutScore& score) {
+  const ErrorScore& all = score.overall;
+  std::string text = "Held out: error " + percent(all.nrmse_before) + " -> " +
+                     percent(all.nrmse_after) + ", noise floor " + percent(all.noise_floor);
+  if (all.gap_closed) text += "; gap closed " + percent(*all.gap_closed);
+  if (all.gap_closed && all.gap_closed_ci95)
+    text += " (" + percent((*all.gap_closed_ci95)[0]) + " .. " +
+            percent((*all.gap_closed_ci95)[1]) + ")";
+  if (!score.not_foretold.empty())
+    text += "; of " + joined(score.not_foretold, ", ") + " nothing can be foretold";
+  return text;
+}
+
+std::string others_line(const Diagnosis& diagnosis) {
+  std::string text;
+  for (std::size_t i = 1; i < std::min<std::size_t>(4, diagnosis.ranking.size()); ++i) {
+    const RankedAnswer& answer = diagnosis.ranking[i];
+    if (answer.probability < 0.005) break;
+    text += (text.empty() ? "Else: " : ", ") + answer.name + " " + percent(answer.probability);
+  }
+  return text;
+}
+
+/// A line of at most 100 characters, or two, broken at a space; what is longer ends in dots.
+std::vector<std::string> wrapped(const std::string& line) {
+  constexpr std::size_t longest = 100;
+  if (line.size() <= longest) return {line};
+  std::size_t cut = line.rfind(' ', longest);
+  if (cut == std::string::npos || cut < longest / 2) cut = longest;
+  std::string rest = "   " + line.substr(cut);
+  if (rest.size() > longest) rest = rest.substr(0, longest - 3) + "...";
+  return {line.substr(0, cut), rest};
+}
+
+}  // namespace
+
+std::string diagnosis_json(const Diagnosis& diagnosis) {
+  json ranking = json::array(), findings = json::array();
+  for (const RankedAnswer& answer : diagnosis.ranking) ranking.push_back(answer_json(answer));
+  for (const Finding& finding : diagnosis.findings)
+    findings.push_back({{"kind", to_string(finding.kind)},
+                        {"record", finding.record},
+                        {"message", finding.message}});
+  const json document{{"schema", "vibrissa-diagnosis-1"},
+                      {"gap",
+                       {{"nrmse", number(diagnosis.gap.nrmse)},
+                        {"noise_floor_nrmse", number(diagnosis.gap.noise_floor)},
+                        {"p_value", number(diagnosis.gap.p_value)}}},
+                      {"location", location_json(diagnosis.location)},
+                      {"verdict", diagnosis.verdict},
+                      {"ranking", ranking},
+                      {"probability_of_unlisted", number(diagnosis.probability_of_unlisted)},
+                      {"confidence_set", diagnosis.confidence_set},
+                      {"indistinguishable", diagnosis.indistinguishable},
+                      {"next_experiment",
+                       {{"name", diagnosis.next.name},
+                        {"why", diagnosis.next.why},
+                        {"would_separate", diagnosis.next.would_separate},
+                        {"split_probability", number(diagnosis.next.split_probability)}}},
+                      {"findings", findings},
+                      {"guesses", diagnosis.guesses}};
+  return document.dump(2) + "\n";
+}
+
+std::string verdict_text(const Diagnosis& diagnosis) {
+  constexpr std::size_t most_lines = 15;
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& line) {
+    if (line.empty()) return;
+    for (std::string& part : wrapped(line))
+      if (lines.size() < most_lines) lines.push_back(std::move(part));
+  };
+  add(verdict_line(diagnosis));
+  if (!diagnosis.ranking.empty()) {
+    add(parameters_line(diagnosis.ranking.front()));
+    add("Gap: error " + percent(diagnosis.gap.nrmse) + " of the signal, noise alone " +
+        percent(diagnosis.gap.noise_floor));
+    if (diagnosis.ranking.front().held_out) add(held_out_line(*diagnosis.ranking.front().held_out));
+  }
+  add("Where: " + location_sentence(diagnosis.location));
+  add(others_line(diagnosis));
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, diagnosis.indistinguishable.size()); ++i)
+    add("Not told apart here: " + joined(diagnosis.indistinguishable[i], ", "));
+  if (diagnosis.next.name != "none")
+    add("Measure next: " + diagnosis.next.name + " - " + diagnosis.next.why);
+  for (const Finding& finding : diagnosis.findings) {
+    add("Note: " + (finding.record.empty() ? "" : finding.record + ": ") + finding.message);
+  }
+  return joined(lines, "\n") + "\n";
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "diagnosis/experiment.h"
+
+namespace vibrissa::diagnosis {
+
+/// Samples of a record's judged part from its bins (PreparedRecord::moment and what is shaped
+/// alike), without their mean and what is at half the rate.
+std::vector<double> judged_samples(const PreparedRecord& record, std::span<const Complex> bins);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,121 @@
+#include "diagnosis/chain_simulation.h"
+
+#include <gmock/gmock.h>
+
+#include "diagnosis/effect.h"
+#include "one_mode_rig.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using signals::Split;
+
+Experiment experiment_of(const test::OneModeRig& rig) {
+  return prepare_experiment(test::nominal_of(test::OneModeRig{}, false),
+                            test::rig_dataset(rig, {.quiet = false}), Split::fit,
+                            InputNoise::as_measured);
+}
+
+/// rms of the difference over rms of the second.
+double relative_difference(const std::vector<Complex>& a, const std::vector<Complex>& b) {
+  double error = 0., power = 0.;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    error += std::norm(a[i] - b[i]);
+    power += std::norm(b[i]);
+  }
+  return std::sqrt(error / power);
+}
+
+/// Bins of a periodic record that one transfer function gives.
+std::vector<Complex> filtered(const PreparedRecord& record,
+                              const std::function<Complex(Complex)>& response) {
+  std::vector<Complex> out;
+  for (std::size_t b = 0; b < record.n_bins(); ++b) {
+    const Complex s(0., 2. * std::numbers::pi * record.bin_hz() * static_cast<double>(b + 1));
+    out.push_back(response(s) * record.acceleration[b + 1]);
+  }
+  return out;
+}
+
+TEST(SimulateChain, NominalMeetsARungeKuttaIntegration) {
+  const Experiment experiment = experiment_of(test::OneModeRig{});
+  for (const PreparedRecord& record : experiment.records)
+    EXPECT_LT(relative_difference(simulate_mean({.structure = experiment.nominal}, record),
+                                  record.moment),
+              2e-4)
+        << record.name;
+}
+
+TEST(SimulateChain, LinearPartsMeetTheirClosedForms) {
+  const Experiment experiment = experiment_of(test::OneModeRig{});
+  const PreparedRecord& record = experiment.records.front();
+  Chain chain{.structure = experiment.nominal};
+  chain.reference = {[](Complex) -> Complex { return 0.9; }};
+  chain.mount = {[](Complex s) { return 1. / (1. + s / 900.); }};
+  chain.feedthrough = {[](Complex) -> Complex { return 1e-5; }};
+  chain.sensor = {[](Complex s) { return std::exp(-s * 1e-3); }};
+  const auto expected = filtered(record, [&](Complex s) {
+    return (experiment.nominal.base_response(s) / (1. + s / 900.) + 1e-5) * 0.9 *
+           std::exp(-s * 1e-3);
+  });
+  EXPECT_LT(relative_difference(simulate_mean(chain, record), expected), 1e-12);
+}
+
+TEST(SimulateChain, RelaxationOfTheJointMeetsItsClosedForm) {
+  const test::OneModeRig rig;
+  const Experiment experiment = experiment_of(rig);
+  const PreparedRecord& record = experiment.records.front();
+  const auto relaxation = [](Complex s) { return 0.3 * s * 0.01 / (1. + s * 0.01); };
+  Chain chain{.structure = experiment.nominal};
+  chain.relaxation = {relaxation};
+  const double w = 2. * std::numbers::pi * rig.frequency_hz;
+  const auto expected = filtered(record, [&](Complex s) {
+    const Complex joint = (w * w + 2. * rig.damping_ratio * w * s) * (1. + relaxation(s));
+    return -rig.moment_mass * joint / (s * s + joint);
+  });
+  EXPECT_LT(relative_difference(simulate_mean(chain, record), expected), 1e-12);
+}
+
+TEST(SimulateChain, CubicJointMeetsARungeKuttaIntegration) {
+  test::OneModeRig rig;
+  rig.cubic = 2e5;
+  const Experiment experiment = experiment_of(rig);
+  const double w = 2. * std::numbers::pi * rig.frequency_hz;
+  const double per_moment = 1. / (rig.moment_mass * w * w);
+  const double joint_moment = experiment.scales.joint_moment_n_m;
+  Chain chain{.structure = experiment.nominal};
+  const std::vector<double> ratio{rig.cubic * per_moment * per_moment * joint_moment *
+                                  joint_moment};
+  find_effect("hardening").extend(chain, ratio, experiment.scales);
+  for (const PreparedRecord& record : experiment.records) {
+    const std::vector<Complex> linear = simulate_mean({.structure = experiment.nominal}, record);
+    const std::vector<Complex> mean = simulate_mean(chain, record);
+    std::vector<Complex> added(mean), truly(mean);
+    for (std::size_t b = 0; b < mean.size(); ++b) {
+      added[b] = mean[b] - linear[b];
+      truly[b] = record.moment[b] - linear[b];
+    }
+    EXPECT_GT(relative_difference(record.moment, linear), 0.003) << "the law must act";
+    EXPECT_LT(relative_difference(added, truly), 0.03) << record.name;
+  }
+}
+
+TEST(SimulateChain, CarriesTheNoiseOfBothChannels) {
+  const Experiment experiment = experiment_of(test::noisy_rig());
+  const PreparedRecord& record = experiment.records.front();
+  Chain chain{.structure = experiment.nominal};
+  chain.reference = {[](Complex) -> Complex { return 2.; }};
+  const Prediction prediction = simulate(chain, record);
+  const double n = static_cast<double>(record.n_judged);
+  for (const std::size_t b : {std::size_t{10}, std::size_t{100}, std::size_t{400}}) {
+    const Complex s(0., 2. * std::numbers::pi * record.bin_hz() * static_cast<double>(b + 1));
+    EXPECT_DOUBLE_EQ(prediction.moment_noise[b], n);
+    EXPECT_NEAR(prediction.acceleration_noise[b] /
+                    (n * 4. * std::norm(experiment.nominal.base_response(s))),
+                1., 1e-9);
+    EXPECT_EQ(prediction.own_noise[b], 0.);
+  }
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis

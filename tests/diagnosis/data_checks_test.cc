@@ -1,0 +1,140 @@
+#include "diagnosis/data_checks.h"
+
+#include <gmock/gmock.h>
+
+#include "one_mode_rig.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using testing::Contains;
+using testing::IsEmpty;
+using testing::Not;
+
+using Change = std::function<void(signals::DatasetRecord&)>;
+
+/// Kinds of what is found in a healthy dataset after a change of each record.
+std::vector<std::string> kinds(const Change& change, const test::RigDatasetOptions& options = {},
+                               double simulated_rate_hz = 0.) {
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig(), options);
+  for (signals::DatasetRecord& entry : dataset.records) change(entry);
+  const NominalModel nominal = test::nominal_of(test::OneModeRig{}, options.wind);
+  std::vector<std::string> out;
+  for (const Finding& finding : check_data(nominal, dataset, simulated_rate_hz)) {
+    out.push_back(to_string(finding.kind));
+    EXPECT_THAT(finding.message, Not(IsEmpty()));
+  }
+  return out;
+}
+
+void change_channel(signals::DatasetRecord& entry, const std::string& name,
+                    const std::function<double(double)>& f) {
+  const auto values = entry.record.channel(name);
+  std::vector<double> changed(values.begin(), values.end());
+  for (double& v : changed) v = f(v);
+  entry.record.set_channel(name, std::move(changed));
+}
+
+Change scaled(const std::string& name, double factor) {
+  return [=](signals::DatasetRecord& entry) {
+    change_channel(entry, name, [=](double v) { return factor * v; });
+  };
+}
+
+signals::DatasetRecord without(const signals::DatasetRecord& entry, const std::string& name) {
+  signals::DatasetRecord out = entry;
+  out.record = signals::Record(entry.record.sampling_rate_hz(), entry.record.n_samples());
+  for (const std::string& channel : entry.record.channel_names()) {
+    const auto x = entry.record.channel(channel);
+    if (channel != name) out.record.set_channel(channel, {x.begin(), x.end()});
+  }
+  return out;
+}
+
+void nothing(signals::DatasetRecord&) {}
+
+namespace channel = signals::channel;
+
+TEST(DataChecks, HealthyRecordsHaveNoFindings) {
+  EXPECT_THAT(kinds(nothing, {.wind = true}), IsEmpty());
+}
+
+TEST(DataChecks, HealthyRecordsOfAConverterHaveNoFindings) {
+  EXPECT_THAT(kinds([](signals::DatasetRecord& entry) {
+                change_channel(entry, channel::base_acceleration, [](double v) {
+                  return 0.0383 * std::round(v / 0.0383);  // 3.9 mg
+                });
+              }),
+              IsEmpty());
+}
+
+TEST(DataChecks, NoticesAClippedChannel) {
+  EXPECT_THAT(kinds([](signals::DatasetRecord& entry) {
+                change_channel(entry, channel::base_acceleration,
+                               [](double v) { return std::clamp(v, -6., 6.); });
+              }),
+              Contains("clipped_channel"));
+}
+
+TEST(DataChecks, NoticesSwappedColumns) {
+  const auto found = kinds([](signals::DatasetRecord& entry) {
+    const auto a = entry.record.channel(channel::base_acceleration),
+               m = entry.record.channel(channel::base_moment);
+    std::vector<double> moment(m.begin(), m.end()), acceleration(a.begin(), a.end());
+    entry.record.set_channel(channel::base_acceleration, std::move(moment));
+    entry.record.set_channel(channel::base_moment, std::move(acceleration));
+  });
+  EXPECT_THAT(found, Contains("swapped_columns"));
+  EXPECT_THAT(found, Not(Contains("wrong_unit")));
+}
+
+TEST(DataChecks, NoticesAccelerationInG) {
+  EXPECT_THAT(kinds(scaled(channel::base_acceleration, 1. / 9.80665)), Contains("wrong_unit"));
+}
+
+TEST(DataChecks, NoticesMomentInMillinewtonMillimetres) {
+  const auto found = kinds(scaled(channel::base_moment, 1e6));
+  EXPECT_THAT(found, Contains("wrong_unit"));
+  EXPECT_THAT(found, Not(Contains("swapped_columns")));
+}
+
+TEST(DataChecks, NoticesWindInKilometresPerHour) {
+  EXPECT_THAT(kinds(scaled(channel::wind_speed, 3.6), {.wind = true}), Contains("wrong_unit"));
+}
+
+TEST(DataChecks, TakesAGainOffByAThirdForNoWrongUnit) {
+  EXPECT_THAT(kinds(scaled(channel::base_moment, 1.33)), IsEmpty());
+  EXPECT_THAT(kinds(scaled(channel::base_moment, 0.67)), IsEmpty());
+}
+
+TEST(DataChecks, NoticesRepeatedSamples) {
+  EXPECT_THAT(kinds([](signals::DatasetRecord& entry) {
+                const auto a = entry.record.channel(channel::base_acceleration);
+                std::vector<double> repeated(a.begin(), a.end());
+                for (std::size_t i = 5; i < repeated.size(); i += 5) repeated[i] = repeated[i - 1];
+                entry.record.set_channel(channel::base_acceleration, std::move(repeated));
+              }),
+              Contains("repeated_samples"));
+}
+
+TEST(DataChecks, NoticesWhatIsMissing) {
+  EXPECT_THAT(kinds(nothing, {.quiet = false}), testing::ElementsAre("no_quiet_record"));
+  EXPECT_THAT(kinds(nothing, {.held_out = false}), testing::ElementsAre("no_held_out"));
+  EXPECT_THAT(kinds(nothing, {.low_level = 3.9}), testing::ElementsAre("one_level"));
+  EXPECT_THAT(
+      kinds([](signals::DatasetRecord& entry) { entry = without(entry, channel::wind_speed); },
+            {.wind = true}),
+      Contains("missing_wind"));
+  EXPECT_THAT(kinds([](signals::DatasetRecord& entry) {
+                entry = without(entry, channel::base_acceleration);
+              }),
+              Contains("missing_acceleration"));
+}
+
+TEST(DataChecks, NamesADifferentSamplingRate) {
+  EXPECT_THAT(kinds(nothing, {}, 1000.), Contains("different_rate"));
+  EXPECT_THAT(kinds(nothing, {}, 500.), IsEmpty());
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis

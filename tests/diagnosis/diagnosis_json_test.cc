@@ -1,0 +1,135 @@
+#include "diagnosis/diagnosis_json.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using testing::HasSubstr;
+
+Diagnosis example() {
+  Diagnosis out;
+  out.gap = {.nrmse = 0.41, .noise_floor = 0.03, .p_value = 1e-9};
+  out.location = {
+      .p_value = 1e-9,
+      .map = {{.channel = "base",
+               .bands =
+                   {{.low_hz = 33., .high_hz = 41., .nrmse = 0.4, .excess = 50., .p_value = 1e-9}},
+               .p_value = 1e-9}},
+      .bands_hz = {{33., 41.}},
+      .mode = 1,
+      .level_exponent = 0.,
+      .level_exponent_deviation = 0.1,
+      .channels = {"base"},
+      .links = {"structure"}};
+  out.verdict = "delay+stiffness";
+  HeldOutScore score;
+  score.overall = {.nrmse_before = 0.4,
+                   .nrmse_after = 0.035,
+                   .noise_floor = 0.03,
+                   .irreducible_floor = 0.03,
+                   .gap_closed = 0.98,
+                   .gap_closed_ci95 = std::array<double, 2>{0.97, 0.99}};
+  out.ranking = {{.name = "delay+stiffness",
+                  .probability = 0.94,
+                  .parameters = {{"delay", "tau", "s", 1e-3, {9e-4, 1.1e-3}},
+                                 {"stiffness", "ratio", "1", 0.713, {0.709, 0.717}}},
+                  .held_out = score},
+                 {.name = "none", .probability = 0.05}};
+  out.probability_of_unlisted = 0.01;
+  out.confidence_set = {"delay+stiffness", "none"};
+  out.indistinguishable = {{"stiffness", "base_compliance"}};
+  out.next = {"wide_band", "because", {"stiffness"}, 0.4};
+  out.findings = {{FindingKind::one_level, "", "one level only"}};
+  return out;
+}
+
+TEST(DiagnosisJson, HoldsEveryKeyOfTheSchema) {
+  const auto json = nlohmann::json::parse(diagnosis_json(example()));
+  EXPECT_EQ(json["schema"], "vibrissa-diagnosis-1");
+  for (const char* key : {"nrmse", "noise_floor_nrmse", "p_value"})
+    EXPECT_TRUE(json["gap"][key].is_number()) << key;
+  const auto& location = json["location"];
+  EXPECT_EQ(location["links"], nlohmann::json({"structure"}));
+  EXPECT_EQ(location["bands_hz"], nlohmann::json({{33., 41.}}));
+  EXPECT_EQ(location["mode"], 1);
+  EXPECT_EQ(location["level_exponent"], 0.);
+  EXPECT_EQ(location["channels"], nlohmann::json({"base"}));
+  EXPECT_EQ(location["harmonics"], "none");
+  EXPECT_EQ(location["varies_in_time"], false);
+  EXPECT_EQ(location["present_at_rest"], false);
+  EXPECT_EQ(json["verdict"], "delay+stiffness");
+  const auto& first = json["ranking"][0];
+  EXPECT_EQ(first["effect"], "delay+stiffness");
+  EXPECT_EQ(first["probability"], 0.94);
+  EXPECT_EQ(first["parameters"][1]["name"], "ratio");
+  EXPECT_EQ(first["parameters"][1]["unit"], "1");
+  EXPECT_EQ(first["parameters"][1]["ci95"], nlohmann::json({0.709, 0.717}));
+  EXPECT_EQ(first["held_out"]["nrmse_before"], 0.4);
+  EXPECT_EQ(first["held_out"]["nrmse_after"], 0.035);
+  EXPECT_EQ(first["held_out"]["noise_floor_nrmse"], 0.03);
+  EXPECT_EQ(first["held_out"]["gap_closed"], 0.98);
+  EXPECT_EQ(first["held_out"]["gap_closed_ci95"], nlohmann::json({0.97, 0.99}));
+  EXPECT_EQ(json["confidence_set"].size(), 2u);
+  EXPECT_EQ(json["indistinguishable"],
+            nlohmann::json::parse(R"([["stiffness", "base_compliance"]])"));
+  EXPECT_EQ(json["next_experiment"]["name"], "wide_band");
+  EXPECT_EQ(json["next_experiment"]["would_separate"], nlohmann::json({"stiffness"}));
+  EXPECT_EQ(json["findings"][0]["kind"], "one_level");
+}
+
+TEST(DiagnosisJson, SaysNullWhereThereIsNoNumber) {
+  Diagnosis diagnosis = example();
+  diagnosis.ranking[0].held_out->overall.gap_closed.reset();
+  diagnosis.ranking[0].held_out->overall.gap_closed_ci95.reset();
+  diagnosis.gap.p_value = std::numeric_limits<double>::quiet_NaN();
+  diagnosis.location.mode.reset();
+  const auto json = nlohmann::json::parse(diagnosis_json(diagnosis));
+  EXPECT_TRUE(json["ranking"][0]["held_out"]["gap_closed"].is_null());
+  EXPECT_TRUE(json["ranking"][1]["held_out"].is_null());
+  EXPECT_TRUE(json["gap"]["p_value"].is_null());
+  EXPECT_TRUE(json["location"]["mode"].is_null());
+}
+
+TEST(DiagnosisJson, ProbabilitiesSumToOne) {
+  const auto json = nlohmann::json::parse(diagnosis_json(example()));
+  double sum = json["probability_of_unlisted"];
+  for (const auto& answer : json["ranking"]) sum += answer["probability"].get<double>();
+  EXPECT_NEAR(sum, 1., 1e-12);
+}
+
+TEST(VerdictText, FitsATerminalHoweverManyFindings) {
+  Diagnosis diagnosis = example();
+  for (int i = 0; i < 40; ++i)
+    diagnosis.findings.push_back({FindingKind::clipped_channel, "a", std::string(200, 'x')});
+  std::istringstream text(verdict_text(diagnosis));
+  int n_lines = 0;
+  for (std::string line; std::getline(text, line); ++n_lines) EXPECT_LE(line.size(), 100u) << line;
+  EXPECT_LE(n_lines, 15);
+  EXPECT_GE(n_lines, 8);
+}
+
+TEST(VerdictText, SaysCauseSizeAndWhatToDoNext) {
+  const std::string text = verdict_text(example());
+  EXPECT_THAT(text, HasSubstr("delay + stiffness (probability 94 %)"));
+  EXPECT_THAT(text, HasSubstr("0.713 (0.709 .. 0.717)"));
+  EXPECT_THAT(text, HasSubstr("40 % -> 3.5 %"));
+  EXPECT_THAT(text, HasSubstr("Measure next: wide_band"));
+}
+
+TEST(VerdictText, TellsACalibrationFromPhysics) {
+  Diagnosis diagnosis = example();
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("missing physics"));
+  diagnosis.verdict = "stiffness";
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("recalibrate"));
+  diagnosis.verdict = "none";
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("noise explains it"));
+  diagnosis.verdict = "outside_catalogue";
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("no known effect"));
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis

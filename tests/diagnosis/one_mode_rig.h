@@ -1,0 +1,175 @@
+#pragma once
+
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "diagnosis/nominal_model.h"
+#include "signals/dataset.h"
+
+namespace vibrissa::diagnosis::test {
+
+/// A whisker of one mode on a rig, integrated by classical Runge-Kutta at many steps a sample. It
+/// shares no code with the chain that is tested.
+///   x'' + c0 loss x' + k0 (stiffness x + cubic x^3) = -a + drag u |u|,   M = moment_mass (k x + c
+///   x')
+/// with the clock of the moment's channel behind by delay_s.
+struct OneModeRig {
+  double frequency_hz = 35., damping_ratio = 0.05;
+  double moment_mass = 6e-5;  // kg m: M / a at rest is -this
+  double drag = 0.8;          // (m/s^2) / (m/s)^2
+  double stiffness = 1., loss = 1.;
+  double cubic = 0.;    // 1/m^2
+  double delay_s = 0.;  // whole steps of integration
+  double moment_noise = 0., acceleration_noise = 0.;
+  double hum = 0., hum_hz = 50.1;  // N m
+  double rate_hz = 500.;
+  static constexpr std::size_t n_steps = 16;
+
+  using Signal = std::function<double(double t_s)>;
+
+  signals::Record record(std::size_t n, double warm_up_s, const Signal& a, const Signal& u,
+                         unsigned seed, bool with_wind) const {
+    const double w = 2. * std::numbers::pi * frequency_hz, k0 = w * w,
+                 c0 = 2. * damping_ratio * w * loss;
+    const double dt = 1. / (rate_hz * n_steps);
+    const auto elastic = [&](double x) { return k0 * (stiffness * x + cubic * x * x * x); };
+    const auto slope = [&](double t, double x, double v) {
+      const double wind = u(t);
+      return -elastic(x) - c0 * v - a(t) + drag * wind * std::abs(wind);
+    };
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    const auto lag = static_cast<std::size_t>(std::lround(delay_s / dt));
+    std::deque<double> moments(lag + 1, 0.);
+    std::vector<double> acceleration(n), moment(n), wind(n);
+    double x = 0., v = 0.;
+    const auto warm = static_cast<long>(std::lround(warm_up_s / dt));
+    const double phase = 6.28 * std::uniform_real_distribution<double>()(random);
+    for (long i = -warm; i < static_cast<long>(n * n_steps); ++i) {
+      const double t = static_cast<double>(i) * dt;
+      moments.push_back(moment_mass * (elastic(x) + c0 * v));
+      moments.pop_front();
+      if (i >= 0 && i % static_cast<long>(n_steps) == 0) {
+        const auto j = static_cast<std::size_t>(i) / n_steps;
+        acceleration[j] = a(t) + acceleration_noise * normal(random);
+        moment[j] = moments.front() + moment_noise * normal(random) +
+                    hum * std::sin(2. * std::numbers::pi * hum_hz * t + phase);
+        wind[j] = u(t);
+      }
+      const double k1 = slope(t, x, v), v2 = v + 0.5 * dt * k1;
+      const double k2 = slope(t + 0.5 * dt, x + 0.5 * dt * v, v2), v3 = v + 0.5 * dt * k2;
+      const double k3 = slope(t + 0.5 * dt, x + 0.5 * dt * v2, v3), v4 = v + dt * k3;
+      const double k4 = slope(t + dt, x + dt * v3, v4);
+      x += dt / 6. * (v + 2. * v2 + 2. * v3 + v4);
+      v += dt / 6. * (k1 + 2. * k2 + 2. * k3 + k4);
+    }
+    signals::Record out(rate_hz, n);
+    out.set_channel(signals::channel::base_acceleration, std::move(acceleration));
+    out.set_channel(signals::channel::base_moment, std::move(moment));
+    if (with_wind) out.set_channel(signals::channel::wind_speed, std::move(wind));
+    return out;
+  }
+};
+
+inline double no_signal(double) {
+  return 0.;
+}
+
+/// Sum of sines of equal height and random phase. Peak about level sqrt(2 n).
+inline OneModeRig::Signal sines(const std::vector<double>& frequencies_hz, double level,
+                                unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> phase(0., 2. * std::numbers::pi);
+  std::vector<double> phases;
+  for (std::size_t i = 0; i < frequencies_hz.size(); ++i) phases.push_back(phase(random));
+  const double height = level * std::sqrt(2. / static_cast<double>(frequencies_hz.size()));
+  return [=](double t) {
+    double sum = 0.;
+    for (std::size_t i = 0; i < phases.size(); ++i)
+      sum += std::sin(2. * std::numbers::pi * frequencies_hz[i] * t + phases[i]);
+    return height * sum;
+  };
+}
+
+/// Odd multiples of one line, every fourth of them left out.
+inline std::vector<double> odd_lines_hz(double line_hz, double low_hz, double high_hz) {
+  std::vector<double> out;
+  for (int k = 1; k * line_hz <= high_hz; k += 2)
+    if (k * line_hz >= low_hz && (k / 2) % 4 != 1) out.push_back(k * line_hz);
+  return out;
+}
+
+struct RigDatasetOptions {
+  bool wind = false;
+  bool quiet = true;
+  bool held_out = true;
+  double low_level = 1., high_level = 4.;  // rms, m/s^2
+  unsigned seed = 7;
+};
+
+/// Two base records of two periods each at two levels; held out: one that does not repeat.
+inline signals::Dataset rig_dataset(const OneModeRig& rig, const RigDatasetOptions& options = {}) {
+  constexpr std::size_t period = 512;
+  using signals::Split;
+  signals::Dataset out;
+  const std::vector<double> lines =
+      odd_lines_hz(rig.rate_hz / static_cast<double>(period), 4., 120.);
+  const auto add = [&](const std::string& name, const signals::Excitation& excitation,
+                       std::size_t period_samples, Split split, const OneModeRig::Signal& a,
+                       const OneModeRig::Signal& u, std::size_t n) {
+    const unsigned seed = options.seed + 13 * static_cast<unsigned>(out.records.size());
+    out.records.push_back({name,
+                           rig.record(n, period_samples > 0 ? 4.096 : 0., a, u, seed, options.wind),
+                           excitation, period_samples, split, signals::Readout::moment});
+  };
+  if (options.quiet) add("quiet", {}, 0, Split::fit, no_signal, no_signal, 1024);
+  const unsigned seed = options.seed;
+  add("base_low", {true, false}, period, Split::fit, sines(lines, options.low_level, seed + 1),
+      no_signal, 2 * period);
+  add("base_high", {true, false}, period, Split::fit, sines(lines, options.high_level, seed + 2),
+      no_signal, 2 * period);
+  const auto gusts = [&](unsigned number) {
+    const auto moving = sines({0.31, 0.83, 1.7, 3.9, 7.3, 13.1, 24.7, 33.9, 36.3}, 0.5, number);
+    return [moving](double t) { return 2. + moving(t); };
+  };
+  if (options.wind) add("wind", {false, true}, 0, Split::fit, no_signal, gusts(seed + 3), 1500);
+  std::vector<double> others;
+  for (double f = 5.137; f < 110.; f += 3.3171) others.push_back(f);
+  if (options.held_out)
+    add("held_out", {true, options.wind}, 0, Split::held_out,
+        sines(others, 0.5 * (options.low_level + options.high_level), seed + 4),
+        options.wind ? OneModeRig::Signal(gusts(seed + 5)) : no_signal, 2000);
+  return out;
+}
+
+/// What the rig is without extras, as theory has it.
+inline NominalModel nominal_of(const OneModeRig& rig, bool wind) {
+  NominalModel model;
+  StructuralMode mode{.frequency_rad_s = 2. * std::numbers::pi * rig.frequency_hz,
+                      .damping_ratio = rig.damping_ratio,
+                      .base_gain = -rig.moment_mass,
+                      .base_rate = -2. * rig.damping_ratio * rig.moment_mass};
+  if (wind) {
+    mode.wind_gain = rig.moment_mass * rig.drag;
+    mode.wind_rate = 2. * rig.damping_ratio * mode.wind_gain;
+  }
+  model.modes = {mode};
+  model.has_base = true;
+  model.has_wind = wind;
+  model.base_misfit = model.wind_misfit = 1e-4;
+  return model;
+}
+
+inline OneModeRig noisy_rig() {
+  OneModeRig rig;
+  rig.moment_noise = 6e-7;
+  rig.acceleration_noise = 0.05;
+  return rig;
+}
+
+}  // namespace vibrissa::diagnosis::test
