@@ -658,10 +658,8 @@ Climb best_start(Evaluation& evaluation, const std::vector<FreeFigure>& figures,
   };
   std::sort(climbs.begin(), climbs.end(), better);
   climbs.resize(std::min(climbs.size(), n_promising));
-  {
-    for (Climb& climb : climbs) climb_on(evaluation, figures, climb, n_first_iterations, options);
-    std::sort(climbs.begin(), climbs.end(), better);
-  }
+  for (Climb& climb : climbs) climb_on(evaluation, figures, climb, n_first_iterations, options);
+  std::sort(climbs.begin(), climbs.end(), better);
   return std::move(climbs.front());
 }
 
@@ -673,8 +671,17 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   fit.hypothesis = hypothesis;
   fit.figures = make_figures(experiment, hypothesis);
   Evaluation evaluation(experiment, fit.figures, fit.hypothesis);
-  Climb climb = best_start(evaluation, fit.figures,
-                           start_vectors(experiment, fit.figures, hypothesis, start), options);
+  // Retunes of another fit may have taken up what an effect does: both basins are looked at.
+  const auto climb_from = [&](bool nominal_nuisances) {
+    return best_start(evaluation, fit.figures,
+                      start_vectors(experiment, fit.figures, hypothesis, start, nominal_nuisances),
+                      options);
+  };
+  Climb climb = climb_from(true);
+  if (start != nullptr) {
+    Climb other = climb_from(false);
+    if (other.log_posterior > climb.log_posterior) climb = std::move(other);
+  }
   climb_on(evaluation, fit.figures, climb, options.max_iterations, options);
   fit.x = climb.x;
   fit.n_iterations = climb.n_iterations;
