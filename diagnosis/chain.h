@@ -57,6 +57,7 @@ struct Chain {
   double joint_share = 1.;
   /// Factor on the joint's share in the damping of the first mode that its viscous moment tells.
   double joint_loss_factor = 1.;
+  double inertia_factor = 1.;  // of the first mode
   /// The joint's spring and damper K(s) become K(s) (1 + D(s)), D the sum of these.
   std::vector<Filter> relaxation{};
   std::vector<Filter> parallel{};  // further paths base acceleration -> moment

@@ -40,19 +40,22 @@ LinearPart linear_part(const Chain& chain, const std::optional<JointModel>& join
   const Complex input = reference * product(chain.mount, s);
   LinearPart part{.base = model.base_response(s), .wind = model.wind_response(s), .elastic = 1.};
   if (joint) {
-    part.elastic = 1. / joint->stiffness_ratio(s);
+    const Complex d = chain.relaxation.empty() ? Complex(0.) : sum(chain.relaxation, s);
+    part.elastic = 1. / (joint->stiffness_ratio(s) * (1. + d));
+    Complex change = 1.;
     if (!chain.relaxation.empty()) {
-      const Complex d = sum(chain.relaxation, s);
       // What the modes above the first do to H they do to 1 / (1 + K G), too: B is that of the
       // load.
       const Complex upper = part.base * (1. + joint->inertia_ratio(s)) / static_response;
-      const Complex change = (1. + d) / (1. + d * (1. - joint->added_moment(s) * upper));
-      part.base *= change;
-      part.wind *= change;
-      part.elastic /= 1. + d;
+      change = (1. + d) / (1. + d * (1. - joint->added_moment(s) * upper));
     }
+    if (chain.inertia_factor != 1.) {
+      const Complex inertia = joint->inertia_ratio(s, d);
+      change *= (1. + inertia) / (1. + chain.inertia_factor * inertia);
+    }
+    part.base *= change;
+    part.wind *= change;
   }
-  part.wind *= product(chain.wind_path, s);
   part.base += sum(chain.parallel, s);
   part.base = part.base * input + sum(chain.feedthrough, s) * reference;
   return part;

@@ -126,8 +126,15 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry, const
   }
   out.noise_share =
       signal_share(out.acceleration, n * noise * noise, driven_lines(out, entry, excited));
-  for (std::size_t k = 0; k < out.acceleration.size(); ++k)
-    out.acceleration[k] *= out.noise_share[k];
+  const double noise_power = n * noise * noise;
+  for (std::size_t k = 0; k < out.acceleration.size(); ++k) {
+    const double share = out.noise_share[k];
+    // A line much stronger than its neighbours said (noise alone is so once in twenty) loses signal
+    // with the noise.
+    const double lost = std::max(0., std::norm(out.acceleration[k]) / noise_power - 3.);
+    out.noise_share[k] = std::max(share, share * share + (1. - share) * (1. - share) * lost);
+    out.acceleration[k] *= share;
+  }
 }
 
 PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& entry,

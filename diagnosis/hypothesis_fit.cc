@@ -14,7 +14,7 @@ constexpr std::size_t place_moment_noise = 0, place_acceleration_noise = 1, plac
                       place_joint_loss = 3, n_noise_figures = 2, n_own_figures = 4;
 
 /// An ADXL345 or its like at rest, a sample [m/s^2]: paper.md gives 0.008 g as its bound.
-constexpr double usual_acceleration_noise = 0.05, usual_spread = 0.4;
+constexpr double usual_acceleration_noise = 0.05, usual_spread = 0.3;
 /// Misfit of the nominal form that is always allowed for.
 constexpr double least_misfit = 1e-4;
 /// Upper edges of the bands of a discrepancy, in frequencies of the first mode; the last has none.
@@ -45,7 +45,7 @@ std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothe
                 .high = std::log(20.)}};
   figures[place_joint_share].description =
       normal("joint_share", "1", experiment.nominal.joint_share,
-             experiment.nominal.joint_share_deviation, 0.3, 0.98, 1.);
+             experiment.nominal.joint_share_deviation, 0.3, 1., 1.);
   figures[place_joint_loss].description = normal("joint_loss_factor", "1", 1., 0.05, 0.7, 1.3, 1.);
   const auto add = [&](const Effect& effect, bool nuisance) {
     for (std::size_t i = 0; i < effect.parameters.size(); ++i) {

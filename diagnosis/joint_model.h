@@ -24,7 +24,8 @@ struct JointModel {
   /// 1 - P: moment at the base for a moment T added in the joint, (1 - P) T.
   Complex added_moment(Complex s) const;
   /// Moment of inertia over moment of the springs per rotation: the poles are where it is -1.
-  Complex inertia_ratio(Complex s) const;
+  /// change: D of a joint K(s) (1 + D).
+  Complex inertia_ratio(Complex s, Complex change = 0.) const;
   /// Viscous and elastic moment of the joint over its elastic one, 1 + rho s / w.
   Complex stiffness_ratio(Complex s) const { return 1. + loss * s / frequency_rad_s; }
 };

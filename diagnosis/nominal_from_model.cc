@@ -31,7 +31,7 @@ std::size_t nearest_speed(const signals::WindLoad& wind) {
 void set_joint_share(NominalModel& nominal, const signals::ReducedModel& model, std::size_t first) {
   for (const signals::Sensitivity& sensitivity : model.sensitivities)
     if (sensitivity.parameter == "silicone_modulus") {
-      nominal.joint_share = std::clamp(2. * sensitivity.frequency.at(first), 0.3, 0.98);
+      nominal.joint_share = std::clamp(2. * sensitivity.frequency.at(first), 0.3, 1.);
       nominal.joint_share_deviation = 0.02;
     }
 }

@@ -30,9 +30,9 @@ struct NominalModel {
   double wind_direct = 0.;                  // N m / (m/s)^2
   bool has_base = false, has_wind = false;  // paths that the simulation determined
   /// Share of the joint (the silicone) in the compliance of the first mode, and how well it is
-  /// known. Records do not tell it: about two thirds for sensors of this kind (paper.md 0.71, the
-  /// finite-element model of the flow sensor 0.56).
-  double joint_share = 0.65, joint_share_deviation = 0.1;
+  /// known. Records do not tell it: 0.71 (paper.md) and 0.56 (our finite-element model) for
+  /// flow sensors, 1 for a rigid whisker.
+  double joint_share = 0.7, joint_share_deviation = 0.15;
   /// rms of (simulated - model) over rms of simulated, on the simulation's own records: what this
   /// form cannot follow.
   double base_misfit = 0., wind_misfit = 0.;

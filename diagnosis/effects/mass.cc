@@ -1,5 +1,4 @@
 #include "diagnosis/effect.h"
-#include "diagnosis/joint_model.h"
 
 namespace vibrissa::diagnosis::effects {
 
@@ -19,16 +18,9 @@ Effect mass() {
                      normal("direct", "1", 0., 0.005, -0.05, 0.05, 0.)},
       .starts = {{0.95, 1., 0.}, {1.05, 1., 0.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-        if (chain.structure.modes.empty()) return;
-        const JointModel joint(chain.structure.modes.front(), chain.joint_share,
-                               chain.joint_loss_factor);
-        const auto slower = [r = v[0], joint](Complex s) {
-          const Complex inertia = joint.inertia_ratio(s);
-          return (1. + inertia) / (1. + r * inertia);
-        };
+        chain.inertia_factor *= v[0];
         chain.mount.push_back(
-            [slower, forcing = std::pow(v[0], v[1])](Complex s) { return forcing * slower(s); });
-        chain.wind_path.push_back(slower);
+            [forcing = std::pow(v[0], v[1])](Complex) -> Complex { return forcing; });
         chain.parallel.push_back(
             [direct = v[2] * scales.static_gain](Complex) -> Complex { return direct; });
       }};

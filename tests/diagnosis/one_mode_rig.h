@@ -162,6 +162,9 @@ inline NominalModel nominal_of(const OneModeRig& rig, bool wind) {
   model.has_base = true;
   model.has_wind = wind;
   model.base_misfit = model.wind_misfit = 1e-4;
+  // All of the compliance is in the rig's one spring.
+  model.joint_share = 1.;
+  model.joint_share_deviation = 0.02;
   return model;
 }
 

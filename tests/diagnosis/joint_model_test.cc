@@ -1,0 +1,55 @@
+#include "diagnosis/joint_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace vibrissa::diagnosis {
+namespace {
+
+StructuralMode mode() {
+  return {.frequency_rad_s = 2. * std::numbers::pi * 37.,
+          .damping_ratio = 0.05,
+          .base_gain = -8e-6,
+          .base_rate = -7.2e-7};
+}
+
+TEST(JointModel, HasThePoleOfItsMode) {
+  const StructuralMode given = mode();
+  const JointModel model(given, 0.65);
+  const double z = given.damping_ratio, w = given.frequency_rad_s;
+  const Complex pole = w * Complex(-z, std::sqrt(1. - z * z));
+  // Springs and damper in series damp as the mode does to first order in their loss.
+  EXPECT_LT(std::abs(model.inertia_ratio(pole) + 1.), 0.02);
+}
+
+TEST(JointModel, AStaticMomentInTheJointDoesNotReachTheBase) {
+  EXPECT_LT(std::abs(JointModel(mode(), 0.65).added_moment(Complex(0., 1e-6))), 1e-9);
+}
+
+TEST(JointModel, IntegratorAnswersASineAsTheTransferFunctionSays) {
+  const JointModel model(mode(), 0.65);
+  const double w = 0.8 * model.frequency_rad_s;
+  const auto error = [&](double dt) {
+    JointIntegrator integrator(model, dt);
+    const auto n = static_cast<std::size_t>(std::lround(1.5 / dt));
+    double largest = 0.;
+    for (std::size_t i = 1; i <= n; ++i) {
+      const double t = static_cast<double>(i) * dt, torque = std::sin(w * t);
+      const Eigen::Vector3d state = integrator.moved(torque, 0.);
+      integrator.accept(state, torque, 0.);
+      // The elastic coordinate y answers -P T / (1 + rho s / w); the moment is that of the whisker.
+      const Complex expected = model.added_moment(Complex(0., w)) * std::exp(Complex(0., w * t));
+      if (t > 1.2)
+        largest = std::max(largest, std::abs(integrator.moment(state) - expected.imag()));
+    }
+    return largest;
+  };
+  const double coarse = error(1e-3), fine = error(5e-4);
+  EXPECT_LT(fine, 2e-3);
+  EXPECT_NEAR(std::log2(coarse / fine), 2., 0.15) << "linear loads over a step err by h^2";
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis

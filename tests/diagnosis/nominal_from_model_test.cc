@@ -1,0 +1,68 @@
+#include "diagnosis/nominal_from_model.h"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "signals/error.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+signals::ReducedModel two_modes() {
+  signals::ReducedModel model;
+  model.name = "two modes";
+  model.modes = {{37., 0.05, {0.011, 0., 0.}, {0., 7e-4, 0.}},
+                 {37., 0.05, {0., 0.011, 0.}, {-7e-4, 0., 0.}},
+                 {170., 0.03, {0.004, 0., 0.}, {0., -9e-5, 0.}}};
+  model.rigid_moment[1][0] = 9e-6;
+  model.rigid_moment[0][1] = -9e-6;
+  model.wind = {.speed_m_s = {0., 2.},
+                .modal_coefficient = {{0., 0., 0.}, {4e-3, 0., 1e-4}},
+                .moment_coefficient = {{0., 0., 0.}, {0., 3.5e-6, 0.}}};
+  return model;
+}
+
+TEST(NominalFromModel, HasTheModelsBaseResponse) {
+  const signals::ReducedModel model = two_modes();
+  const NominalModel nominal = nominal_from(model);
+  const std::vector<double> frequency_hz{1., 20., 36., 40., 150., 220.};
+  const auto expected = signals::base_response(model, frequency_hz);
+  for (std::size_t i = 0; i < frequency_hz.size(); ++i) {
+    const Complex s(0., 2. * std::numbers::pi * frequency_hz[i]);
+    EXPECT_LT(std::abs(nominal.base_response(s) - expected[i]), 1e-12 * std::abs(expected[0]));
+  }
+}
+
+TEST(NominalFromModel, LeavesOutTheModesOfTheOtherPlaneAndPutsTheStrongestFirst) {
+  const NominalModel nominal = nominal_from(two_modes());
+  ASSERT_EQ(nominal.modes.size(), 2U);
+  EXPECT_NEAR(nominal.modes.front().frequency_rad_s, 2. * std::numbers::pi * 37., 1e-9);
+}
+
+TEST(NominalFromModel, HasTheSteadyMomentOfTheWind) {
+  const signals::ReducedModel model = two_modes();
+  EXPECT_NEAR(nominal_from(model).wind_response(0.).real() * 4.,
+              signals::steady_wind_moment(model, 2.), 1e-15);
+}
+
+TEST(NominalFromModel, TakesTheJointsShareFromTheSensitivityToTheSilicone) {
+  signals::ReducedModel model = two_modes();
+  model.sensitivities = {{.parameter = "silicone_modulus",
+                          .nominal_value = 2e6,
+                          .unit = "Pa",
+                          .frequency = {0.28, 0.28, 0.1},
+                          .base_gain = {0., 0., 0.},
+                          .wind_gain = {0., 0., 0.}}};
+  EXPECT_NEAR(nominal_from(model).joint_share, 0.56, 1e-12);
+}
+
+TEST(NominalFromModel, RefusesAModelThatBaseMotionDoesNotMove) {
+  signals::ReducedModel model = two_modes();
+  for (auto& mode : model.modes) mode.participation = {0., 0., 0.};
+  EXPECT_THAT([&] { nominal_from(model); },
+              testing::ThrowsMessage<signals::UserError>(testing::HasSubstr("two modes")));
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis
