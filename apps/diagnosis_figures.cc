@@ -13,7 +13,8 @@ report::Figure gap_map(const diagnosis::Location& location) {
                       .log_x = true,
                       .log_y = true};
   for (const diagnosis::ChannelGap& channel : location.map) {
-    report::Curve curve{.label = channel.channel};
+    // Of records with both, which alone show what neither does.
+    report::Curve curve{.label = channel.channel == "product" ? "base and wind" : channel.channel};
     for (const diagnosis::BandGap& band : channel.bands) {
       curve.x.push_back(std::sqrt(band.low_hz * band.high_hz));
       curve.y.push_back(band.excess);
