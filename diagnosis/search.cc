@@ -53,8 +53,9 @@ void keep_first(std::vector<std::size_t>& list, std::size_t n) {
   if (list.size() > n) list.erase(list.begin() + static_cast<std::ptrdiff_t>(n), list.end());
 }
 
-/// An unknown effect is as likely as one or two of the known ones.
-constexpr double log_prior_of_discrepancy = -3.;
+/// An unknown effect is as likely as one of the known ones, whose probability is shared by the
+/// retunes that may be named beside it.
+constexpr double log_prior_of_discrepancy = -5.5;
 
 double log_choose(std::size_t n, std::size_t k) {
   double sum = 0.;
