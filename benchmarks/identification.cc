@@ -75,21 +75,17 @@ void start(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) 
   count(state, fit, n_samples);
 }
 
-void output_error_refine(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
+template <auto method>
+void refined_by(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
   const Experiment data = experiment(n_modes, n_samples);
   const Bvrm start = start_of(data).model;
   FittedBvrm fit;
-  for (auto _ : state) benchmark::DoNotOptimize(fit = refine(data, start));
+  for (auto _ : state) benchmark::DoNotOptimize(fit = method(data, start));
   count(state, fit, n_samples);
 }
 
-void srivc_refine(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
-  const Experiment data = experiment(n_modes, n_samples);
-  const Bvrm start = start_of(data).model;
-  FittedBvrm fit;
-  for (auto _ : state) benchmark::DoNotOptimize(fit = srivc(data, start));
-  count(state, fit, n_samples);
-}
+constexpr auto output_error_refine = refined_by<refine>;
+constexpr auto srivc_refine = refined_by<srivc>;
 
 void output_error_whole(benchmark::State& state, std::size_t n_modes, std::size_t n_samples) {
   const Experiment data = experiment(n_modes, n_samples);

@@ -30,7 +30,6 @@ using JointLawMaker = std::function<std::unique_ptr<JointLaw>(std::size_t record
 struct RelativeWind {
   bool on = false;
   double velocity_per_moment_rate = 0.;  // (m/s) / (N m / s)
-  double base_velocity_share = 1.;
 };
 
 /// What a noise of its own does to one record's spectrum: the variance of a DFT bin is added to.

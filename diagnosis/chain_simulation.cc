@@ -196,8 +196,7 @@ std::vector<double> dynamic_part(const Chain& chain, const PreparedRecord& recor
       const auto load = [&](double rate) {
         if (fine.wind.empty()) return 0.;
         const double u = fine.wind[i];
-        const double v = relative.base_velocity_share * fine.base_velocity[i] +
-                         relative.velocity_per_moment_rate * rate;
+        const double v = fine.base_velocity[i] + relative.velocity_per_moment_rate * rate;
         return wind_gain * ((u - v) * std::abs(u - v) - u * std::abs(u));
       };
       const double t_s = keep ? static_cast<double>(i) * dt : 0.;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "diagnosis/chain_simulation.h"
 #include "diagnosis/judged_samples.h"
 
 namespace vibrissa::diagnosis {
@@ -30,16 +31,19 @@ ResponseComparison compare_response(const Experiment& experiment, const Hypothes
   if (record == nullptr) return out;
   out.record = record->name;
   const std::vector<Complex> nominal = simulate_mean({.structure = experiment.nominal}, *record);
-  const Prediction mended = simulate(fit.chain(experiment), *record);
-  const std::vector<double> variance = bin_variance(experiment, fit, *record, mended);
+  const std::vector<Complex> mended = simulate_mean(fit.chain(experiment), *record);
+  const std::vector<double> deviation = whitened_residual(experiment, fit).deviation;
+  std::size_t first = 0;
+  for (const PreparedRecord* before = experiment.records.data(); before != record; ++before)
+    first += before->n_bins();
   for (std::size_t b = 0; b < record->n_bins(); ++b) {
     const double a = std::abs(record->acceleration[record->whole_line(b)]);
     if (a == 0.) continue;
     out.frequency_hz.push_back(static_cast<double>(b + 1) * record->bin_hz());
     out.measured.push_back(std::abs(record->moment[b]) / a);
     out.nominal.push_back(std::abs(nominal[b]) / a);
-    out.mended.push_back(std::abs(mended.mean[b]) / a);
-    out.deviation.push_back(std::sqrt(variance[b]) / a);
+    out.mended.push_back(std::abs(mended[b]) / a);
+    out.deviation.push_back(deviation[first + b] / a);
   }
   return out;
 }

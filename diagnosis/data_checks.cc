@@ -3,25 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iomanip>
 #include <map>
 #include <numbers>
 #include <optional>
-#include <sstream>
 
 #include "diagnosis/spectrum.h"
+#include "diagnosis/words.h"
 
 namespace vibrissa::diagnosis {
 namespace {
 
 using signals::DatasetRecord;
 namespace channel = signals::channel;
-
-std::string text_of(double value) {
-  std::ostringstream stream;
-  stream << std::setprecision(3) << value;
-  return stream.str();
-}
 
 double rms_without_mean(std::span<const double> x) {
   double sum = 0., square = 0.;
@@ -123,7 +116,7 @@ void check_factor(double factor, const std::string& record,
   for (const UnitMistake& mistake : mistakes)
     if (near(factor, mistake.factor))
       findings.push_back({FindingKind::wrong_unit, record,
-                          "the measured response is " + text_of(factor) +
+                          "the measured response is " + three_digits(factor) +
                               " times the simulated one: " + mistake.message});
 }
 
@@ -149,8 +142,8 @@ void check_units(const NominalModel& nominal, const DatasetRecord& entry,
       findings.push_back({FindingKind::swapped_columns, entry.name,
                           "base_acceleration_m_s2 and base_moment_N_m seem to be exchanged: as "
                           "they stand the response is " +
-                              text_of(ratio->median) + " times the simulated one, exchanged " +
-                              text_of(exchanged->median) + " times"});
+                              three_digits(ratio->median) + " times the simulated one, exchanged " +
+                              three_digits(exchanged->median) + " times"});
       return;
     }
     check_factor(ratio->median, entry.name, of_base, findings);
@@ -172,7 +165,7 @@ void check_repeats(const DatasetRecord& entry, std::vector<Finding>& findings) {
     // Few values: the steps of a converter repeat by themselves.
     if (share > many && counts.size() > x.size() / 4)
       findings.push_back({FindingKind::repeated_samples, entry.name,
-                          text_of(100. * share) + " % of the samples of " + name +
+                          three_digits(100. * share) + " % of the samples of " + name +
                               " equal the one before: it is polled faster than it is renewed"});
   };
   check(channel::base_acceleration, entry.excitation.base);
@@ -261,8 +254,8 @@ std::vector<Finding> check_data(const NominalModel& nominal, const signals::Data
     const double rate_hz = entry.record.sampling_rate_hz();
     if (simulated_rate_hz > 0. && std::abs(rate_hz / simulated_rate_hz - 1.) > 1e-3)
       findings.push_back({FindingKind::different_rate, entry.name,
-                          "sampled at " + text_of(rate_hz) + " Hz, the simulation at " +
-                              text_of(simulated_rate_hz) +
+                          "sampled at " + three_digits(rate_hz) + " Hz, the simulation at " +
+                              three_digits(simulated_rate_hz) +
                               " Hz: compared in continuous frequency, which is sound below both "
                               "halves"});
   }

@@ -19,17 +19,15 @@ void refuse_spoilt_data(const std::vector<Finding>& findings) {
   if (!text.empty()) throw signals::UserError(text);
 }
 
-bool comparable(const NominalModel& nominal, const signals::DatasetRecord& entry) {
-  const bool base = nominal.has_base && entry.record.has(signals::channel::base_acceleration);
-  const bool wind = nominal.has_wind && entry.record.has(signals::channel::wind_speed);
-  if (entry.split != signals::Split::fit || entry.excitation == signals::Excitation{}) return false;
-  return (!entry.excitation.base || base) && (!entry.excitation.wind || wind);
+bool tells_something(const NominalModel& nominal, const signals::DatasetRecord& entry) {
+  return entry.split == signals::Split::fit && entry.excitation != signals::Excitation{} &&
+         is_comparable(nominal, entry);
 }
 
 void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
                       const std::vector<Finding>& findings) {
   if (std::any_of(real.records.begin(), real.records.end(),
-                  [&](const auto& entry) { return comparable(nominal, entry); }))
+                  [&](const auto& entry) { return tells_something(nominal, entry); }))
     return;
   std::string text =
       "too little data to say anything: no fit record has an excitation that was measured and that "

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "diagnosis/words.h"
+
 namespace vibrissa::diagnosis {
 namespace {
 
@@ -78,24 +80,11 @@ json answer_json(const RankedAnswer& answer) {
           {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)}};
 }
 
-std::string rounded(double value) {
-  std::ostringstream stream;
-  stream.precision(3);
-  stream << value;
-  return stream.str();
-}
-
 std::string percent(double share) {
   std::ostringstream stream;
   stream.precision(share > 0.1 ? 0 : 1);
   stream << std::fixed << 100. * share << " %";
   return stream.str();
-}
-
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
 }
 
 std::string verdict_line(const Diagnosis& diagnosis) {
@@ -117,8 +106,8 @@ std::string parameters_line(const RankedAnswer& answer) {
   std::string text;
   for (const ParameterEstimate& p : answer.parameters) {
     const std::string unit = p.unit == "1" ? "" : " " + p.unit;
-    text += (text.empty() ? "  " : "; ") + p.effect + " " + p.name + " " + rounded(p.value) + unit +
-            " (" + rounded(p.ci95[0]) + " .. " + rounded(p.ci95[1]) + ")";
+    text += (text.empty() ? "  " : "; ") + p.effect + " " + p.name + " " + three_digits(p.value) +
+            unit + " (" + three_digits(p.ci95[0]) + " .. " + three_digits(p.ci95[1]) + ")";
   }
   return text;
 }

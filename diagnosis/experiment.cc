@@ -20,12 +20,6 @@ constexpr double n_time_constants = 7.;
 /// Samples at the end of an aperiodic record where its circular continuation rings.
 constexpr std::size_t end_margin = 24;
 
-bool compares(const NominalModel& nominal, const DatasetRecord& entry) {
-  const bool base_known = nominal.has_base && entry.record.has(channel::base_acceleration);
-  const bool wind_known = nominal.has_wind && entry.record.has(channel::wind_speed);
-  return (!entry.excitation.base || base_known) && (!entry.excitation.wind || wind_known);
-}
-
 std::size_t transient_samples(const NominalModel& nominal, double rate_hz) {
   if (nominal.modes.empty()) return 0;
   const StructuralMode& mode = nominal.modes.front();
@@ -195,6 +189,18 @@ Scales scales_of(const Experiment& experiment) {
 
 }  // namespace
 
+bool is_comparable(const NominalModel& nominal, const DatasetRecord& entry) {
+  const bool base_known = nominal.has_base && entry.record.has(channel::base_acceleration);
+  const bool wind_known = nominal.has_wind && entry.record.has(channel::wind_speed);
+  return (!entry.excitation.base || base_known) && (!entry.excitation.wind || wind_known);
+}
+
+bool shows(const Experiment& experiment, const Effect& effect) {
+  return (!effect.needs.base || experiment.has_base) &&
+         (!effect.needs.wind || experiment.has_wind) &&
+         (!effect.needs.cross || experiment.has_cross);
+}
+
 std::size_t PreparedRecord::whole_line(const std::size_t b) const {
   const double ratio = static_cast<double>(n_samples) / static_cast<double>(n_judged);
   return std::min(n_samples / 2,
@@ -238,23 +244,15 @@ Experiment prepare_experiment(const NominalModel& nominal, const signals::Datase
   experiment.moment_noise = noise.moment_n_m;
   experiment.acceleration_noise = noise.acceleration_m_s2;
   const ExcitedHarmonics excited = excited_harmonics(dataset, split, noise.acceleration_m_s2);
-  double repeats = 0., moving = 0.;
   for (std::size_t i = 0; i < dataset.records.size(); ++i) {
     const DatasetRecord& entry = dataset.records[i];
-    if (entry.split != split || !compares(nominal, entry)) continue;
+    if (entry.split != split || !is_comparable(nominal, entry)) continue;
     experiment.records.push_back(prepare_record(nominal, entry, i, noise, excited, treatment));
     const PreparedRecord& record = experiment.records.back();
     experiment.has_base |= entry.excitation.base;
     experiment.has_wind |= entry.excitation.wind;
     experiment.has_cross |= !record.cross_acceleration.empty();
-    experiment.has_quiet |= entry.excitation == signals::Excitation{};
-    if (entry.excitation.base) {
-      const auto a = entry.record.channel(channel::base_acceleration);
-      for (std::size_t j = 1; j < a.size(); ++j) repeats += a[j] == a[j - 1];
-      moving += static_cast<double>(a.size());
-    }
   }
-  if (moving > 0.) experiment.acceleration_repeats = repeats / moving;
   if (!experiment.has_base && !experiment.has_wind && split == signals::Split::fit)
     throw signals::UserError(
         "no record of the real dataset can be compared with the simulation: it needs a fit record "

@@ -45,9 +45,14 @@ struct Experiment {
   Scales scales;
   double moment_noise = 0.;        // guess, a sample [N m]
   double acceleration_noise = 0.;  // guess, a sample [m/s^2]
-  bool has_base = false, has_wind = false, has_cross = false, has_quiet = false;
-  double acceleration_repeats = 0.;  // share of samples equal to their predecessor, moving records
+  bool has_base = false, has_wind = false, has_cross = false;
 };
+
+/// Are all excitations of a record measured, and known to the simulation?
+bool is_comparable(const NominalModel& nominal, const signals::DatasetRecord& entry);
+
+/// Does the experiment hold what the effect needs?
+bool shows(const Experiment& experiment, const Effect& effect);
 
 /// Only records of the given split. Throws UserError when there is none that the nominal model can
 /// be compared with.

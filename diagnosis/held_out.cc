@@ -7,7 +7,9 @@
 #include <numeric>
 #include <random>
 
+#include "diagnosis/chain_simulation.h"
 #include "diagnosis/judged_samples.h"
+#include "diagnosis/spectrum.h"
 #include "signals/error.h"
 
 namespace vibrissa::diagnosis {
@@ -68,12 +70,6 @@ FloorParts floor_parts(const PreparedRecord& record, const Prediction& predictio
     parts.own += chain.reference_variance * acceleration + prediction.own_noise[b] * 2. / (n * n);
   }
   return parts;
-}
-
-std::vector<Complex> difference(std::span<const Complex> a, std::span<const Complex> b) {
-  std::vector<Complex> out(a.begin(), a.end());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] -= b[i];
-  return out;
 }
 
 /// Sine and cosine fitted to the first half at one frequency.

@@ -1,6 +1,9 @@
 #include "diagnosis/hypothesis.h"
 
 #include <algorithm>
+#include <sstream>
+
+#include "diagnosis/words.h"
 
 namespace vibrissa::diagnosis {
 
@@ -13,9 +16,15 @@ const std::vector<std::string>& nuisance_ids() {
 std::string joined_name(std::vector<std::string> ids) {
   if (ids.empty()) return "none";
   std::sort(ids.begin(), ids.end());
-  std::string text = ids.front();
-  for (std::size_t i = 1; i < ids.size(); ++i) text += "+" + ids[i];
-  return text;
+  return joined(ids, "+");
+}
+
+std::vector<std::string> effect_ids(const std::string& name) {
+  std::vector<std::string> ids;
+  if (name == "none") return ids;
+  std::istringstream stream(name);
+  for (std::string id; std::getline(stream, id, '+');) ids.push_back(id);
+  return ids;
 }
 
 Hypothesis::Hypothesis(std::vector<const Effect*> effects) : effects_(std::move(effects)) {

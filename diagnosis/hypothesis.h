@@ -37,5 +37,7 @@ inline const std::string outside_catalogue = "outside_catalogue";
 
 /// Ids in alphabetical order joined by '+'; "none" for none.
 std::string joined_name(std::vector<std::string> ids);
+/// The reverse: ids of "a+b"; none for "none".
+std::vector<std::string> effect_ids(const std::string& name);
 
 }  // namespace vibrissa::diagnosis

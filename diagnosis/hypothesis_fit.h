@@ -6,19 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/chain_simulation.h"
 #include "diagnosis/experiment.h"
+#include "diagnosis/fit_figures.h"
 #include "diagnosis/hypothesis.h"
 
 namespace vibrissa::diagnosis {
-
-/// One free figure of a fit: of a channel's noise, a nuisance, an effect, or the form error.
-struct FreeFigure {
-  const Effect* effect = nullptr;  // nothing: of the noise or the form error
-  std::size_t parameter = 0;       // number in the effect
-  Parameter description{};
-  bool nuisance = false;
-};
 
 /// A nuisance that is said to differ from its nominal value.
 struct RetuneChoice {
@@ -75,9 +67,5 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
                              const HypothesisFit* start = nullptr, const FitOptions& options = {});
 
 WhitenedResidual whitened_residual(const Experiment& experiment, const HypothesisFit& fit);
-
-/// Variance of each bin of one record as the fit has it.
-std::vector<double> bin_variance(const Experiment& experiment, const HypothesisFit& fit,
-                                 const PreparedRecord& record, const Prediction& prediction);
 
 }  // namespace vibrissa::diagnosis

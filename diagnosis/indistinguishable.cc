@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/chain_simulation.h"
 #include "diagnosis/location.h"
 
 namespace vibrissa::diagnosis {
@@ -196,10 +197,7 @@ class Directions {
     for (const Effect& effect : effect_catalogue()) {
       const bool held = std::any_of(fit.figures.begin(), fit.figures.end(),
                                     [&](const FreeFigure& f) { return f.effect == &effect; });
-      const bool blind = (effect.needs.base && !experiment.has_base) ||
-                         (effect.needs.wind && !experiment.has_wind) ||
-                         (effect.needs.cross && !experiment.has_cross);
-      if (held || blind) continue;
+      if (held || !shows(experiment, effect)) continue;
       for (const std::vector<double>& values : effect.starts) {
         State moved = state;
         effect.extend(moved.chain, faint(effect, values), experiment.scales);

@@ -7,8 +7,11 @@
 #include <numeric>
 #include <sstream>
 
+#include "diagnosis/chain_simulation.h"
 #include "diagnosis/judged_samples.h"
 #include "diagnosis/significance_tests.h"
+#include "diagnosis/spectrum.h"
+#include "diagnosis/words.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -28,22 +31,6 @@ std::string kind_of(const PreparedRecord& record) {
   if (record.excitation.base && record.excitation.wind) return "product";
   if (record.excitation.base) return "base";
   return record.excitation.wind ? "wind" : "rest";
-}
-
-std::vector<double> smoothed(const std::vector<double>& x, std::size_t reach) {
-  std::vector<double> running(x.size() + 1, 0.), out(x.size());
-  std::partial_sum(x.begin(), x.end(), running.begin() + 1);
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const std::size_t low = k < reach ? 0 : k - reach, high = std::min(x.size(), k + reach + 1);
-    out[k] = (running[high] - running[low]) / static_cast<double>(high - low);
-  }
-  return out;
-}
-
-std::vector<double> powers(const std::vector<Complex>& x) {
-  std::vector<double> out(x.size());
-  std::transform(x.begin(), x.end(), out.begin(), [](Complex v) { return std::norm(v); });
-  return out;
 }
 
 /// Degrees of freedom of the noise levels: lines where nothing moves, upper half of the spectrum.
@@ -102,7 +89,7 @@ RestNoise rest_noise(const Experiment& experiment) {
     out.p_value = p;
     out.coloured = p < significant;
     out.bin_hz = record.bin_hz();
-    out.excess = smoothed(power, 3);
+    out.excess = neighbour_mean(power, 3);
     out.lines_hz.clear();
     for (const std::size_t b : line_bins)
       out.lines_hz.push_back(record.bin_hz() * static_cast<double>(b + 1));
@@ -117,7 +104,7 @@ RecordGap gap_of(const Experiment& experiment, const PreparedRecord& record,
       .record = &record, .predicted = prediction.mean, .error = record.moment, .variance = {}};
   const double misfit =
       record.excitation.wind ? experiment.nominal.wind_misfit : experiment.nominal.base_misfit;
-  const std::vector<double> level = smoothed(powers(prediction.mean), 10);
+  const std::vector<double> level = neighbour_mean(powers(prediction.mean), 10);
   const double moment = experiment.moment_noise * experiment.moment_noise;
   const double acceleration = experiment.acceleration_noise * experiment.acceleration_noise;
   for (std::size_t b = 0; b < gap.error.size(); ++b) {
@@ -318,7 +305,8 @@ std::array<double, 2> parity_p_values(const RecordGap& gap, const RestNoise& res
       counted[b] = 1.;
     }
   constexpr std::size_t reach = 15;
-  const std::vector<double> noise = smoothed(between, reach), share = smoothed(counted, reach);
+  const std::vector<double> noise = neighbour_mean(between, reach),
+                            share = neighbour_mean(counted, reach);
   std::array<double, 2> sum{}, n{};
   for (std::size_t k = std::max(step, first / 2 / step * step); k <= gap.error.size(); k += step) {
     if (std::norm(record.acceleration[k]) > 0. || on_rest_line(rest, record, k - 1)) continue;
@@ -421,12 +409,6 @@ std::vector<std::string> gap_channels(const std::vector<ChannelGap>& map, bool a
   return channels;
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
-}
-
 }  // namespace
 
 std::string to_string(const Harmonics harmonics) {
@@ -469,14 +451,6 @@ Location locate_gap(const Experiment& experiment) {
   out.harmonics = harmonics_of(gaps, rest);
   out.varies_in_time = varies_in_time(gaps);
   return out;
-}
-
-std::vector<std::string> effect_ids(const std::string& name) {
-  std::vector<std::string> ids;
-  if (name == "none") return ids;
-  std::istringstream stream(name);
-  for (std::string id; std::getline(stream, id, '+');) ids.push_back(id);
-  return ids;
 }
 
 std::vector<std::string> likely_links(const SearchResult& result) {

@@ -57,7 +57,4 @@ std::vector<std::string> likely_links(const SearchResult& result);
 /// One sentence in words.
 std::string location_sentence(const Location& location);
 
-/// Ids of "a+b"; none for "none".
-std::vector<std::string> effect_ids(const std::string& name);
-
 }  // namespace vibrissa::diagnosis

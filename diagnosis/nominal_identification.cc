@@ -109,11 +109,15 @@ void set_base_path(NominalModel& model, const signals::Dataset& simulation) {
   model.has_base = true;
 }
 
+std::vector<double> signed_squares(std::span<const double> wind) {
+  std::vector<double> out(wind.begin(), wind.end());
+  for (double& u : out) u *= std::abs(u);
+  return out;
+}
+
 /// One column for each unknown of the wind path: gain and rate of each mode, direct term.
 Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& record) {
-  std::vector<double> force(record.wind);
-  for (double& u : force) u *= std::abs(u);
-  const std::vector<Complex> spectrum = spectrum_of(force);
+  const std::vector<Complex> spectrum = spectrum_of(signed_squares(record.wind));
   const auto n_modes = static_cast<Eigen::Index>(model.modes.size());
   const auto n_bins = static_cast<Eigen::Index>(record.n_bins());
   Eigen::MatrixXcd columns(n_bins, 2 * n_modes + 1);
@@ -141,9 +145,7 @@ Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& r
 /// Without a base path the wind's own response gives the poles.
 void set_wind_poles(NominalModel& model, const std::vector<const DatasetRecord*>& entries) {
   const signals::Record& record = entries.front()->record;
-  std::vector<double> force(record.channel(channel::wind_speed).begin(),
-                            record.channel(channel::wind_speed).end());
-  for (double& u : force) u *= std::abs(u);
+  const std::vector<double> force = signed_squares(record.channel(channel::wind_speed));
   const auto response = signals::welch_response(force, record.channel(channel::base_moment),
                                                 record.sampling_rate_hz(),
                                                 {std::min<std::size_t>(1024, force.size() / 4)});

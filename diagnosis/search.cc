@@ -9,6 +9,8 @@
 #include <set>
 #include <thread>
 
+#include "diagnosis/chain_simulation.h"
+
 namespace vibrissa::diagnosis {
 namespace {
 
@@ -44,9 +46,7 @@ void for_each_parallel(std::size_t n, std::size_t n_threads,
 bool testable(const Experiment& experiment, const Effect& effect, const SearchOptions& options) {
   const auto& out = options.left_out;
   if (std::find(out.begin(), out.end(), effect.id) != out.end()) return false;
-  if (effect.needs.base && !experiment.has_base) return false;
-  if (effect.needs.wind && !experiment.has_wind) return false;
-  return !effect.needs.cross || experiment.has_cross;
+  return shows(experiment, effect);
 }
 
 void keep_first(std::vector<std::size_t>& list, std::size_t n) {
@@ -176,6 +176,7 @@ class Searcher {
     for_each_parallel(again.size(), options_.n_threads, [&](std::size_t i) {
       refined[i] =
           fit_hypothesis(experiment_, fits_[again[i].first].hypothesis, &fits_[again[i].second]);
+      const std::lock_guard lock(mutex_);
       if (options_.on_fit) options_.on_fit();
     });
     for (std::size_t i = 0; i < again.size(); ++i)
@@ -268,7 +269,7 @@ class Searcher {
 
   std::vector<Candidate> candidates() const {
     std::map<std::string, Candidate> by_name;
-    for (std::size_t i = 0; i < result_size(); ++i) add_choices(by_name, i);
+    for (std::size_t i = 0; i < fits_.size(); ++i) add_choices(by_name, i);
     std::vector<Candidate> out;
     for (auto& [name, candidate] : by_name) out.push_back(candidate);
     std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
@@ -280,8 +281,6 @@ class Searcher {
       c.probability = std::exp(c.log_posterior - out.front().log_posterior) / total;
     return out;
   }
-
-  std::size_t result_size() const { return fits_.size(); }
 
   void add_choices(std::map<std::string, Candidate>& by_name, std::size_t i) const {
     const HypothesisFit& fit = fits_[i];

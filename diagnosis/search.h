@@ -26,7 +26,7 @@ struct SearchOptions {
   std::size_t max_effects = 3;
   std::size_t n_threads = 2;
   std::vector<std::string> left_out = {};  // effects that are not tried
-  std::function<void()> on_fit = {};       // after each fit, from any thread
+  std::function<void()> on_fit = {};       // after each fit, one at a time
 };
 
 /// Fits none, every single effect, then combinations: the best ones of a size are each joined with

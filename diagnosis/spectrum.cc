@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 #include <unordered_map>
 
 #include "signals/fft.h"
@@ -44,6 +45,28 @@ std::vector<double> upsampled(std::span<const Complex> spectrum, const std::size
   std::fill(out.begin() + static_cast<std::ptrdiff_t>(spectrum.size()), out.end(), Complex(0.));
   fft.inverse();
   return {fft.time().begin(), fft.time().end()};
+}
+
+std::vector<Complex> difference(std::span<const Complex> a, std::span<const Complex> b) {
+  std::vector<Complex> out(a.begin(), a.end());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] -= b[i];
+  return out;
+}
+
+std::vector<double> powers(std::span<const Complex> x) {
+  std::vector<double> out(x.size());
+  std::transform(x.begin(), x.end(), out.begin(), [](Complex v) { return std::norm(v); });
+  return out;
+}
+
+std::vector<double> neighbour_mean(std::span<const double> x, const std::size_t reach) {
+  std::vector<double> running(x.size() + 1, 0.), out(x.size());
+  std::partial_sum(x.begin(), x.end(), running.begin() + 1);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const std::size_t low = k < reach ? 0 : k - reach, high = std::min(x.size(), k + reach + 1);
+    out[k] = (running[high] - running[low]) / static_cast<double>(high - low);
+  }
+  return out;
 }
 
 std::size_t fast_length(std::size_t n) {

@@ -17,6 +17,15 @@ std::vector<double> samples_of(std::span<const Complex> spectrum, std::size_t n)
 /// them.
 std::vector<double> upsampled(std::span<const Complex> spectrum, std::size_t n, std::size_t factor);
 
+/// a - b, entry by entry.
+std::vector<Complex> difference(std::span<const Complex> a, std::span<const Complex> b);
+
+/// |x|^2 of each entry.
+std::vector<double> powers(std::span<const Complex> x);
+
+/// Mean of each value and its neighbours up to reach places away, as far as there are.
+std::vector<double> neighbour_mean(std::span<const double> x, std::size_t reach);
+
 /// Largest even length up to n whose transform is fast (factors 2, 3, 5, 7).
 std::size_t fast_length(std::size_t n);
 

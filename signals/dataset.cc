@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "signals/error.h"
+#include "signals/json_input.h"
 #include "signals/record_io.h"
 
 namespace vibrissa::signals {
@@ -17,16 +17,6 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> record_keys{"file",  "excitation",       "period_samples", "split",
                                            "setup", "sampling_rate_hz", "readout"};
-
-json read_json(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in) throw UserError(file.string() + ": cannot be read");
-  try {
-    return json::parse(in);
-  } catch (const json::parse_error& error) {
-    throw UserError(file.string() + ": no valid JSON: " + error.what());
-  }
-}
 
 /// Where an entry of dataset.json stands, and what is wrong with it.
 [[noreturn]] void refuse(const std::string& where, const std::string& reason) {

@@ -1,8 +1,8 @@
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "signals/error.h"
+#include "signals/json_input.h"
 #include "signals/output_file.h"
 #include "signals/reduced_model.h"
 
@@ -145,16 +145,6 @@ Sensitivity read_sensitivity(const Entry& entry) {
           .static_wind_moment = change["static_wind_moment"].number()};
 }
 
-json parse(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw UserError(file.string() + ": cannot be opened for reading");
-  try {
-    return json::parse(stream);
-  } catch (const json::exception& error) {
-    throw UserError(file.string() + ": is no valid JSON: " + error.what());
-  }
-}
-
 template <typename T>
 json list_of(const std::vector<T>& values) {
   json list = json::array();
@@ -177,7 +167,7 @@ json to_json(const ReducedModel& model) {
 }
 
 ReducedModel read_reduced_model(const std::filesystem::path& file) {
-  const json document = parse(file);
+  const json document = read_json(file);
   const Entry root(document, file.string(), json::json_pointer());
   root["schema"].require(root["schema"].text() == schema, "must be \"" + schema + "\"");
   ReducedModel model{.name = root["name"].text(),

@@ -1,0 +1,283 @@
+#include "diagnosis/fit_posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "diagnosis/ramp_share.h"
+#include "diagnosis/spectrum.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// Misfit of the nominal form that is always allowed for.
+constexpr double least_misfit = 1e-4;
+/// A wrong form is wrong beside its lines, too: so many bins to each side.
+constexpr std::size_t form_reach = 10;
+
+double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
+  const double misfit = record.excitation.wind ? nominal.wind_misfit : nominal.base_misfit;
+  return std::max(misfit, least_misfit);
+}
+
+/// Minus the log likelihood of what the accelerometer read where nothing moved.
+double accelerometer_term(const PreparedRecord& record, double variance) {
+  if (record.n_acceleration_noise == 0) return 0.;
+  return record.acceleration_noise_power / (static_cast<double>(record.n_samples) * variance) +
+         static_cast<double>(record.n_acceleration_noise) * std::log(variance);
+}
+
+}  // namespace
+
+FitPosterior::FitPosterior(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+                           const Hypothesis& hypothesis)
+    : experiment_(experiment),
+      figures_(figures),
+      form_error_(!hypothesis.effects().empty()),
+      discrepancy_(hypothesis.is_discrepancy()) {}
+
+std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
+  const Chain chain = make_chain(experiment_, figures_, x);
+  std::vector<Prediction> predictions;
+  for (const PreparedRecord& record : experiment_.records)
+    predictions.push_back(simulate(chain, record));
+  return predictions;
+}
+
+void FitPosterior::renew_slow_variance(const Eigen::VectorXd& x,
+                                       const std::vector<Prediction>& at) {
+  std::vector<std::pair<const Effect*, Chain>> without;
+  for (const FreeFigure& figure : figures_)
+    if (figure.effect != nullptr && !figure.nuisance && figure.parameter == 0)
+      without.emplace_back(figure.effect, make_chain(experiment_, figures_, x, figure.effect));
+  for (BinVariances* parts : {&misfit_, &power_, &form_}) parts->clear();
+  for (std::size_t r = 0; r < at.size(); ++r) {
+    const PreparedRecord& record = experiment_.records[r];
+    power_.push_back(neighbour_mean(powers(at[r].mean), form_reach));
+    const double share = nominal_misfit(experiment_.nominal, record);
+    misfit_.push_back(power_.back());
+    for (double& value : misfit_.back()) value *= share * share;
+    std::vector<double> form(record.n_bins(), 0.);
+    for (const auto& [effect, chain] : without) {
+      const std::vector<double> power =
+          neighbour_mean(powers(difference(at[r].mean, simulate_mean(chain, record))), form_reach);
+      const double limit = effect->form_error * effect->form_error;
+      for (std::size_t b = 0; b < form.size(); ++b) form[b] += limit * power[b];
+    }
+    form_.push_back(std::move(form));
+  }
+}
+
+double FitPosterior::acceleration_variance(const Eigen::VectorXd& x, const Chain& chain) const {
+  return std::exp(2. * x(place_acceleration_noise)) + chain.reference_variance;
+}
+
+double FitPosterior::acceleration_variance(const Eigen::VectorXd& x) const {
+  return acceleration_variance(x, make_chain(experiment_, figures_, x));
+}
+
+Eigen::Index FitPosterior::discrepancy_place(std::size_t record, std::size_t b) const {
+  const double ratio = 2. * std::numbers::pi * static_cast<double>(b + 1) *
+                       experiment_.records[record].bin_hz() / experiment_.scales.first_mode_rad_s;
+  return static_cast<Eigen::Index>(figures_.size() - n_discrepancy_bands() +
+                                   discrepancy_band(ratio));
+}
+
+std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Prediction& prediction,
+                                           std::size_t record, double acceleration_variance) const {
+  const double moment = std::exp(2. * x(place_moment_noise));
+  const double form = form_error_ ? x(x.size() - 1) : 0.;
+  std::vector<double> out(prediction.mean.size());
+  for (std::size_t b = 0; b < out.size(); ++b)
+    out[b] = moment * prediction.moment_noise[b] +
+             acceleration_variance * prediction.acceleration_noise[b] + prediction.own_noise[b] +
+             misfit_[record][b] + form * form_[record][b];
+  if (discrepancy_)
+    for (std::size_t b = 0; b < out.size(); ++b) {
+      const double share = std::exp(x(discrepancy_place(record, b)));
+      out[b] += share * share * power_[record][b];
+    }
+  return out;
+}
+
+double FitPosterior::log_likelihood(const Eigen::VectorXd& x,
+                                    const std::vector<Prediction>& at) const {
+  const double a_variance = acceleration_variance(x);
+  double sum = 0.;
+  for (std::size_t r = 0; r < at.size(); ++r) {
+    const PreparedRecord& record = experiment_.records[r];
+    const std::vector<double> s = variance(x, at[r], r, a_variance);
+    RampShare ramp(record, at[r].ramp_variance);
+    for (std::size_t b = 0; b < s.size(); ++b) {
+      const Complex error = record.moment[b] - at[r].mean[b];
+      sum -= std::norm(error) / s[b] + std::log(s[b]);
+      ramp.add(b, error, s[b]);
+    }
+    sum += ramp.log_likelihood_gain() - accelerometer_term(record, a_variance);
+  }
+  return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
+}
+
+double FitPosterior::log_prior(const Eigen::VectorXd& x) const {
+  double sum = 0.;
+  for (std::size_t i = 0; i < figures_.size(); ++i)
+    sum += figures_[i].description.prior.log_density(x(static_cast<Eigen::Index>(i)));
+  return sum;
+}
+
+std::vector<std::pair<const Effect*, double>> FitPosterior::effect_energy(
+    const Eigen::VectorXd& x, const std::vector<Prediction>& at) const {
+  std::vector<std::pair<const Effect*, double>> energies;
+  const double a_variance = acceleration_variance(x);
+  for (const FreeFigure& figure : figures_) {
+    if (figure.effect == nullptr || figure.parameter != 0) continue;
+    const Chain chain = make_chain(experiment_, figures_, x, figure.effect);
+    const double a_without = acceleration_variance(x, chain);
+    double energy = 0.;
+    for (std::size_t r = 0; r < at.size(); ++r) {
+      const Prediction without = simulate(chain, experiment_.records[r]);
+      const std::vector<double> s = variance(x, at[r], r, a_variance);
+      const std::vector<double> s_without = variance(x, without, r, a_without);
+      for (std::size_t b = 0; b < s.size(); ++b)
+        energy += std::norm(at[r].mean[b] - without.mean[b]) / s[b] +
+                  (figure.nuisance ? 0. : std::abs(s[b] - s_without[b]) / s[b]);
+    }
+    energies.emplace_back(figure.effect, energy);
+  }
+  return energies;
+}
+
+void FitPosterior::add_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                                    const BinVariances& s, const double acceleration_variance,
+                                    const Eigen::Index place, Columns& out) const {
+  const bool moment = place == static_cast<Eigen::Index>(place_moment_noise);
+  const double level = 2. * std::exp(2. * x(place));
+  Eigen::Index row = 0;
+  for (std::size_t r = 0; r < s.size(); ++r)
+    for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
+      out.variance(row, place) =
+          level * (moment ? at[r].moment_noise[b] : at[r].acceleration_noise[b]) / s[r][b];
+  if (!moment) out.acceleration(place) = level / acceleration_variance;
+}
+
+void FitPosterior::add_share_column(const Eigen::VectorXd& x, const BinVariances& s,
+                                    const Eigen::Index place, Columns& out) const {
+  const double level = 2. * std::exp(2. * x(place));
+  Eigen::Index row = 0;
+  for (std::size_t r = 0; r < s.size(); ++r)
+    for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
+      if (!discrepancy_)
+        out.variance(row, place) = form_[r][b] / s[r][b];
+      else if (discrepancy_place(r, b) == place)
+        out.variance(row, place) = level * power_[r][b] / s[r][b];
+}
+
+void FitPosterior::add_chain_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                                    const BinVariances& s, const double acceleration_variance,
+                                    const Eigen::Index place, Columns& out) const {
+  const Parameter& parameter = figures_[static_cast<std::size_t>(place)].description;
+  Eigen::VectorXd moved = x;
+  double h = parameter.step;
+  if (x(place) + h > parameter.prior.high) h = -h;
+  moved(place) += h;
+  const Chain chain = make_chain(experiment_, figures_, moved);
+  const double a_moved = this->acceleration_variance(x, chain);
+  out.acceleration(place) = (a_moved - acceleration_variance) / h / acceleration_variance;
+  Eigen::Index row = 0;
+  for (std::size_t r = 0; r < s.size(); ++r) {
+    const Prediction there = simulate(chain, experiment_.records[r]);
+    const std::vector<double> s_there = variance(x, there, r, a_moved);
+    for (std::size_t b = 0; b < s[r].size(); ++b, ++row) {
+      const Complex d = (there.mean[b] - at[r].mean[b]) / h / std::sqrt(s[r][b]);
+      out.mean(2 * row, place) = d.real();
+      out.mean(2 * row + 1, place) = d.imag();
+      out.variance(row, place) = (s_there[b] - s[r][b]) / h / s[r][b];
+    }
+  }
+}
+
+FitPosterior::Columns FitPosterior::columns(const Eigen::VectorXd& x,
+                                            const std::vector<Prediction>& at,
+                                            const BinVariances& s,
+                                            const double acceleration_variance) const {
+  Eigen::Index n_bins = 0;
+  for (const std::vector<double>& bins : s) n_bins += static_cast<Eigen::Index>(bins.size());
+  Columns out{.mean = Eigen::MatrixXd::Zero(2 * n_bins, x.size()),
+              .variance = Eigen::MatrixXd::Zero(n_bins, x.size()),
+              .acceleration = Eigen::VectorXd::Zero(x.size())};
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    if (place < n_noise_figures)
+      add_noise_column(x, at, s, acceleration_variance, i, out);
+    else if (figures_[place].effect == nullptr && place >= n_own_figures)
+      add_share_column(x, s, i, out);
+    else
+      add_chain_column(x, at, s, acceleration_variance, i, out);
+  }
+  return out;
+}
+
+void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                             Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const {
+  const double a_variance = acceleration_variance(x);
+  BinVariances s;
+  for (std::size_t r = 0; r < at.size(); ++r) s.push_back(variance(x, at[r], r, a_variance));
+  const Columns d = columns(x, at, s, a_variance);
+  Eigen::VectorXd error(d.mean.rows()), excess(d.variance.rows());
+  Eigen::Index row = 0;
+  double a_gradient = 0., a_lines = 0.;
+  for (std::size_t r = 0; r < s.size(); ++r) {
+    const PreparedRecord& record = experiment_.records[r];
+    for (std::size_t b = 0; b < s[r].size(); ++b, ++row) {
+      const Complex e = (record.moment[b] - at[r].mean[b]) / std::sqrt(s[r][b]);
+      error(2 * row) = e.real();
+      error(2 * row + 1) = e.imag();
+      excess(row) = std::norm(e) - 1.;
+    }
+    const double lines = static_cast<double>(record.n_acceleration_noise);
+    a_lines += lines;
+    if (lines > 0.)
+      a_gradient +=
+          record.acceleration_noise_power / (static_cast<double>(record.n_samples) * a_variance) -
+          lines;
+  }
+  gradient = 2. * d.mean.transpose() * error + d.variance.transpose() * excess +
+             d.acceleration * a_gradient;
+  information = 2. * d.mean.transpose() * d.mean + d.variance.transpose() * d.variance +
+                a_lines * d.acceleration * d.acceleration.transpose();
+  remove_ramps(at, s, d.mean, error, gradient, information);
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Prior& prior = figures_[static_cast<std::size_t>(i)].description.prior;
+    gradient(i) += prior.slope(x(i));
+    information(i, i) += prior.curvature(x(i));
+  }
+}
+
+/// Takes what the unknown rise of each record explains out of gradient and information.
+void FitPosterior::remove_ramps(const std::vector<Prediction>& at, const BinVariances& s,
+                                const Eigen::MatrixXd& mean_columns, const Eigen::VectorXd& error,
+                                Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const {
+  Eigen::Index first = 0;
+  for (std::size_t r = 0; r < at.size(); ++r) {
+    RampShare ramp(experiment_.records[r], at[r].ramp_variance);
+    const auto n_rows = static_cast<Eigen::Index>(2 * s[r].size());
+    if (ramp.on()) {
+      Eigen::VectorXd shape(n_rows);
+      for (std::size_t b = 0; b < s[r].size(); ++b) {
+        const Complex g = ramp.shape(b) / std::sqrt(s[r][b]);
+        shape(static_cast<Eigen::Index>(2 * b)) = g.real();
+        shape(static_cast<Eigen::Index>(2 * b) + 1) = g.imag();
+        ramp.add(b, 0., s[r][b]);
+      }
+      const Eigen::VectorXd overlap =
+          2. * mean_columns.middleRows(first, n_rows).transpose() * shape;
+      const double score = 2. * shape.dot(error.segment(first, n_rows));
+      gradient -= overlap * score * ramp.posterior();
+      information -= overlap * overlap.transpose() * ramp.posterior();
+    }
+    first += n_rows;
+  }
+}
+
+}  // namespace vibrissa::diagnosis

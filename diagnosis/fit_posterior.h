@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/chain_simulation.h"
+#include "diagnosis/fit_figures.h"
+
+namespace vibrissa::diagnosis {
+
+/// Log posterior of a fit's figures by Whittle's likelihood (see fit_hypothesis()). What the
+/// variance takes from the mean, misfit of the nominal form and form errors, is held fixed between
+/// renewals. experiment and figures must outlive it.
+class FitPosterior {
+ public:
+  FitPosterior(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+               const Hypothesis& hypothesis);
+
+  std::vector<Prediction> predict(const Eigen::VectorXd& x) const;
+  /// Renews what the variance takes from the mean; at: the predictions at x.
+  void renew_slow_variance(const Eigen::VectorXd& x, const std::vector<Prediction>& at);
+
+  /// Of a sample of the accelerometer [(m/s^2)^2].
+  double acceleration_variance(const Eigen::VectorXd& x) const;
+  /// Of each bin of a record [(N m)^2].
+  std::vector<double> variance(const Eigen::VectorXd& x, const Prediction& prediction,
+                               std::size_t record, double acceleration_variance) const;
+  double log_likelihood(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
+  double log_prior(const Eigen::VectorXd& x) const;
+
+  /// Gradient of the log posterior, and Fisher's information plus the prior's curvature.
+  void linearise(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                 Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
+
+  /// Whitened energy of what each effect and nuisance does, sum |mean - mean without it|^2 / S, of
+  /// effects with the change of S, in the order of the figures.
+  std::vector<std::pair<const Effect*, double>> effect_energy(
+      const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
+
+ private:
+  /// Whitened derivatives by the figures: of the mean (real and imaginary parts in turn), of log S,
+  /// of the logarithm of the accelerometer's variance.
+  struct Columns {
+    Eigen::MatrixXd mean, variance;
+    Eigen::VectorXd acceleration;
+  };
+  using BinVariances = std::vector<std::vector<double>>;  // [record][bin]
+
+  Columns columns(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                  const BinVariances& s, double acceleration_variance) const;
+  void add_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                        const BinVariances& s, double acceleration_variance, Eigen::Index place,
+                        Columns& out) const;
+  void add_share_column(const Eigen::VectorXd& x, const BinVariances& s, Eigen::Index place,
+                        Columns& out) const;
+  void add_chain_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                        const BinVariances& s, double acceleration_variance, Eigen::Index place,
+                        Columns& out) const;
+  void remove_ramps(const std::vector<Prediction>& at, const BinVariances& s,
+                    const Eigen::MatrixXd& mean_columns, const Eigen::VectorXd& error,
+                    Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
+  /// Figure of the discrepancy that a bin belongs to.
+  Eigen::Index discrepancy_place(std::size_t record, std::size_t b) const;
+  /// Variance of the accelerometer under a chain of its own.
+  double acceleration_variance(const Eigen::VectorXd& x, const Chain& chain) const;
+
+  const Experiment& experiment_;
+  const std::vector<FreeFigure>& figures_;
+  bool form_error_, discrepancy_;
+  BinVariances misfit_, form_, power_;
+};
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,64 @@
+#include "diagnosis/retune_choices.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// A retune parameter within this of nominal is nominal: the simulation is not known better.
+double negligible(const std::string& id) {
+  return id == "damping" ? 0.01 : 0.002;
+}
+
+/// Log density at zero of the marginal of the chosen figures, widened by what is negligible.
+double log_density_at_nominal(const HypothesisFit& fit, const std::vector<Eigen::Index>& places) {
+  const auto n = static_cast<Eigen::Index>(places.size());
+  if (n == 0) return 0.;
+  Eigen::MatrixXd covariance = fit.covariance(places, places);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const FreeFigure& figure = fit.figures[static_cast<std::size_t>(places[i])];
+    const double width = negligible(figure.effect->id);
+    // A shift that moves the prediction no more than the effects' form errors may stem from them.
+    const double information = fit.information(places[i], places[i]);
+    covariance(i, i) += width * width + 0.5 * fit.form_energy(figure.effect) / information;
+  }
+  const Eigen::VectorXd x = fit.x(places);
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(covariance);
+  const double log_determinant = ldlt.vectorD().array().abs().log().sum();
+  return -0.5 * (x.dot(ldlt.solve(x)) + log_determinant +
+                 static_cast<double>(n) * std::log(2. * std::numbers::pi));
+}
+
+}  // namespace
+
+std::vector<RetuneChoice> retune_choices(const HypothesisFit& fit) {
+  std::vector<Eigen::Index> ratios;
+  for (std::size_t i = 0; i < fit.figures.size(); ++i)
+    if (fit.figures[i].nuisance && fit.figures[i].parameter == 0)
+      ratios.push_back(static_cast<Eigen::Index>(i));
+  std::vector<RetuneChoice> choices;
+  for (std::size_t set = 0; set < (std::size_t{1} << ratios.size()); ++set) {
+    RetuneChoice choice{.log_evidence = fit.log_evidence};
+    std::vector<Eigen::Index> nominal;
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      const FreeFigure& figure = fit.figures[static_cast<std::size_t>(ratios[i])];
+      if ((set >> i & 1) != 0) {
+        choice.named.push_back(figure.effect->id);
+        continue;
+      }
+      nominal.push_back(ratios[i]);
+      choice.log_evidence -= figure.description.prior.log_density(0.);
+    }
+    choice.log_evidence += log_density_at_nominal(fit, nominal);
+    choices.push_back(std::move(choice));
+  }
+  std::sort(choices.begin(), choices.end(), [](const RetuneChoice& a, const RetuneChoice& b) {
+    return a.log_evidence > b.log_evidence;
+  });
+  return choices;
+}
+
+}  // namespace vibrissa::diagnosis
