@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <span>
@@ -12,18 +13,22 @@ namespace vibrissa::diagnosis {
 /// Transfer function of the continuous signals, s = j 2 pi f.
 using Filter = std::function<Complex(Complex s)>;
 
+/// One value for each of the records that are integrated side by side.
+using Lanes = Eigen::Array<double, 8, 1>;
+
 /// What the joint at the base does beyond its nominal spring and damper. The state is in moments:
-/// y = nominal elastic joint moment k0 phi [N m], y_rate its derivative.
-/// One object serves one record.
+/// y = nominal elastic joint moment k0 phi [N m], y_rate its derivative. One object serves one set
+/// of records; each lane has a memory of its own.
 class JointLaw {
  public:
   virtual ~JointLaw() = default;
-  /// Extra moment [N m] at the end of a step of length dt that ends at time t_s of the record.
+  /// Extra moment [N m] at the end of a step of length dt that ends at time t_s of each record.
   /// commit: the step is final, memory may be moved on.
-  virtual double moment(double y, double y_rate, double t_s, double dt, bool commit) = 0;
+  virtual Lanes moment(const Lanes& y, const Lanes& y_rate, const Lanes& t_s, double dt,
+                       bool commit) = 0;
 };
-/// Makes the law for a record; its number counts the records in the order of the dataset.
-using JointLawMaker = std::function<std::unique_ptr<JointLaw>(std::size_t record_number)>;
+/// Makes the law for records; their numbers count them in the order of the dataset.
+using JointLawMaker = std::function<std::unique_ptr<JointLaw>(const Lanes& record_number)>;
 
 /// Wind that a moving whisker feels: F = (u - v) |u - v| in place of u |u|, v = base velocity +
 /// velocity_per_moment_rate times the rate of the first mode's joint moment.
@@ -65,7 +70,6 @@ struct Chain {
   std::vector<std::function<void(std::span<double> wind, double dt)>>
       wind{};  // reading -> at whisker
   double drag_factor = 1.;
-  std::vector<Filter> wind_path{};    // factors of the wind response
   std::vector<Filter> feedthrough{};  // true acceleration -> added reading
   std::vector<Filter> cross{};        // transverse acceleration -> added moment
   std::vector<std::function<double(double moment)>> readout{};  // static law of the sensor

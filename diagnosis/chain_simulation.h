@@ -1,9 +1,11 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "diagnosis/chain.h"
 #include "diagnosis/experiment.h"
+#include "diagnosis/linear_response.h"
 
 namespace vibrissa::diagnosis {
 
@@ -17,12 +19,30 @@ struct Prediction {
   double ramp_variance = 0.;  // of the rise of a line through the judged part [(N m)^2]
 };
 
-/// Linear parts exactly for band-limited inputs, by transfer functions at the lines of the record
-/// (its start, where the circular continuation is wrong, is not judged); what the joint and the
-/// relative wind add is integrated in time on a finer grid with a second-order exponential rule.
-Prediction simulate(const Chain& chain, const PreparedRecord& record);
+/// Foretells records under one chain, which must outlive it. Linear parts exactly for band-limited
+/// inputs, by transfer functions at the lines of the record (its start, where the circular
+/// continuation is wrong, is not judged); what the joint and the relative wind add is integrated in
+/// time.
+class ChainSimulator {
+ public:
+  explicit ChainSimulator(const Chain& chain) : chain_(chain), response_(chain) {}
 
-/// Means alone.
+  std::vector<Prediction> predict(std::span<const PreparedRecord> records);
+  std::vector<std::vector<Complex>> means(std::span<const PreparedRecord> records);
+
+ private:
+  using Spectra = std::vector<std::vector<Complex>>;  // of each record, at its whole lines
+  Spectra linear_moments(std::span<const PreparedRecord> records);
+  Spectra added_moments(std::span<const PreparedRecord> records, const Spectra& linear);
+  std::vector<Complex> reading(const PreparedRecord& record, std::vector<Complex> moment);
+  Prediction with_noise(const PreparedRecord& record, std::vector<Complex> mean);
+
+  const Chain& chain_;
+  LinearResponse response_;
+};
+
+/// Of one record alone.
+Prediction simulate(const Chain& chain, const PreparedRecord& record);
 std::vector<Complex> simulate_mean(const Chain& chain, const PreparedRecord& record);
 
 }  // namespace vibrissa::diagnosis

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "diagnosis/spectrum.h"
 #include "signals/error.h"
@@ -58,12 +59,34 @@ ExcitedHarmonics excited_harmonics(const signals::Dataset& dataset, signals::Spl
   return excited;
 }
 
+/// Samples after which the drive of a record without a stated period repeats: the lines that stand
+/// out have a common divisor. Nothing: it does not.
+std::optional<std::size_t> period_of_drive(const DatasetRecord& entry, double noise) {
+  if (!entry.excitation.base || !entry.record.has(channel::base_acceleration)) return std::nullopt;
+  const std::vector<Complex> a = spectrum_of(entry.record.channel(channel::base_acceleration));
+  const std::size_t n = entry.record.n_samples();
+  std::size_t divisor = 0;
+  for (std::size_t k = 1; k < a.size(); ++k)
+    if (std::norm(a[k]) > standing_out * static_cast<double>(n) * noise * noise)
+      divisor = std::gcd(divisor, k);
+  if (divisor < 2 || n % divisor != 0) return std::nullopt;
+  return n / divisor;
+}
+
+/// The longest part no longer than n: of whole periods of the drive, whose lines do not leak then,
+/// or else of a length that is quick to transform.
+std::size_t judged_length(std::size_t n, std::optional<std::size_t> period) {
+  if (!period) return fast_length(n);
+  const std::size_t even = *period % 2 == 0 ? *period : 2 * *period;
+  return n < even ? fast_length(n) : n - n % even;
+}
+
 /// Wiener's share P / (P + noise) of each of the chosen lines: P from the line itself where it
 /// stands out, else from the mean power of the chosen lines around it that do not.
 std::vector<double> signal_share(const std::vector<Complex>& spectrum, double noise_power,
                                  const std::vector<std::size_t>& lines) {
   std::vector<double> share(spectrum.size(), 0.);
-  constexpr std::size_t reach = 4;
+  constexpr std::size_t reach = 10;
   const auto stands_out = [&](std::size_t i) {
     return std::norm(spectrum[lines[i]]) > standing_out * noise_power;
   };
@@ -151,7 +174,8 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
                                " samples are too few: the first " + std::to_string(skip) +
                                " hold the decay of its unknown start");
     out.first = skip - end_margin;
-    out.n_judged = fast_length(out.n_samples - skip);
+    out.n_judged =
+        judged_length(out.n_samples - skip, period_of_drive(entry, noise.acceleration_m_s2));
   }
   if (entry.record.has(channel::base_acceleration))
     prepare_acceleration(out, entry, noise.acceleration_m_s2, excited, treatment);
@@ -161,6 +185,9 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
     const auto wind = entry.record.channel(channel::wind_speed);
     out.wind.assign(wind.begin(), wind.end());
   }
+  const auto is_zero = [](Complex a) { return a == Complex(0.); };
+  out.has_zero_inputs = out.cross_acceleration.empty() &&
+                        std::all_of(out.acceleration.begin(), out.acceleration.end(), is_zero);
   const auto moment = entry.record.channel(channel::base_moment);
   const std::vector<Complex> judged = spectrum_of(moment.subspan(out.first, out.n_judged));
   out.moment.assign(judged.begin() + 1, judged.end() - 1);
@@ -205,6 +232,11 @@ std::size_t PreparedRecord::whole_line(const std::size_t b) const {
   const double ratio = static_cast<double>(n_samples) / static_cast<double>(n_judged);
   return std::min(n_samples / 2,
                   static_cast<std::size_t>(std::lround(static_cast<double>(b + 1) * ratio)));
+}
+
+Complex PreparedRecord::line_s(const std::size_t k) const {
+  return {0., 2. * std::numbers::pi * sampling_rate_hz * static_cast<double>(k) /
+                  static_cast<double>(n_samples)};
 }
 
 ChannelNoise channel_noise(const signals::Dataset& dataset) {

@@ -33,6 +33,11 @@ struct PreparedRecord {
   double bin_hz() const { return sampling_rate_hz / static_cast<double>(n_judged); }
   /// Line of the whole record nearest to judged bin b (0 is the DFT's 1).
   std::size_t whole_line(std::size_t b) const;
+  /// s = j 2 pi f of line k of the whole record.
+  Complex line_s(std::size_t k) const;
+  /// Nothing is known to move the sensor.
+  bool is_still() const { return wind.empty() && has_zero_inputs; }
+  bool has_zero_inputs = false;  // both accelerations are empty or zero
 };
 
 /// How a record is prepared: as a fit record (noise of its inputs reduced) or as it was measured.

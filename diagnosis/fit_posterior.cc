@@ -39,18 +39,11 @@ FitPosterior::FitPosterior(const Experiment& experiment, const std::vector<FreeF
 
 std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
   const Chain chain = make_chain(experiment_, figures_, x);
-  std::vector<Prediction> predictions;
-  for (const PreparedRecord& record : experiment_.records)
-    predictions.push_back(simulate(chain, record));
-  return predictions;
+  return ChainSimulator(chain).predict(experiment_.records);
 }
 
 void FitPosterior::renew_slow_variance(const Eigen::VectorXd& x,
                                        const std::vector<Prediction>& at) {
-  std::vector<std::pair<const Effect*, Chain>> without;
-  for (const FreeFigure& figure : figures_)
-    if (figure.effect != nullptr && !figure.nuisance && figure.parameter == 0)
-      without.emplace_back(figure.effect, make_chain(experiment_, figures_, x, figure.effect));
   for (BinVariances* parts : {&misfit_, &power_, &form_}) parts->clear();
   for (std::size_t r = 0; r < at.size(); ++r) {
     const PreparedRecord& record = experiment_.records[r];
@@ -58,14 +51,22 @@ void FitPosterior::renew_slow_variance(const Eigen::VectorXd& x,
     const double share = nominal_misfit(experiment_.nominal, record);
     misfit_.push_back(power_.back());
     for (double& value : misfit_.back()) value *= share * share;
-    std::vector<double> form(record.n_bins(), 0.);
-    for (const auto& [effect, chain] : without) {
-      const std::vector<double> power =
-          neighbour_mean(powers(difference(at[r].mean, simulate_mean(chain, record))), form_reach);
-      const double limit = effect->form_error * effect->form_error;
-      for (std::size_t b = 0; b < form.size(); ++b) form[b] += limit * power[b];
-    }
-    form_.push_back(std::move(form));
+    form_.emplace_back(record.n_bins(), 0.);
+  }
+  for (const FreeFigure& figure : figures_)
+    if (figure.effect != nullptr && !figure.nuisance && figure.parameter == 0)
+      add_form_error(x, at, *figure.effect);
+}
+
+void FitPosterior::add_form_error(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                                  const Effect& effect) {
+  const Chain without = make_chain(experiment_, figures_, x, &effect);
+  const std::vector<std::vector<Complex>> mean = ChainSimulator(without).means(experiment_.records);
+  const double limit = effect.form_error * effect.form_error;
+  for (std::size_t r = 0; r < at.size(); ++r) {
+    const std::vector<double> power =
+        neighbour_mean(powers(difference(at[r].mean, mean[r])), form_reach);
+    for (std::size_t b = 0; b < power.size(); ++b) form_[r][b] += limit * power[b];
   }
 }
 
@@ -133,14 +134,14 @@ std::vector<std::pair<const Effect*, double>> FitPosterior::effect_energy(
   for (const FreeFigure& figure : figures_) {
     if (figure.effect == nullptr || figure.parameter != 0) continue;
     const Chain chain = make_chain(experiment_, figures_, x, figure.effect);
+    const std::vector<Prediction> without = ChainSimulator(chain).predict(experiment_.records);
     const double a_without = acceleration_variance(x, chain);
     double energy = 0.;
     for (std::size_t r = 0; r < at.size(); ++r) {
-      const Prediction without = simulate(chain, experiment_.records[r]);
       const std::vector<double> s = variance(x, at[r], r, a_variance);
-      const std::vector<double> s_without = variance(x, without, r, a_without);
+      const std::vector<double> s_without = variance(x, without[r], r, a_without);
       for (std::size_t b = 0; b < s.size(); ++b)
-        energy += std::norm(at[r].mean[b] - without.mean[b]) / s[b] +
+        energy += std::norm(at[r].mean[b] - without[r].mean[b]) / s[b] +
                   (figure.nuisance ? 0. : std::abs(s[b] - s_without[b]) / s[b]);
     }
     energies.emplace_back(figure.effect, energy);
@@ -182,14 +183,14 @@ void FitPosterior::add_chain_column(const Eigen::VectorXd& x, const std::vector<
   if (x(place) + h > parameter.prior.high) h = -h;
   moved(place) += h;
   const Chain chain = make_chain(experiment_, figures_, moved);
+  const std::vector<Prediction> there = ChainSimulator(chain).predict(experiment_.records);
   const double a_moved = this->acceleration_variance(x, chain);
   out.acceleration(place) = (a_moved - acceleration_variance) / h / acceleration_variance;
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r) {
-    const Prediction there = simulate(chain, experiment_.records[r]);
-    const std::vector<double> s_there = variance(x, there, r, a_moved);
+    const std::vector<double> s_there = variance(x, there[r], r, a_moved);
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row) {
-      const Complex d = (there.mean[b] - at[r].mean[b]) / h / std::sqrt(s[r][b]);
+      const Complex d = (there[r].mean[b] - at[r].mean[b]) / h / std::sqrt(s[r][b]);
       out.mean(2 * row, place) = d.real();
       out.mean(2 * row + 1, place) = d.imag();
       out.variance(row, place) = (s_there[b] - s[r][b]) / h / s[r][b];

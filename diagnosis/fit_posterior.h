@@ -60,6 +60,8 @@ class FitPosterior {
   void remove_ramps(const std::vector<Prediction>& at, const BinVariances& s,
                     const Eigen::MatrixXd& mean_columns, const Eigen::VectorXd& error,
                     Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
+  void add_form_error(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                      const Effect& effect);
   /// Figure of the discrepancy that a bin belongs to.
   Eigen::Index discrepancy_place(std::size_t record, std::size_t b) const;
   /// Variance of the accelerometer under a chain of its own.

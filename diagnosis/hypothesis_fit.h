@@ -12,10 +12,11 @@
 
 namespace vibrissa::diagnosis {
 
-/// A nuisance that is said to differ from its nominal value.
+/// Nuisances that are said to differ from nominal, by anything their range allows. Half of all
+/// sensors are as simulated in the others, half are a little off in all of them, as built.
 struct RetuneChoice {
   std::vector<std::string> named{};  // ids, alphabetical
-  double log_evidence = 0.;          // of the data, the others nominal
+  double log_evidence = 0.;          // of the data
 };
 
 /// A hypothesis at its most probable parameters. Figures in their coordinates x.

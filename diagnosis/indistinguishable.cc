@@ -66,8 +66,7 @@ class Changes {
   void evaluate(const State& state, Eigen::VectorXd& mean, Eigen::VectorXd& noise) const {
     const double acceleration = state.acceleration_variance + state.chain.reference_variance;
     Eigen::Index row = 0;
-    for (const PreparedRecord& record : experiment_.records) {
-      const Prediction there = simulate(state.chain, record);
+    for (const Prediction& there : ChainSimulator(state.chain).predict(experiment_.records)) {
       for (std::size_t b = 0; b < there.mean.size(); ++b, ++row) {
         const double deviation = deviation_[static_cast<std::size_t>(row)];
         mean(2 * row) = there.mean[b].real() / deviation;

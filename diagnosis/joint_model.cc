@@ -29,30 +29,29 @@ JointModel::JointModel(const StructuralMode& mode, const double joint_share,
 }
 
 Complex JointModel::inertia_ratio(const Complex s, const Complex change) const {
-  const Complex x = s / frequency_rad_s;
-  return (x * x + 2. * damping * x) * (share / (stiffness_ratio(s) * (1. + change)) + 1. - share);
+  return inertia(s) * (compliance(s) / (1. + change) + 1. - share);
 }
 
 Complex JointModel::added_moment(const Complex s) const {
-  const Complex x = s / frequency_rad_s;
-  const Complex inertia = x * x + 2. * damping * x;
-  return share * inertia / (stiffness_ratio(s) * (1. + inertia_ratio(s)));
+  return inertia(s) * compliance(s) / (1. + inertia_ratio(s));
 }
 
-JointIntegrator::JointIntegrator(const JointModel& model, const double dt)
-    : model_(made_dynamic(model)), dt_(dt) {
+JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) {
+  const JointModel model = made_dynamic(joint);
+  share_ = model.share;
+  rest_ = 1. / (1. - model.share);
+  rate_factor_ = model.frequency_rad_s / model.loss;
   // M = (theta - p y) / (1 - p), with time in steps.
-  const double angle = model_.frequency_rad_s * dt, rest = 1. / (1. - model_.share);
-  const double relax = angle / model_.loss;
+  const double angle = model.frequency_rad_s * dt, relax = angle / model.loss;
   // States theta, theta', y, then T, M_ext and their slopes over the step.
   Eigen::Matrix<double, 7, 7> a = Eigen::Matrix<double, 7, 7>::Zero();
   a(0, 1) = 1.;
-  a(1, 0) = -angle * angle * rest;
-  a(1, 1) = -2. * model_.damping * angle;
-  a(1, 2) = angle * angle * rest * model_.share;
+  a(1, 0) = -angle * angle * rest_;
+  a(1, 1) = -2. * model.damping * angle;
+  a(1, 2) = angle * angle * rest_ * model.share;
   a(1, 4) = angle * angle;
-  a(2, 0) = relax * rest;
-  a(2, 2) = -relax * (rest * model_.share + 1.);
+  a(2, 0) = relax * rest_;
+  a(2, 2) = -relax * (rest_ * model.share + 1.);
   a(2, 3) = -relax;
   a(3, 5) = 1.;
   a(4, 6) = 1.;
@@ -62,19 +61,28 @@ JointIntegrator::JointIntegrator(const JointModel& model, const double dt)
   torque_old_ = e.block<3, 1>(0, 3) - torque_new_;
   external_new_ = e.block<3, 1>(0, 6);
   external_old_ = e.block<3, 1>(0, 4) - external_new_;
+  torque_rate_ = rate(torque_new_) - rate_factor_;
+  external_rate_ = rate(external_new_);
+  free_ = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
 }
 
-void JointIntegrator::accept(const Eigen::Vector3d& state, const double torque,
-                             const double external) {
-  free_ = transition_ * state + torque_old_ * torque + external_old_ * external;
+double JointIntegrator::rate(const Eigen::Vector3d& state) const {
+  return rate_factor_ * ((state(0) - share_ * state(2)) * rest_ - state(2));
 }
 
-double JointIntegrator::moment(const Eigen::Vector3d& state) const {
-  return (state(0) - model_.share * state(2)) / (1. - model_.share);
-}
-
-double JointIntegrator::elastic_rate(const Eigen::Vector3d& state, const double torque) const {
-  return model_.frequency_rad_s / model_.loss * (moment(state) - state(2) - torque);
+Lanes JointIntegrator::accept(const Lanes& torque, const Lanes& external) {
+  const auto loaded = [&](const Lanes& free, Eigen::Index i) -> Lanes {
+    return free + torque_new_(i) * torque + external_new_(i) * external;
+  };
+  const Lanes theta = loaded(free_.theta, 0), speed = loaded(free_.speed, 1),
+              y = loaded(free_.y, 2);
+  const auto next = [&](Eigen::Index i) -> Lanes {
+    return transition_(i, 0) * theta + transition_(i, 1) * speed + transition_(i, 2) * y +
+           torque_old_(i) * torque + external_old_(i) * external;
+  };
+  free_ = {next(0), next(1), next(2), {}};
+  free_.rate = rate_factor_ * ((free_.theta - share_ * free_.y) * rest_ - free_.y);
+  return (theta - share_ * y) * rest_;
 }
 
 }  // namespace vibrissa::diagnosis

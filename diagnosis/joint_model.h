@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/nominal_model.h"
+#include "diagnosis/chain.h"
 
 namespace vibrissa::diagnosis {
 
@@ -21,6 +21,13 @@ struct JointModel {
 
   JointModel(const StructuralMode& mode, double joint_share, double loss_factor = 1.);
 
+  /// Joint's share of the compliance at s, of the static whole.
+  Complex compliance(Complex s) const { return share / stiffness_ratio(s); }
+  /// Moment of inertia over w^2 theta.
+  Complex inertia(Complex s) const {
+    const Complex x = s / frequency_rad_s;
+    return x * x + 2. * damping * x;
+  }
   /// 1 - P: moment at the base for a moment T added in the joint, (1 - P) T.
   Complex added_moment(Complex s) const;
   /// Moment of inertia over moment of the springs per rotation: the poles are where it is -1.
@@ -30,25 +37,35 @@ struct JointModel {
   Complex stiffness_ratio(Complex s) const { return 1. + loss * s / frequency_rad_s; }
 };
 
-/// Exact step of the joint model for T and M_ext that run linearly over it, from rest.
+/// Exact step of the joint model for T and M_ext that run linearly over it, from rest; a lane for
+/// each record.
 class JointIntegrator {
  public:
   JointIntegrator(const JointModel& model, double dt);
 
-  /// State (theta, theta' dt, y) after a step at whose end T and M_ext are as given.
-  Eigen::Vector3d moved(double torque, double external) const {
-    return free_ + torque_new_ * torque + external_new_ * external;
+  /// Of the joint's elastic moment and its rate, when T and M_ext are so at the end of a step.
+  Lanes elastic(const Lanes& torque, const Lanes& external) const {
+    return free_.y + torque_new_(2) * torque + external_new_(2) * external;
   }
-  void accept(const Eigen::Vector3d& state, double torque, double external);
-  double moment(const Eigen::Vector3d& state) const;
-  double elastic_rate(const Eigen::Vector3d& state, double torque) const;
+  Lanes elastic_rate(const Lanes& torque, const Lanes& external) const {
+    return free_.rate + torque_rate_ * torque + external_rate_ * external;
+  }
+  /// d elastic / d torque.
+  double elastic_slope() const { return torque_new_(2); }
+  /// Takes the step; returns the moment at its end.
+  Lanes accept(const Lanes& torque, const Lanes& external);
 
  private:
-  JointModel model_;
-  double dt_;
+  double rate(const Eigen::Vector3d& state) const;
+
+  double share_, rest_, rate_factor_;  // p, 1 / (1 - p), w / rho
+  // Of the state (theta, theta' in steps, y).
   Eigen::Matrix3d transition_;
   Eigen::Vector3d torque_old_, torque_new_, external_old_, external_new_;
-  Eigen::Vector3d free_ = Eigen::Vector3d::Zero();  // next state without new loads
+  double torque_rate_, external_rate_;
+  struct Free {
+    Lanes theta, speed, y, rate;
+  } free_;  // next state without new loads
 };
 
 }  // namespace vibrissa::diagnosis

@@ -3,30 +3,29 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-Complex second_order(const StructuralMode& mode, Complex s, double gain, double rate) {
-  const Complex x = s / mode.frequency_rad_s;
-  return (gain + rate * x) / (x * x + 2. * mode.damping_ratio * x + 1.);
+Complex compliance(const StructuralMode& mode, Complex x) {
+  return 1. / (x * x + 2. * mode.damping_ratio * x + 1.);
 }
 
 }  // namespace
 
 Complex StructuralMode::base_response(const Complex s) const {
-  return second_order(*this, s, base_gain, base_rate);
+  const Complex x = s / frequency_rad_s;
+  return (base_gain + base_rate * x) * compliance(*this, x);
 }
 
 Complex StructuralMode::wind_response(const Complex s) const {
-  return second_order(*this, s, wind_gain, wind_rate);
+  const Complex x = s / frequency_rad_s;
+  return (wind_gain + wind_rate * x) * compliance(*this, x);
 }
 
-Complex NominalModel::base_response(const Complex s) const {
-  Complex sum = base_direct;
-  for (const StructuralMode& mode : modes) sum += mode.base_response(s);
-  return sum;
-}
-
-Complex NominalModel::wind_response(const Complex s) const {
-  Complex sum = wind_direct;
-  for (const StructuralMode& mode : modes) sum += mode.wind_response(s);
+NominalModel::Responses NominalModel::responses(const Complex s) const {
+  Responses sum{.base = base_direct, .wind = wind_direct};
+  for (const StructuralMode& mode : modes) {
+    const Complex x = s / mode.frequency_rad_s, c = compliance(mode, x);
+    sum.base += (mode.base_gain + mode.base_rate * x) * c;
+    sum.wind += (mode.wind_gain + mode.wind_rate * x) * c;
+  }
   return sum;
 }
 

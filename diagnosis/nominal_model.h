@@ -37,8 +37,13 @@ struct NominalModel {
   /// form cannot follow.
   double base_misfit = 0., wind_misfit = 0.;
 
-  Complex base_response(Complex s) const;
-  Complex wind_response(Complex s) const;
+  Complex base_response(Complex s) const { return responses(s).base; }
+  Complex wind_response(Complex s) const { return responses(s).wind; }
+  /// Both at once.
+  struct Responses {
+    Complex base, wind;
+  };
+  Responses responses(Complex s) const;
 };
 
 }  // namespace vibrissa::diagnosis

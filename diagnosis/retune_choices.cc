@@ -32,6 +32,11 @@ double log_density_at_nominal(const HypothesisFit& fit, const std::vector<Eigen:
                  static_cast<double>(n) * std::log(2. * std::numbers::pi));
 }
 
+double log_mean(double a, double b) {
+  const double high = std::max(a, b);
+  return high + std::log(0.5 * (std::exp(a - high) + std::exp(b - high)));
+}
+
 }  // namespace
 
 std::vector<RetuneChoice> retune_choices(const HypothesisFit& fit) {
@@ -41,18 +46,24 @@ std::vector<RetuneChoice> retune_choices(const HypothesisFit& fit) {
       ratios.push_back(static_cast<Eigen::Index>(i));
   std::vector<RetuneChoice> choices;
   for (std::size_t set = 0; set < (std::size_t{1} << ratios.size()); ++set) {
-    RetuneChoice choice{.log_evidence = fit.log_evidence};
-    std::vector<Eigen::Index> nominal;
+    RetuneChoice choice;
+    double as_built = fit.log_evidence, tolerance_at_nominal = 0.;
+    std::vector<Eigen::Index> others;
     for (std::size_t i = 0; i < ratios.size(); ++i) {
       const FreeFigure& figure = fit.figures[static_cast<std::size_t>(ratios[i])];
-      if ((set >> i & 1) != 0) {
-        choice.named.push_back(figure.effect->id);
+      const Prior& tolerance = figure.description.prior;
+      if ((set >> i & 1) == 0) {
+        others.push_back(ratios[i]);
+        tolerance_at_nominal += tolerance.log_density(0.);
         continue;
       }
-      nominal.push_back(ratios[i]);
-      choice.log_evidence -= figure.description.prior.log_density(0.);
+      choice.named.push_back(figure.effect->id);
+      // What is named may lie anywhere in its range.
+      as_built -=
+          tolerance.log_density(fit.x(ratios[i])) + std::log(tolerance.high - tolerance.low);
     }
-    choice.log_evidence += log_density_at_nominal(fit, nominal);
+    const double exact = as_built - tolerance_at_nominal + log_density_at_nominal(fit, others);
+    choice.log_evidence = log_mean(exact, as_built);
     choices.push_back(std::move(choice));
   }
   std::sort(choices.begin(), choices.end(), [](const RetuneChoice& a, const RetuneChoice& b) {

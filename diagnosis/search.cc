@@ -53,9 +53,8 @@ void keep_first(std::vector<std::size_t>& list, std::size_t n) {
   if (list.size() > n) list.erase(list.begin() + static_cast<std::ptrdiff_t>(n), list.end());
 }
 
-/// An unknown effect is as likely as one of the known ones, whose probability is shared by the
-/// retunes that may be named beside it.
-constexpr double log_prior_of_discrepancy = -5.5;
+/// An unknown effect is as likely as one of the known ones.
+constexpr double log_prior_of_discrepancy = -4.;
 
 double log_choose(std::size_t n, std::size_t k) {
   double sum = 0.;
@@ -64,22 +63,18 @@ double log_choose(std::size_t n, std::size_t k) {
   return sum;
 }
 
-/// Half of all sensors are as simulated but for what is named, retunes included; the other half are
-/// a little off in every retune parameter, which is no finding of its own.
 double log_prior(const Hypothesis& hypothesis, std::size_t n_retunes, std::size_t n_testable) {
   if (hypothesis.is_discrepancy()) return log_prior_of_discrepancy;
-  const std::size_t n = hypothesis.effects().size(), all = nuisance_ids().size();
   double own = 0.;
   for (const Effect* effect : hypothesis.effects()) own += effect->log_prior;
-  const double exact = log_prior_of_number(n + n_retunes) - log_choose(n_testable, n + n_retunes);
-  const double as_built =
-      log_prior_of_number(n) - log_choose(n_testable, n) - static_cast<double>(all) * std::log(2.);
-  const double high = std::max(exact, as_built);
-  return own + high + std::log(0.5 * (std::exp(exact - high) + std::exp(as_built - high)));
+  const std::size_t n = hypothesis.effects().size() + n_retunes;
+  return own + log_prior_of_number(n) - log_choose(n_testable, n);
 }
 
 double choice_posterior(const HypothesisFit& fit, const RetuneChoice& choice,
                         std::size_t n_testable) {
+  if (fit.hypothesis.is_discrepancy() && !choice.named.empty())
+    return -std::numeric_limits<double>::infinity();
   return choice.log_evidence + log_prior(fit.hypothesis, choice.named.size(), n_testable);
 }
 
@@ -92,11 +87,12 @@ double resemblance(const Experiment& experiment, const HypothesisFit& fit,
   for (const std::vector<double>& values : effect.starts) {
     Chain chain = fit.chain(experiment);
     effect.extend(chain, values, experiment.scales);
+    const std::vector<Prediction> moved = ChainSimulator(chain).predict(experiment.records);
     double cross = 0., own = 0., excess = 0., square = 0.;
     std::size_t row = 0;
     const double reference = chain.reference_variance;
     for (std::size_t r = 0; r < experiment.records.size(); ++r) {
-      const Prediction there = simulate(chain, experiment.records[r]);
+      const Prediction& there = moved[r];
       for (std::size_t b = 0; b < there.mean.size(); ++b, ++row) {
         const Complex d = (there.mean[b] - means[r][b]) / residual.deviation[row];
         cross += (std::conj(d) * residual.error[row]).real();
@@ -146,19 +142,18 @@ class Searcher {
   void fit_all(const std::vector<Task>& tasks) {
     const std::size_t first = fits_.size();
     fits_.resize(first + tasks.size());
+    // Known before any of them runs: which thread is first must not matter.
+    const FitOptions fit_options{.to_beat = best_log_posterior_};
     for_each_parallel(tasks.size(), options_.n_threads, [&](std::size_t i) {
       const HypothesisFit* start = tasks[i].start ? &fits_[*tasks[i].start] : nullptr;
-      FitOptions fit_options;
-      {
-        const std::lock_guard lock(mutex_);
-        fit_options.to_beat = best_log_posterior_;
-      }
       fits_[first + i] = fit_hypothesis(experiment_, tasks[i].hypothesis, start, fit_options);
       const std::lock_guard lock(mutex_);
-      best_log_posterior_ = std::max(best_log_posterior_, fits_[first + i].log_posterior);
       if (options_.on_fit) options_.on_fit();
     });
-    for (std::size_t i = 0; i < tasks.size(); ++i) known_[tasks[i].hypothesis.name()] = first + i;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      known_[tasks[i].hypothesis.name()] = first + i;
+      best_log_posterior_ = std::max(best_log_posterior_, fits_[first + i].log_posterior);
+    }
   }
 
   /// The best combinations may stand in a better basin than their parts did: these start again from
@@ -197,30 +192,36 @@ class Searcher {
   }
 
   /// Does one of the effects gain less than the form errors of the others, and of the retunes that
-  /// are named beside it, may hide?
-  bool hides_in_form_errors(const HypothesisFit& fit, const RetuneChoice& choice) const {
-    const auto& effects = fit.hypothesis.effects();
-    for (std::size_t i = 0; i < effects.size(); ++i) {
-      const auto found = known_.find(fit.hypothesis.without(*effects[i]).name());
+  /// would be named without it, may hide?
+  bool hides_in_form_errors(const HypothesisFit& fit) const {
+    for (const Effect* effect : fit.hypothesis.effects()) {
+      const auto found = known_.find(fit.hypothesis.without(*effect).name());
       if (found == known_.end()) continue;
       const HypothesisFit& fewer = fits_[found->second];
-      std::vector<std::string> others;
-      for (const Effect* effect : fewer.hypothesis.effects()) others.push_back(effect->id);
-      const double hidden = fewer.form_energy(others) + fit.form_energy(choice.named);
       // What is gained may also lie in what is believable: a noise that needs no odd accelerometer.
       const double gained = std::max(fit.log_likelihood - fewer.log_likelihood,
                                      fit.log_evidence - fewer.log_evidence);
-      if (2. * gained < hidden) return true;
+      if (2. * gained < fewer.form_energy(named_ids(fewer))) return true;
     }
     return false;
   }
 
+  std::vector<std::string> named_ids(const HypothesisFit& fit) const {
+    const auto best = std::max_element(fit.choices.begin(), fit.choices.end(),
+                                       [&](const RetuneChoice& a, const RetuneChoice& b) {
+                                         return choice_posterior(fit, a, testable_.size()) <
+                                                choice_posterior(fit, b, testable_.size());
+                                       });
+    std::vector<std::string> ids = best->named;
+    for (const Effect* effect : fit.hypothesis.effects()) ids.push_back(effect->id);
+    return ids;
+  }
+
   double best_posterior(const HypothesisFit& fit) const {
     double best = -std::numeric_limits<double>::infinity();
-    for (const RetuneChoice& choice : fit.choices) {
-      const double posterior = choice_posterior(fit, choice, testable_.size());
-      if (posterior > best && !hides_in_form_errors(fit, choice)) best = posterior;
-    }
+    if (hides_in_form_errors(fit)) return best;
+    for (const RetuneChoice& choice : fit.choices)
+      best = std::max(best, choice_posterior(fit, choice, testable_.size()));
     return best;
   }
 
@@ -249,10 +250,9 @@ class Searcher {
   std::vector<const Effect*> partners(std::size_t base) {
     const HypothesisFit& fit = fits_[base];
     const WhitenedResidual residual = whitened_residual(experiment_, fit);
-    std::vector<std::vector<Complex>> means;
     const Chain chain = fit.chain(experiment_);
-    for (const PreparedRecord& record : experiment_.records)
-      means.push_back(simulate_mean(chain, record));
+    const std::vector<std::vector<Complex>> means =
+        ChainSimulator(chain).means(experiment_.records);
     std::vector<std::pair<double, const Effect*>> scored(testable_.size());
     for_each_parallel(testable_.size(), options_.n_threads, [&](std::size_t i) {
       const Effect* effect = testable_[i];
@@ -284,10 +284,10 @@ class Searcher {
 
   void add_choices(std::map<std::string, Candidate>& by_name, std::size_t i) const {
     const HypothesisFit& fit = fits_[i];
+    if (hides_in_form_errors(fit)) return;
     for (const RetuneChoice& choice : fit.choices) {
-      if (hides_in_form_errors(fit, choice)) continue;
       std::vector<std::string> ids = choice.named;
-      if (fit.hypothesis.is_discrepancy()) ids = {outside_catalogue};
+      if (fit.hypothesis.is_discrepancy()) ids.push_back(outside_catalogue);
       for (const Effect* effect : fit.hypothesis.effects()) ids.push_back(effect->id);
       const std::string name = joined_name(ids);
       const double posterior = choice_posterior(fit, choice, testable_.size());

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
@@ -7,8 +6,8 @@ namespace {
 class DeadZone : public JointLaw {
  public:
   DeadZone(double gap, double loss) : gap_(gap), loss_(loss) {}
-  double moment(double y, double, double, double, bool) override {
-    return -loss_ * std::clamp(y, -gap_, gap_);
+  Lanes moment(const Lanes& y, const Lanes&, const Lanes&, double, bool) override {
+    return -loss_ * y.max(-gap_).min(gap_);
   }
 
  private:
@@ -29,7 +28,7 @@ Effect backlash() {
       .parameters = {log_uniform("gap", "1", 0.002, 0.6, 0.), uniform("loss", "1", 0.1, 1., 0.)},
       .starts = {{0.02, 0.6}, {0.1, 0.6}, {0.005, 0.6}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-        chain.joint.push_back([gap = v[0] * scales.joint_moment_n_m, loss = v[1]](std::size_t) {
+        chain.joint.push_back([gap = v[0] * scales.joint_moment_n_m, loss = v[1]](const Lanes&) {
           return std::make_unique<DeadZone>(gap, loss);
         });
       }};

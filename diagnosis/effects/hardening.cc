@@ -6,7 +6,7 @@ namespace {
 class Cubic : public JointLaw {
  public:
   explicit Cubic(double coefficient) : coefficient_(coefficient) {}
-  double moment(double y, double, double, double, bool) override {
+  Lanes moment(const Lanes& y, const Lanes&, const Lanes&, double, bool) override {
     return coefficient_ * y * y * y;
   }
 
@@ -29,7 +29,7 @@ Effect hardening() {
       .starts = {{0.03}, {-0.03}, {0.2}, {0.6}, {1.5}, {4.}, {-0.15}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         chain.joint.push_back([b = v[0] / (scales.joint_moment_n_m * scales.joint_moment_n_m)](
-                                  std::size_t) { return std::make_unique<Cubic>(b); });
+                                  const Lanes&) { return std::make_unique<Cubic>(b); });
       }};
 }
 

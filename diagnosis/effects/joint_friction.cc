@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include "diagnosis/effect.h"
 
@@ -10,11 +9,12 @@ class Iwan : public JointLaw {
   Iwan(double stiffness, double slip, double spread) : stiffness_(stiffness / n) {
     for (std::size_t i = 0; i < n; ++i)
       slip_[i] = slip / n * (1. + spread * (0.5 * static_cast<double>(i) - 0.75));
+    moment_.fill(Lanes::Zero());
   }
-  double moment(double y, double, double, double, bool commit) override {
-    double sum = 0.;
+  Lanes moment(const Lanes& y, const Lanes&, const Lanes&, double, bool commit) override {
+    Lanes sum = Lanes::Zero();
     for (std::size_t i = 0; i < n; ++i) {
-      const double next = std::clamp(moment_[i] + stiffness_ * (y - y_), -slip_[i], slip_[i]);
+      const Lanes next = (moment_[i] + stiffness_ * (y - y_)).max(-slip_[i]).min(slip_[i]);
       sum += next;
       if (commit) moment_[i] = next;
     }
@@ -24,8 +24,10 @@ class Iwan : public JointLaw {
 
  private:
   static constexpr std::size_t n = 4;
-  double stiffness_, y_ = 0.;
-  std::array<double, n> slip_{}, moment_{};
+  double stiffness_;
+  std::array<double, n> slip_{};
+  Lanes y_ = Lanes::Zero();
+  std::array<Lanes, n> moment_;
 };
 
 }  // namespace
@@ -46,7 +48,7 @@ Effect joint_friction() {
                 .starts = {{0.3, 0.02, 0.5}, {0.3, 0.07, 0.5}, {0.3, 0.2, 0.5}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
                   chain.joint.push_back(
-                      [r = v[0], slip = v[1] * scales.joint_moment_n_m, d = v[2]](std::size_t) {
+                      [r = v[0], slip = v[1] * scales.joint_moment_n_m, d = v[2]](const Lanes&) {
                         return std::make_unique<Iwan>(r, slip, d);
                       });
                 }};

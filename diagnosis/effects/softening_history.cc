@@ -1,4 +1,3 @@
-#include <algorithm>
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
@@ -7,17 +6,18 @@ namespace {
 class Softening : public JointLaw {
  public:
   Softening(double depth, double level) : depth_(depth), level_(level) {}
-  double moment(double y, double, double, double, bool commit) override {
-    const double largest = std::max(largest_, std::abs(y));
-    if (commit && largest > largest_) {
-      largest_ = largest;
-      factor_ = -depth_ * (1. - std::exp(-largest_ / level_));
+  Lanes moment(const Lanes& y, const Lanes&, const Lanes&, double, bool commit) override {
+    const Lanes size = y.abs();
+    if (commit && (size > largest_).any()) {
+      largest_ = largest_.max(size);
+      factor_ = -depth_ * (1. - (-largest_ / level_).exp());
     }
     return factor_ * y;
   }
 
  private:
-  double depth_, level_, largest_ = 0., factor_ = 0.;
+  double depth_, level_;
+  Lanes largest_ = Lanes::Zero(), factor_ = Lanes::Zero();
 };
 
 }  // namespace
@@ -35,7 +35,7 @@ Effect softening_history() {
                      log_uniform("level", "1", 0.02, 3., 1.)},
       .starts = {{0.1, 0.3}, {0.1, 1.}, {0.1, 0.08}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-        chain.joint.push_back([depth = v[0], level = v[1] * scales.joint_moment_n_m](std::size_t) {
+        chain.joint.push_back([depth = v[0], level = v[1] * scales.joint_moment_n_m](const Lanes&) {
           return std::make_unique<Softening>(depth, level);
         });
       }};

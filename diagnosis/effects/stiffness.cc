@@ -11,7 +11,7 @@ Effect stiffness() {
       .source = "effects.md; p says how the loss follows the modulus",
       .confused_with = "mass (gain), base_compliance; added known mass, static pull",
       .retune = true,
-      .form_error = 0.05,
+      .form_error = 0.01,
       .parameters = {ratio_near_one("ratio", 0.03, 0.3, 1.6),
                      uniform("damping_exponent", "1", 0., 1., 0.)},
       .starts = {{0.97, 0.5}, {1.03, 0.5}},

@@ -5,13 +5,14 @@ namespace {
 
 class Drift : public JointLaw {
  public:
-  Drift(double slope, double offset) : slope_(slope), offset_(offset) {}
-  double moment(double y, double, double t_s, double, bool) override {
+  Drift(double slope, const Lanes& offset) : slope_(slope), offset_(offset) {}
+  Lanes moment(const Lanes& y, const Lanes&, const Lanes& t_s, double, bool) override {
     return (offset_ + slope_ * t_s) * y;
   }
 
  private:
-  double slope_, offset_;
+  double slope_;
+  Lanes offset_;
 };
 
 }  // namespace
@@ -29,8 +30,8 @@ Effect temperature_drift() {
                      normal("between_records", "1", 0., 0.005, -0.1, 0.1, 0.)},
       .starts = {{0.02, 0.}, {-0.02, 0.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-        chain.joint.push_back([slope = v[0] / scales.duration_s, jump = v[1]](std::size_t number) {
-          return std::make_unique<Drift>(slope, jump * static_cast<double>(number));
+        chain.joint.push_back([slope = v[0] / scales.duration_s, jump = v[1]](const Lanes& number) {
+          return std::make_unique<Drift>(slope, jump * number);
         });
       }};
 }

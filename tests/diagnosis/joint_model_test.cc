@@ -37,12 +37,10 @@ TEST(JointModel, IntegratorAnswersASineAsTheTransferFunctionSays) {
     double largest = 0.;
     for (std::size_t i = 1; i <= n; ++i) {
       const double t = static_cast<double>(i) * dt, torque = std::sin(w * t);
-      const Eigen::Vector3d state = integrator.moved(torque, 0.);
-      integrator.accept(state, torque, 0.);
+      const Lanes moment = integrator.accept(Lanes::Constant(torque), Lanes::Zero());
       // The elastic coordinate y answers -P T / (1 + rho s / w); the moment is that of the whisker.
       const Complex expected = model.added_moment(Complex(0., w)) * std::exp(Complex(0., w * t));
-      if (t > 1.2)
-        largest = std::max(largest, std::abs(integrator.moment(state) - expected.imag()));
+      if (t > 1.2) largest = std::max(largest, std::abs(moment(0) - expected.imag()));
     }
     return largest;
   };

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "diagnosis/chain.h"
+#include "diagnosis/experiment.h"
+#include "diagnosis/joint_model.h"
+
+namespace vibrissa::diagnosis {
+
+/// Is there anything in the chain that frequency lines cannot tell, for this record?
+bool is_dynamic(const Chain& chain, const PreparedRecord& record);
+
+/// A record with the spectrum of the linear part's elastic joint moment [N m], lines
+/// 0 .. n_samples / 2.
+struct ElasticMoment {
+  const PreparedRecord* record = nullptr;
+  std::vector<Complex> spectrum;
+};
+
+/// What joint laws and relative wind add to the base moments before the sensor [N m], at the
+/// records' samples. Integrated on a finer grid with a second-order exponential rule, records side
+/// by side; the joint's law is solved implicitly. Proven by
+/// tests/diagnosis/chain_simulation_test.cc.
+std::vector<std::vector<double>> dynamic_parts(const Chain& chain, const JointModel& joint,
+                                               std::span<const ElasticMoment> elastic);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/chain.h"
+#include "diagnosis/experiment.h"
+#include "diagnosis/joint_model.h"
+
+namespace vibrissa::diagnosis {
+
+/// Transfer functions of the chain at one frequency.
+struct LinearPart {
+  Complex base;     // reading of the accelerometer -> moment before the sensor
+  Complex wind;     // u |u| -> moment before the sensor
+  Complex elastic;  // moment before the sensor -> its elastic share in the joint
+  Complex sensor;   // moment before the sensor -> reading
+};
+
+/// The linear part of a chain, at the lines of records; records of one length share them. A joint
+/// K(s) (1 + D(s)) in place of K(s): with H = K B / (1 + K G) for the whisker pinned at its base
+/// (B, G its rotation from the load and from a moment there) the moment becomes
+/// H (1 + D) / (1 + D P), P = K G / (1 + K G); P from the joint model. The chain must outlive it.
+/// Proven by tests/diagnosis/chain_simulation_test.cc.
+class LinearResponse {
+ public:
+  explicit LinearResponse(const Chain& chain);
+
+  LinearPart at(Complex s) const;
+  /// At lines 0 .. n_samples / 2 of a whole record.
+  const std::vector<LinearPart>& lines(const PreparedRecord& record);
+  const std::optional<JointModel>& joint() const { return joint_; }
+
+ private:
+  const Chain& chain_;
+  std::optional<JointModel> joint_;
+  Complex static_response_ = 1.;
+  std::map<std::pair<std::size_t, double>, std::vector<LinearPart>> lines_;  // length, rate
+};
+
+}  // namespace vibrissa::diagnosis
