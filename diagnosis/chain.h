@@ -30,6 +30,14 @@ class JointLaw {
 /// Makes the law for records; their numbers count them in the order of the dataset.
 using JointLawMaker = std::function<std::unique_ptr<JointLaw>(const Lanes& record_number)>;
 
+/// Factors on the parts of the first mode's joint model.
+struct JointChange {
+  double spring = 1., damper = 1.;  // of the joint
+  double rest_damping = 1.;         // of the damping that is not in the joint
+  double inertia = 1.;
+  bool any() const { return spring != 1. || damper != 1. || rest_damping != 1. || inertia != 1.; }
+};
+
 /// Wind that a moving whisker feels: F = (u - v) |u - v| in place of u |u|, v = base velocity +
 /// velocity_per_moment_rate times the rate of the first mode's joint moment.
 struct RelativeWind {
@@ -61,7 +69,7 @@ struct Chain {
   double joint_share = 1.;
   /// Factor on the joint's share in the damping of the first mode that its viscous moment tells.
   double joint_loss_factor = 1.;
-  double inertia_factor = 1.;  // of the first mode
+  JointChange joint_change{};
   /// The joint's spring and damper K(s) become K(s) (1 + D(s)), D the sum of these.
   std::vector<Filter> relaxation{};
   std::vector<Filter> parallel{};  // further paths base acceleration -> moment

@@ -89,6 +89,20 @@ Parameter uniform(std::string name, std::string unit, const double low, const do
           .step = 1e-4 * (high - low)};
 }
 
+Parameter log_usual(std::string name, std::string unit, const double usual_low,
+                    const double usual_high, const double low, const double high,
+                    const double neutral) {
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .logarithmic = true,
+          .prior = {.kind = Prior::Kind::student,
+                    .centre = 0.5 * std::log(usual_low * usual_high),
+                    .scale = 0.25 * std::log(usual_high / usual_low),
+                    .low = std::log(low),
+                    .high = std::log(high)},
+          .neutral = neutral};
+}
+
 Parameter ratio_near_one(std::string name, const double relative_scale, const double low,
                          const double high) {
   return {.name = std::move(name),

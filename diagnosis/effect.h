@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,11 +34,16 @@ struct Parameter {
   Prior prior{};
   double neutral = 0.;  // value (not x) at which the nominal model is met exactly
   double step = 1e-4;   // of x, for derivatives
+  /// Of x in one iteration of a fit: basins may be narrow.
+  double largest_step = std::numeric_limits<double>::infinity();
 
   double value(double x) const { return logarithmic ? std::exp(x) : x; }
   double coordinate(double value) const { return logarithmic ? std::log(value) : value; }
 };
 Parameter log_uniform(std::string name, std::string unit, double low, double high, double neutral);
+/// Usually between two values, with heavy tails (Student, three degrees of freedom, of ln value).
+Parameter log_usual(std::string name, std::string unit, double usual_low, double usual_high,
+                    double low, double high, double neutral);
 Parameter uniform(std::string name, std::string unit, double low, double high, double neutral);
 /// Ratio or offset near its neutral value with heavy tails (Student, three degrees of freedom).
 Parameter ratio_near_one(std::string name, double relative_scale, double low, double high);

@@ -13,8 +13,6 @@ namespace {
 
 /// Misfit of the nominal form that is always allowed for.
 constexpr double least_misfit = 1e-4;
-/// A wrong form is wrong beside its lines, too: so many bins to each side.
-constexpr std::size_t form_reach = 10;
 
 double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
   const double misfit = record.excitation.wind ? nominal.wind_misfit : nominal.base_misfit;
@@ -127,26 +125,27 @@ double FitPosterior::log_prior(const Eigen::VectorXd& x) const {
   return sum;
 }
 
-std::vector<std::pair<const Effect*, double>> FitPosterior::effect_energy(
-    const Eigen::VectorXd& x, const std::vector<Prediction>& at) const {
-  std::vector<std::pair<const Effect*, double>> energies;
+std::vector<EffectAction> FitPosterior::actions(const Eigen::VectorXd& x,
+                                                const std::vector<Prediction>& at) const {
+  std::vector<EffectAction> actions;
   const double a_variance = acceleration_variance(x);
   for (const FreeFigure& figure : figures_) {
     if (figure.effect == nullptr || figure.parameter != 0) continue;
     const Chain chain = make_chain(experiment_, figures_, x, figure.effect);
     const std::vector<Prediction> without = ChainSimulator(chain).predict(experiment_.records);
     const double a_without = acceleration_variance(x, chain);
-    double energy = 0.;
+    EffectAction action{.effect = figure.effect};
     for (std::size_t r = 0; r < at.size(); ++r) {
       const std::vector<double> s = variance(x, at[r], r, a_variance);
       const std::vector<double> s_without = variance(x, without[r], r, a_without);
+      const std::vector<double> power = powers(difference(at[r].mean, without[r].mean));
       for (std::size_t b = 0; b < s.size(); ++b)
-        energy += std::norm(at[r].mean[b] - without[r].mean[b]) / s[b] +
-                  (figure.nuisance ? 0. : std::abs(s[b] - s_without[b]) / s[b]);
+        action.energy += (power[b] + (figure.nuisance ? 0. : std::abs(s[b] - s_without[b]))) / s[b];
+      action.power.push_back(neighbour_mean(power, form_reach));
     }
-    energies.emplace_back(figure.effect, energy);
+    actions.push_back(std::move(action));
   }
-  return energies;
+  return actions;
 }
 
 void FitPosterior::add_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,

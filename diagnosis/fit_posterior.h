@@ -9,6 +9,18 @@
 
 namespace vibrissa::diagnosis {
 
+/// What an effect or nuisance does.
+struct EffectAction {
+  const Effect* effect = nullptr;
+  /// Whitened, sum |mean - mean without it|^2 / S, of effects with the change of S.
+  double energy = 0.;
+  /// Of the change of the mean, over neighbouring bins [record][bin], (N m)^2.
+  std::vector<std::vector<double>> power{};
+};
+
+/// A wrong form is wrong beside its lines, too: so many bins to each side.
+inline constexpr std::size_t form_reach = 10;
+
 /// Log posterior of a fit's figures by Whittle's likelihood (see fit_hypothesis()). What the
 /// variance takes from the mean, misfit of the nominal form and form errors, is held fixed between
 /// renewals. experiment and figures must outlive it.
@@ -33,10 +45,9 @@ class FitPosterior {
   void linearise(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                  Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
 
-  /// Whitened energy of what each effect and nuisance does, sum |mean - mean without it|^2 / S, of
-  /// effects with the change of S, in the order of the figures.
-  std::vector<std::pair<const Effect*, double>> effect_energy(
-      const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
+  /// In the order of the figures.
+  std::vector<EffectAction> actions(const Eigen::VectorXd& x,
+                                    const std::vector<Prediction>& at) const;
 
  private:
   /// Whitened derivatives by the figures: of the mean (real and imaginary parts in turn), of log S,

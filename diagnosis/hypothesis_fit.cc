@@ -39,9 +39,8 @@ Eigen::VectorXd start_vector(const Experiment& experiment, const std::vector<Fre
       value = figure.description.logarithmic ? std::log(0.02) : 0.2;
       continue;
     }
-    const double at = figure.nuisance ? (figure.parameter == 0 ? 1. : 0.5)
-                                      : figure.effect->starts.front()[figure.parameter];
-    value = figure.description.coordinate(at);
+    const double at = figure.effect->starts.front()[figure.parameter];
+    value = figure.nuisance ? figure.description.prior.centre : figure.description.coordinate(at);
     if (start == nullptr || (figure.nuisance && nominal_nuisances)) continue;
     if (const auto place = start->place(figure.effect->id, figure.parameter))
       value = start->x(static_cast<Eigen::Index>(*place));
@@ -99,8 +98,9 @@ Eigen::VectorXd damped_step(const std::vector<FreeFigure>& figures, const Eigen:
   for (std::size_t i = 0; i < free.size(); ++i) step(free[i]) = part(static_cast<Eigen::Index>(i));
   // Fisher scoring far from the optimum overshoots in logarithms.
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Prior& prior = figures[static_cast<std::size_t>(i)].description.prior;
-    const double most = 0.25 * (prior.high - prior.low);
+    const Parameter& parameter = figures[static_cast<std::size_t>(i)].description;
+    const double range = parameter.prior.high - parameter.prior.low;
+    const double most = std::min(0.25 * range, parameter.largest_step);
     step(i) = std::clamp(step(i), -most, most);
   }
   return step;
@@ -198,16 +198,9 @@ std::optional<std::size_t> HypothesisFit::place(const std::string& effect,
 
 double HypothesisFit::form_energy(const Effect* but) const {
   double sum = 0.;
-  for (const auto& [effect, energy] : effect_energy)
-    if (effect != but) sum += effect->form_error * effect->form_error * energy;
-  return sum;
-}
-
-double HypothesisFit::form_energy(const std::vector<std::string>& ids) const {
-  double sum = 0.;
-  for (const auto& [effect, energy] : effect_energy)
-    if (std::find(ids.begin(), ids.end(), effect->id) != ids.end())
-      sum += effect->form_error * effect->form_error * energy;
+  for (const EffectAction& action : actions)
+    if (action.effect != but)
+      sum += action.effect->form_error * action.effect->form_error * action.energy;
   return sum;
 }
 
@@ -239,13 +232,23 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   posterior.renew_slow_variance(fit.x, climb.predictions);
   Eigen::VectorXd gradient;
   posterior.linearise(fit.x, climb.predictions, gradient, fit.information);
-  fit.effect_energy = posterior.effect_energy(fit.x, climb.predictions);
+  fit.actions = posterior.actions(fit.x, climb.predictions);
   double log_determinant = 0.;
   fit.covariance = inverse(fit.information, log_determinant);
   fit.log_likelihood = posterior.log_likelihood(fit.x, climb.predictions);
   fit.log_evidence = fit.log_likelihood + posterior.log_prior(fit.x) - 0.5 * log_determinant +
                      0.5 * static_cast<double>(fit.x.size()) * std::log(2. * std::numbers::pi);
   fit.choices = retune_choices(fit);
+  const double a_variance = posterior.acceleration_variance(fit.x);
+  const double a_excess = fit.chain(experiment).reference_variance;
+  for (std::size_t r = 0; r < climb.predictions.size(); ++r) {
+    Prediction& prediction = climb.predictions[r];
+    std::vector<double> variance = posterior.variance(fit.x, prediction, r, a_variance);
+    for (std::size_t b = 0; b < variance.size(); ++b)
+      prediction.own_noise[b] += a_excess * prediction.acceleration_noise[b];
+    fit.records.push_back(
+        {std::move(prediction.mean), std::move(prediction.own_noise), std::move(variance)});
+  }
   return fit;
 }
 

@@ -8,6 +8,7 @@
 
 #include "diagnosis/experiment.h"
 #include "diagnosis/fit_figures.h"
+#include "diagnosis/fit_posterior.h"
 #include "diagnosis/hypothesis.h"
 
 namespace vibrissa::diagnosis {
@@ -17,6 +18,12 @@ namespace vibrissa::diagnosis {
 struct RetuneChoice {
   std::vector<std::string> named{};  // ids, alphabetical
   double log_evidence = 0.;          // of the data
+};
+
+/// What a fit foretells of one record, bins as PreparedRecord::moment.
+struct FittedRecord {
+  std::vector<Complex> mean;
+  std::vector<double> own_noise, variance;  // (N m)^2, of the effects alone and of all
 };
 
 /// A hypothesis at its most probable parameters. Figures in their coordinates x.
@@ -31,14 +38,12 @@ struct HypothesisFit {
   double log_evidence = -std::numeric_limits<double>::infinity();   // all nuisances free
   std::vector<RetuneChoice> choices;                                // best first
   int n_iterations = 0;
-  /// Whitened energy of what each effect or retune does, sum |mean - mean without it|^2 / S.
-  std::vector<std::pair<const Effect*, double>> effect_energy;
+  std::vector<FittedRecord> records;
+  std::vector<EffectAction> actions;  // of each effect and retune
 
   /// Form errors of all effects and retunes but one, in whitened energy: what gains less than this
   /// is not told from them.
   double form_energy(const Effect* but = nullptr) const;
-  /// Of these effects and retunes alone.
-  double form_energy(const std::vector<std::string>& ids) const;
   /// Value and standard deviation of an effect's parameter (of x).
   std::optional<std::size_t> place(const std::string& effect, std::size_t parameter) const;
   Chain chain(const Experiment& experiment) const;

@@ -20,16 +20,22 @@ JointModel made_dynamic(JointModel model) {
 }  // namespace
 
 JointModel::JointModel(const StructuralMode& mode, const double joint_share,
-                       const double loss_factor)
-    : frequency_rad_s(mode.frequency_rad_s), share(joint_share) {
+                       const double loss_factor, const JointChange& joint_change)
+    : frequency_rad_s(mode.frequency_rad_s), share(joint_share), change(joint_change) {
   const double viscous = mode.base_gain != 0. ? mode.base_rate / mode.base_gain : 0.;
   const double in_joint = std::clamp(loss_factor * viscous, 0., 2. * mode.damping_ratio);
   loss = in_joint / share;
   damping = mode.damping_ratio - 0.5 * in_joint;
 }
 
-Complex JointModel::inertia_ratio(const Complex s, const Complex change) const {
-  return inertia(s) * (compliance(s) / (1. + change) + 1. - share);
+Complex JointModel::inertia_ratio(const Complex s) const {
+  return inertia(s) * (compliance(s) + 1. - share);
+}
+
+Complex JointModel::changed_inertia_ratio(const Complex s, const Complex further) const {
+  const Complex x = s / frequency_rad_s;
+  const Complex inertia = change.inertia * (x * x + 2. * change.rest_damping * damping * x);
+  return inertia * (compliance(s) / (1. + stiffness_change(s) + further) + 1. - share);
 }
 
 Complex JointModel::added_moment(const Complex s) const {
@@ -40,18 +46,20 @@ JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) {
   const JointModel model = made_dynamic(joint);
   share_ = model.share;
   rest_ = 1. / (1. - model.share);
-  rate_factor_ = model.frequency_rad_s / model.loss;
+  spring_ = model.change.spring;
+  rate_factor_ = model.frequency_rad_s / (model.change.damper * model.loss);
   // M = (theta - p y) / (1 - p), with time in steps.
-  const double angle = model.frequency_rad_s * dt, relax = angle / model.loss;
+  const double angle = model.frequency_rad_s * dt, relax = rate_factor_ * dt;
+  const double pull = angle * angle / model.change.inertia;
   // States theta, theta', y, then T, M_ext and their slopes over the step.
   Eigen::Matrix<double, 7, 7> a = Eigen::Matrix<double, 7, 7>::Zero();
   a(0, 1) = 1.;
-  a(1, 0) = -angle * angle * rest_;
-  a(1, 1) = -2. * model.damping * angle;
-  a(1, 2) = angle * angle * rest_ * model.share;
-  a(1, 4) = angle * angle;
+  a(1, 0) = -pull * rest_;
+  a(1, 1) = -2. * model.change.rest_damping * model.damping * angle;
+  a(1, 2) = pull * rest_ * model.share;
+  a(1, 4) = pull;
   a(2, 0) = relax * rest_;
-  a(2, 2) = -relax * (rest_ * model.share + 1.);
+  a(2, 2) = -relax * (rest_ * model.share + spring_);
   a(2, 3) = -relax;
   a(3, 5) = 1.;
   a(4, 6) = 1.;
@@ -67,7 +75,7 @@ JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) {
 }
 
 double JointIntegrator::rate(const Eigen::Vector3d& state) const {
-  return rate_factor_ * ((state(0) - share_ * state(2)) * rest_ - state(2));
+  return rate_factor_ * ((state(0) - share_ * state(2)) * rest_ - spring_ * state(2));
 }
 
 Lanes JointIntegrator::accept(const Lanes& torque, const Lanes& external) {
@@ -81,7 +89,7 @@ Lanes JointIntegrator::accept(const Lanes& torque, const Lanes& external) {
            torque_old_(i) * torque + external_old_(i) * external;
   };
   free_ = {next(0), next(1), next(2), {}};
-  free_.rate = rate_factor_ * ((free_.theta - share_ * free_.y) * rest_ - free_.y);
+  free_.rate = rate_factor_ * ((free_.theta - share_ * free_.y) * rest_ - spring_ * free_.y);
   return (theta - share_ * y) * rest_;
 }
 

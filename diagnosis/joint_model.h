@@ -18,8 +18,10 @@ struct JointModel {
   double share = 1.;    // p
   double loss = 0.;     // rho
   double damping = 0.;  // z
+  JointChange change{};
 
-  JointModel(const StructuralMode& mode, double joint_share, double loss_factor = 1.);
+  JointModel(const StructuralMode& mode, double joint_share, double loss_factor = 1.,
+             const JointChange& change = {});
 
   /// Joint's share of the compliance at s, of the static whole.
   Complex compliance(Complex s) const { return share / stiffness_ratio(s); }
@@ -30,15 +32,22 @@ struct JointModel {
   }
   /// 1 - P: moment at the base for a moment T added in the joint, (1 - P) T.
   Complex added_moment(Complex s) const;
-  /// Moment of inertia over moment of the springs per rotation: the poles are where it is -1.
-  /// change: D of a joint K(s) (1 + D).
-  Complex inertia_ratio(Complex s, Complex change = 0.) const;
+  /// Moment of inertia over moment of the springs per rotation: the poles are where it is -1. For a
+  /// joint K(s) (1 + D) its compliance is that over 1 + D.
+  Complex inertia_ratio(Complex s) const;
+  /// The same with its factors changed, and a further D.
+  Complex changed_inertia_ratio(Complex s, Complex further) const;
+  /// D of the factors of spring and damper.
+  Complex stiffness_change(Complex s) const {
+    const Complex nominal = stiffness_ratio(s);
+    return (change.spring + change.damper * (nominal - 1.)) / nominal - 1.;
+  }
   /// Viscous and elastic moment of the joint over its elastic one, 1 + rho s / w.
   Complex stiffness_ratio(Complex s) const { return 1. + loss * s / frequency_rad_s; }
 };
 
-/// Exact step of the joint model for T and M_ext that run linearly over it, from rest; a lane for
-/// each record.
+/// Exact step of the joint model, with its factors, for T and M_ext that run linearly over it, from
+/// rest; a lane for each record.
 class JointIntegrator {
  public:
   JointIntegrator(const JointModel& model, double dt);
@@ -58,7 +67,7 @@ class JointIntegrator {
  private:
   double rate(const Eigen::Vector3d& state) const;
 
-  double share_, rest_, rate_factor_;  // p, 1 / (1 - p), w / rho
+  double share_, rest_, rate_factor_, spring_;  // p, 1 / (1 - p), w / rho
   // Of the state (theta, theta' in steps, y).
   Eigen::Matrix3d transition_;
   Eigen::Vector3d torque_old_, torque_new_, external_old_, external_new_;

@@ -19,7 +19,8 @@ Complex sum(const std::vector<Filter>& filters, Complex s) {
 
 LinearResponse::LinearResponse(const Chain& chain) : chain_(chain) {
   if (!chain.structure.modes.empty())
-    joint_.emplace(chain.structure.modes.front(), chain.joint_share, chain.joint_loss_factor);
+    joint_.emplace(chain.structure.modes.front(), chain.joint_share, chain.joint_loss_factor,
+                   chain.joint_change);
   if (chain.structure.has_base) static_response_ = chain.structure.base_response(0.);
 }
 
@@ -29,18 +30,17 @@ LinearPart LinearResponse::at(const Complex s) const {
   const auto [base, wind] = chain_.structure.responses(s);
   LinearPart part{.base = base, .wind = wind, .elastic = 1., .sensor = product(chain_.sensor, s)};
   if (joint_) {
-    const Complex d = chain_.relaxation.empty() ? Complex(0.) : sum(chain_.relaxation, s);
+    const Complex relaxed = sum(chain_.relaxation, s);
+    const Complex d = relaxed + joint_->stiffness_change(s);
     part.elastic = 1. / (joint_->stiffness_ratio(s) * (1. + d));
-    Complex change = 1.;
-    if (!chain_.relaxation.empty()) {
-      // P of the joint model; what the modes above the first do to H they do to 1 / (1 + K G), too:
-      // B is that of the load.
-      const Complex rest = joint_->compliance(s) * joint_->inertia(s) * base / static_response_;
-      change = (1. + d) / (1. + d * (1. - rest));
-    }
-    if (chain_.inertia_factor != 1.) {
-      const Complex inertia = joint_->inertia_ratio(s, d);
-      change *= (1. + inertia) / (1. + chain_.inertia_factor * inertia);
+    // P of the joint model; what the modes above the first do to H they do to 1 / (1 + K G), too: B
+    // is that of the load.
+    const Complex rest = joint_->compliance(s) * joint_->inertia(s) * base / static_response_;
+    Complex change = (1. + d) / (1. + d * (1. - rest));
+    if (chain_.joint_change.any()) {
+      const Complex same =
+          joint_->inertia(s) * (joint_->compliance(s) / (1. + d) + 1. - joint_->share);
+      change *= (1. + same) / (1. + joint_->changed_inertia_ratio(s, relaxed));
     }
     part.base *= change;
     part.wind *= change;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "diagnosis/chain_simulation.h"
+#include "diagnosis/form_errors.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -110,6 +111,21 @@ double resemblance(const Experiment& experiment, const HypothesisFit& fit,
   return best;
 }
 
+/// Log prior that an odd noise of the accelerometer costs a fit.
+double noise_strain(const HypothesisFit& fit) {
+  const Prior& prior = fit.figures[place_acceleration_noise].description.prior;
+  return prior.log_density(prior.centre) -
+         prior.log_density(fit.x(static_cast<Eigen::Index>(place_acceleration_noise)));
+}
+
+/// Does the effect say more of the accelerometer's noise?
+bool tells_noise(const Effect& effect) {
+  Chain chain;
+  chain.structure.modes.emplace_back();
+  effect.extend(chain, effect.starts.front(), {});
+  return chain.reference_variance > 0.;
+}
+
 class Searcher {
  public:
   Searcher(const Experiment& experiment, const SearchOptions& options)
@@ -154,6 +170,7 @@ class Searcher {
       known_[tasks[i].hypothesis.name()] = first + i;
       best_log_posterior_ = std::max(best_log_posterior_, fits_[first + i].log_posterior);
     }
+    weigh_hidden_gains();
   }
 
   /// The best combinations may stand in a better basin than their parts did: these start again from
@@ -177,51 +194,46 @@ class Searcher {
     for (std::size_t i = 0; i < again.size(); ++i)
       if (refined[i].log_evidence > fits_[again[i].first].log_evidence)
         fits_[again[i].first] = std::move(refined[i]);
+    weigh_hidden_gains();
   }
 
   std::vector<std::size_t> best_of_size(std::size_t size) const {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < fits_.size(); ++i)
       if (!fits_[i].hypothesis.is_discrepancy() && fits_[i].hypothesis.effects().size() == size &&
-          std::isfinite(best_posterior(fits_[i])))
+          std::isfinite(best_posterior(i)))
         order.push_back(i);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return best_posterior(fits_[a]) > best_posterior(fits_[b]);
-    });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return best_posterior(a) > best_posterior(b); });
     return order;
   }
 
-  /// Does one of the effects gain less than the form errors of the others, and of the retunes that
-  /// would be named without it, may hide?
-  bool hides_in_form_errors(const HypothesisFit& fit) const {
-    for (const Effect* effect : fit.hypothesis.effects()) {
-      const auto found = known_.find(fit.hypothesis.without(*effect).name());
-      if (found == known_.end()) continue;
-      const HypothesisFit& fewer = fits_[found->second];
-      // What is gained may also lie in what is believable: a noise that needs no odd accelerometer.
-      const double gained = std::max(fit.log_likelihood - fewer.log_likelihood,
-                                     fit.log_evidence - fewer.log_evidence);
-      if (2. * gained < fewer.form_energy(named_ids(fewer))) return true;
-    }
-    return false;
+  /// A fit with one effect more may gain what the form errors of the smaller one explain as well:
+  /// the smaller one is given it.
+  void weigh_hidden_gains() {
+    std::vector<std::pair<std::size_t, std::size_t>> steps;  // (fewer, more)
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      for (const Effect* effect : fits_[i].hypothesis.effects()) {
+        const auto found = known_.find(fits_[i].hypothesis.without(*effect).name());
+        if (found != known_.end()) steps.emplace_back(found->second, i);
+      }
+    std::vector<double> gains(steps.size());
+    for_each_parallel(steps.size(), options_.n_threads, [&](std::size_t i) {
+      gains[i] = hidden_gain(experiment_, fits_[steps[i].second], fits_[steps[i].first]);
+    });
+    hidden_.assign(fits_.size(), 0.);
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      hidden_[steps[i].first] = std::max(hidden_[steps[i].first], gains[i]);
   }
 
-  std::vector<std::string> named_ids(const HypothesisFit& fit) const {
-    const auto best = std::max_element(fit.choices.begin(), fit.choices.end(),
-                                       [&](const RetuneChoice& a, const RetuneChoice& b) {
-                                         return choice_posterior(fit, a, testable_.size()) <
-                                                choice_posterior(fit, b, testable_.size());
-                                       });
-    std::vector<std::string> ids = best->named;
-    for (const Effect* effect : fit.hypothesis.effects()) ids.push_back(effect->id);
-    return ids;
+  double posterior_of(std::size_t i, const RetuneChoice& choice) const {
+    return choice_posterior(fits_[i], choice, testable_.size()) + hidden_[i];
   }
 
-  double best_posterior(const HypothesisFit& fit) const {
+  double best_posterior(std::size_t i) const {
     double best = -std::numeric_limits<double>::infinity();
-    if (hides_in_form_errors(fit)) return best;
-    for (const RetuneChoice& choice : fit.choices)
-      best = std::max(best, choice_posterior(fit, choice, testable_.size()));
+    for (const RetuneChoice& choice : fits_[i].choices)
+      best = std::max(best, posterior_of(i, choice));
     return best;
   }
 
@@ -230,7 +242,7 @@ class Searcher {
     const std::vector<std::size_t> fewer = best_of_size(size - 1);
     const std::vector<std::size_t> before = best_of_size(size - 2);
     if (fewer.empty() || before.empty()) return false;
-    return best_posterior(fits_[fewer.front()]) > best_posterior(fits_[before.front()]);
+    return best_posterior(fewer.front()) > best_posterior(before.front());
   }
 
   std::vector<Task> extensions(std::size_t size) {
@@ -258,6 +270,7 @@ class Searcher {
       const Effect* effect = testable_[i];
       const bool there = fit.hypothesis.contains(effect->id);
       scored[i] = {there ? -1. : resemblance(experiment_, fit, means, residual, *effect), effect};
+      if (!there && tells_noise(*effect)) scored[i].first += 2. * noise_strain(fit);
     });
     std::sort(scored.begin(), scored.end(),
               [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -284,13 +297,12 @@ class Searcher {
 
   void add_choices(std::map<std::string, Candidate>& by_name, std::size_t i) const {
     const HypothesisFit& fit = fits_[i];
-    if (hides_in_form_errors(fit)) return;
     for (const RetuneChoice& choice : fit.choices) {
       std::vector<std::string> ids = choice.named;
       if (fit.hypothesis.is_discrepancy()) ids.push_back(outside_catalogue);
       for (const Effect* effect : fit.hypothesis.effects()) ids.push_back(effect->id);
       const std::string name = joined_name(ids);
-      const double posterior = choice_posterior(fit, choice, testable_.size());
+      const double posterior = posterior_of(i, choice);
       const auto found = by_name.find(name);
       if (found != by_name.end() && found->second.log_posterior >= posterior) continue;
       by_name[name] = {name, i, choice.named, posterior, 0.};
@@ -301,6 +313,7 @@ class Searcher {
   const SearchOptions& options_;
   std::vector<const Effect*> testable_;
   std::vector<HypothesisFit> fits_;
+  std::vector<double> hidden_;  // log likelihood that form errors of each may explain
   std::mutex mutex_;
   double best_log_posterior_ = -std::numeric_limits<double>::infinity();
   std::map<std::string, std::size_t> known_;  // number of the fit of a hypothesis

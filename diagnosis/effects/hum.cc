@@ -4,6 +4,9 @@
 namespace vibrissa::diagnosis::effects {
 
 Effect hum() {
+  Parameter frequency = uniform("frequency", "Hz", 45., 125., 50.);
+  frequency.step = 1e-3;
+  frequency.largest_step = 0.05;
   return Effect{
       .id = "hum",
       .link = Link::sensor,
@@ -12,9 +15,15 @@ Effect hum() {
       .confused_with = "vortex_shedding; line in the quiet record",
       .irreducible = true,
       .form_error = 0.01,
-      .parameters = {log_uniform("amplitude", "N m", 1e-8, 1e-3, 0.),
-                     uniform("frequency", "Hz", 49.7, 50.3, 50.)},
-      .starts = {{3e-7, 50.}, {3e-6, 50.}},
+      .parameters = {log_uniform("amplitude", "N m", 1e-8, 1e-3, 0.), frequency},
+      .starts = {{3e-7, 50.},
+                 {3e-6, 50.},
+                 {3e-7, 60.},
+                 {3e-6, 60.},
+                 {3e-7, 100.},
+                 {3e-6, 100.},
+                 {3e-7, 120.},
+                 {3e-6, 120.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         chain.noise.push_back([a = v[0], f = v[1]](const RecordView& view, std::span<double> out) {
           const double n = static_cast<double>(view.n_samples), line_hz = view.sampling_rate_hz / n;

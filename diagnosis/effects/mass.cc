@@ -18,7 +18,7 @@ Effect mass() {
                      normal("direct", "1", 0., 0.005, -0.05, 0.05, 0.)},
       .starts = {{0.95, 1., 0.}, {1.05, 1., 0.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-        chain.inertia_factor *= v[0];
+        chain.joint_change.inertia *= v[0];
         chain.mount.push_back(
             [forcing = std::pow(v[0], v[1])](Complex) -> Complex { return forcing; });
         chain.parallel.push_back(

@@ -30,9 +30,9 @@ Effect viscoelastic() {
       .form_error = 0.08,
       .needs = {.base = true},
       .parameters = {log_uniform("strength", "1", 0.01, 1.5, 0.),
-                     log_uniform("tau", "s", 3e-4, 3., 0.01), uniform("decades", "1", 0., 3., 0.)},
+                     log_uniform("tau", "s", 1e-3, 10., 0.01), uniform("decades", "1", 0., 3., 0.)},
       .starts =
-          {{0.1, 3e-3, 1.}, {0.1, 0.05, 1.}, {0.3, 6e-4, 1.}, {0.5, 3e-3, 1.}, {0.5, 3e-3, 2.5}},
+          {{0.1, 3e-3, 1.}, {0.1, 0.05, 1.}, {0.3, 1.5e-3, 1.}, {0.5, 3e-3, 1.}, {0.5, 3e-3, 2.5}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         chain.relaxation.push_back(
             [strength = v[0] / n_branches, times = branch_times(v[1], v[2])](Complex s) {
