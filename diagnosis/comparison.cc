@@ -32,10 +32,8 @@ ResponseComparison compare_response(const Experiment& experiment, const Hypothes
   out.record = record->name;
   const std::vector<Complex> nominal = simulate_mean({.structure = experiment.nominal}, *record);
   const std::vector<Complex> mended = simulate_mean(fit.chain(experiment), *record);
-  const std::vector<double> deviation = whitened_residual(experiment, fit).deviation;
-  std::size_t first = 0;
-  for (const PreparedRecord* before = experiment.records.data(); before != record; ++before)
-    first += before->n_bins();
+  const auto place = static_cast<std::size_t>(record - experiment.records.data());
+  const std::vector<double> deviation = whitened_residual(experiment, fit)[place].deviation;
   for (std::size_t b = 0; b < record->n_bins(); ++b) {
     const double a = std::abs(record->acceleration[record->whole_line(b)]);
     if (a == 0.) continue;
@@ -43,7 +41,7 @@ ResponseComparison compare_response(const Experiment& experiment, const Hypothes
     out.measured.push_back(std::abs(record->moment[b]) / a);
     out.nominal.push_back(std::abs(nominal[b]) / a);
     out.mended.push_back(std::abs(mended[b]) / a);
-    out.deviation.push_back(deviation[first + b] / a);
+    out.deviation.push_back(deviation[b] / a);
   }
   return out;
 }

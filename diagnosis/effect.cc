@@ -8,7 +8,11 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-constexpr double student_dof = 3.;
+constexpr double student_dof = 6.;
+/// Logarithm of the density's denominator at zero, scale 1: sqrt(6 pi) G(3) / G(3.5).
+const double student_log_norm =
+    std::log(std::sqrt(student_dof * std::numbers::pi) * std::tgamma(0.5 * student_dof) /
+             std::tgamma(0.5 * (student_dof + 1.)));
 
 }  // namespace
 
@@ -36,8 +40,8 @@ double Prior::log_density(const double x) const {
     case Kind::normal:
       return -0.5 * z * z - std::log(scale * std::sqrt(2. * std::numbers::pi));
     case Kind::student:
-      return -0.5 * (student_dof + 1.) * std::log1p(z * z / student_dof) -
-             std::log(scale * std::numbers::pi * std::sqrt(student_dof) / 2.);
+      return -0.5 * (student_dof + 1.) * std::log1p(z * z / student_dof) - std::log(scale) -
+             student_log_norm;
     case Kind::uniform:
       return -std::log(high - low);
   }
@@ -127,6 +131,13 @@ Parameter normal(std::string name, std::string unit, const double centre, const 
                     .high = high},
           .neutral = neutral,
           .step = 1e-3 * scale};
+}
+
+bool is_nonlinear(const Effect& effect) {
+  Chain chain;
+  chain.structure.modes.emplace_back();
+  effect.extend(chain, effect.starts.front(), {});
+  return !chain.joint.empty() || !chain.readout.empty() || chain.relative_wind.on;
 }
 
 const Effect& find_effect(const std::string& id) {

@@ -18,7 +18,7 @@ std::string to_string(Link link);
 /// What is believed of a parameter before the data: in its own value or in its logarithm.
 struct Prior {
   enum class Kind { normal, student, uniform } kind = Kind::uniform;
-  double centre = 0.;  // normal, student (three degrees of freedom): in the fitted coordinate
+  double centre = 0.;  // normal, student (six degrees of freedom): in the fitted coordinate
   double scale = 1.;
   double low = 0., high = 1.;  // bounds of the fitted coordinate, for all kinds
 
@@ -41,11 +41,11 @@ struct Parameter {
   double coordinate(double value) const { return logarithmic ? std::log(value) : value; }
 };
 Parameter log_uniform(std::string name, std::string unit, double low, double high, double neutral);
-/// Usually between two values, with heavy tails (Student, three degrees of freedom, of ln value).
+/// Usually between two values, with heavy tails (Student, six degrees of freedom, of ln value).
 Parameter log_usual(std::string name, std::string unit, double usual_low, double usual_high,
                     double low, double high, double neutral);
 Parameter uniform(std::string name, std::string unit, double low, double high, double neutral);
-/// Ratio or offset near its neutral value with heavy tails (Student, three degrees of freedom).
+/// Ratio or offset near its neutral value with heavy tails (Student, six degrees of freedom).
 Parameter ratio_near_one(std::string name, double relative_scale, double low, double high);
 Parameter normal(std::string name, std::string unit, double centre, double scale, double low,
                  double high, double neutral);
@@ -83,6 +83,9 @@ struct Effect {
   /// Extends a chain; values as the parameters', not x.
   std::function<void(Chain&, std::span<const double> values, const Scales&)> extend{};
 };
+
+/// Is what the effect does out of proportion to what moves the sensor?
+bool is_nonlinear(const Effect& effect);
 
 /// Every effect of diagnosis/effects, one file each, by id. Proven by
 /// tests/diagnosis/effect_catalogue_test.cc.

@@ -138,10 +138,11 @@ std::vector<EffectAction> FitPosterior::actions(const Eigen::VectorXd& x,
     for (std::size_t r = 0; r < at.size(); ++r) {
       const std::vector<double> s = variance(x, at[r], r, a_variance);
       const std::vector<double> s_without = variance(x, without[r], r, a_without);
-      const std::vector<double> power = powers(difference(at[r].mean, without[r].mean));
+      std::vector<Complex> change = difference(at[r].mean, without[r].mean);
       for (std::size_t b = 0; b < s.size(); ++b)
-        action.energy += (power[b] + (figure.nuisance ? 0. : std::abs(s[b] - s_without[b]))) / s[b];
-      action.power.push_back(neighbour_mean(power, form_reach));
+        action.energy +=
+            (std::norm(change[b]) + (figure.nuisance ? 0. : std::abs(s[b] - s_without[b]))) / s[b];
+      action.change.push_back(std::move(change));
     }
     actions.push_back(std::move(action));
   }

@@ -14,8 +14,7 @@ struct EffectAction {
   const Effect* effect = nullptr;
   /// Whitened, sum |mean - mean without it|^2 / S, of effects with the change of S.
   double energy = 0.;
-  /// Of the change of the mean, over neighbouring bins [record][bin], (N m)^2.
-  std::vector<std::vector<double>> power{};
+  std::vector<std::vector<Complex>> change{};  // of the mean [record][bin], N m
 };
 
 /// A wrong form is wrong beside its lines, too: so many bins to each side.

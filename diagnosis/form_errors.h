@@ -4,12 +4,14 @@
 
 namespace vibrissa::diagnosis {
 
-/// Of the log likelihood that a fit gains over one with fewer effects, the part that form errors of
-/// the latter's effects and retunes may explain. A form error is a smooth function of frequency,
+/// Of the log likelihood that a fit gains over one with one effect fewer, the part that form errors
+/// of the latter's effects and retunes may explain. A form error is a smooth function of frequency,
 /// one value to a block of bins, shared by the records:
 ///   sum over blocks of max(0, E - ln(1 + F)),  E = sum min(g, f) / S,  F = sum f / S,
-/// g the power by which the predictions differ, f that of the form errors, S the variance; the
-/// logarithm is the price of a free complex value. Proven by tests/diagnosis/form_errors_test.cc.
+/// g the power by which the predictions differ, f that of the form errors, around each bin, S the
+/// variance; the logarithm is the price of a free complex value. Form errors of linear effects do
+/// not look like a nonlinear effect.
+/// Proven by tests/diagnosis/form_errors_test.cc.
 double hidden_gain(const Experiment& experiment, const HypothesisFit& fit,
                    const HypothesisFit& fewer);
 

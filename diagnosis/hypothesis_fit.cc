@@ -7,6 +7,7 @@
 
 #include "diagnosis/fit_posterior.h"
 #include "diagnosis/retune_choices.h"
+#include "diagnosis/spectrum.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -151,7 +152,7 @@ void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, C
       clamp(figures, x);
       std::vector<Prediction> there = posterior.predict(x);
       const double value = posterior.log_likelihood(x, there) + posterior.log_prior(x);
-      if (value <= climb.log_posterior) {
+      if (!(value > climb.log_posterior)) {
         climb.damping = std::max(1e-2, climb.damping * 8.);
         continue;
       }
@@ -185,6 +186,54 @@ Climb best_start(FitPosterior& posterior, const std::vector<FreeFigure>& figures
   return std::move(climbs.front());
 }
 
+FormErrors form_errors_of(const std::vector<EffectAction>& actions, std::size_t record) {
+  FormErrors out;
+  for (const EffectAction& action : actions) {
+    const double share = action.effect->form_error * action.effect->form_error;
+    const std::vector<double> power = neighbour_mean(powers(action.change[record]), form_reach);
+    for (std::vector<double>* sum : {&out.linear, &out.nonlinear}) sum->resize(power.size(), 0.);
+    std::vector<double>& sum = is_nonlinear(*action.effect) ? out.nonlinear : out.linear;
+    for (std::size_t b = 0; b < power.size(); ++b) sum[b] += share * power[b];
+  }
+  return out;
+}
+
+std::vector<FittedRecord> fitted_records(const Experiment& experiment,
+                                         const FitPosterior& posterior, const HypothesisFit& fit,
+                                         const std::vector<Prediction>& predictions,
+                                         const std::vector<EffectAction>& actions) {
+  const double a_variance = posterior.acceleration_variance(fit.x);
+  const double a_excess = fit.chain(experiment).reference_variance;
+  std::vector<FittedRecord> records;
+  for (std::size_t r = 0; r < predictions.size(); ++r) {
+    FittedRecord record{.mean = predictions[r].mean,
+                        .own_noise = predictions[r].own_noise,
+                        .variance = posterior.variance(fit.x, predictions[r], r, a_variance),
+                        .form_errors = form_errors_of(actions, r)};
+    for (std::size_t b = 0; b < record.own_noise.size(); ++b)
+      record.own_noise[b] += a_excess * predictions[r].acceleration_noise[b];
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+std::vector<WhitenedRecord> whitened(const Experiment& experiment, const FitPosterior& posterior,
+                                     const Eigen::VectorXd& x,
+                                     const std::vector<Prediction>& predictions) {
+  const double a_variance = posterior.acceleration_variance(x);
+  std::vector<WhitenedRecord> records(predictions.size());
+  for (std::size_t r = 0; r < predictions.size(); ++r) {
+    const std::vector<double> s = posterior.variance(x, predictions[r], r, a_variance);
+    for (std::size_t b = 0; b < s.size(); ++b) {
+      const double deviation = std::sqrt(s[b]);
+      records[r].deviation.push_back(deviation);
+      records[r].error.push_back((experiment.records[r].moment[b] - predictions[r].mean[b]) /
+                                 deviation);
+    }
+  }
+  return records;
+}
+
 }  // namespace
 
 std::optional<std::size_t> HypothesisFit::place(const std::string& effect,
@@ -198,9 +247,8 @@ std::optional<std::size_t> HypothesisFit::place(const std::string& effect,
 
 double HypothesisFit::form_energy(const Effect* but) const {
   double sum = 0.;
-  for (const EffectAction& action : actions)
-    if (action.effect != but)
-      sum += action.effect->form_error * action.effect->form_error * action.energy;
+  for (const auto& [effect, energy] : effect_energy)
+    if (effect != but) sum += effect->form_error * effect->form_error * energy;
   return sum;
 }
 
@@ -232,41 +280,26 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   posterior.renew_slow_variance(fit.x, climb.predictions);
   Eigen::VectorXd gradient;
   posterior.linearise(fit.x, climb.predictions, gradient, fit.information);
-  fit.actions = posterior.actions(fit.x, climb.predictions);
+  const std::vector<EffectAction> actions = posterior.actions(fit.x, climb.predictions);
+  for (const EffectAction& action : actions)
+    fit.effect_energy.emplace_back(action.effect, action.energy);
   double log_determinant = 0.;
   fit.covariance = inverse(fit.information, log_determinant);
   fit.log_likelihood = posterior.log_likelihood(fit.x, climb.predictions);
   fit.log_evidence = fit.log_likelihood + posterior.log_prior(fit.x) - 0.5 * log_determinant +
                      0.5 * static_cast<double>(fit.x.size()) * std::log(2. * std::numbers::pi);
+  if (!std::isfinite(fit.log_evidence)) fit.log_evidence = -std::numeric_limits<double>::infinity();
   fit.choices = retune_choices(fit);
-  const double a_variance = posterior.acceleration_variance(fit.x);
-  const double a_excess = fit.chain(experiment).reference_variance;
-  for (std::size_t r = 0; r < climb.predictions.size(); ++r) {
-    Prediction& prediction = climb.predictions[r];
-    std::vector<double> variance = posterior.variance(fit.x, prediction, r, a_variance);
-    for (std::size_t b = 0; b < variance.size(); ++b)
-      prediction.own_noise[b] += a_excess * prediction.acceleration_noise[b];
-    fit.records.push_back(
-        {std::move(prediction.mean), std::move(prediction.own_noise), std::move(variance)});
-  }
+  fit.records = fitted_records(experiment, posterior, fit, climb.predictions, actions);
   return fit;
 }
 
-WhitenedResidual whitened_residual(const Experiment& experiment, const HypothesisFit& fit) {
+std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
+                                              const HypothesisFit& fit) {
   FitPosterior posterior(experiment, fit.figures, fit.hypothesis);
   const std::vector<Prediction> predictions = posterior.predict(fit.x);
   posterior.renew_slow_variance(fit.x, predictions);
-  const double a_variance = posterior.acceleration_variance(fit.x);
-  WhitenedResidual residual;
-  for (std::size_t r = 0; r < predictions.size(); ++r) {
-    const std::vector<double> s = posterior.variance(fit.x, predictions[r], r, a_variance);
-    for (std::size_t b = 0; b < s.size(); ++b) {
-      residual.deviation.push_back(std::sqrt(s[b]));
-      residual.error.push_back((experiment.records[r].moment[b] - predictions[r].mean[b]) /
-                               residual.deviation.back());
-    }
-  }
-  return residual;
+  return whitened(experiment, posterior, fit.x, predictions);
 }
 
 }  // namespace vibrissa::diagnosis

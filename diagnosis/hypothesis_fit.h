@@ -20,10 +20,22 @@ struct RetuneChoice {
   double log_evidence = 0.;          // of the data
 };
 
+/// Power that the form errors of effects and retunes may have, around each bin [(N m)^2].
+struct FormErrors {
+  std::vector<double> linear, nonlinear;
+};
+
 /// What a fit foretells of one record, bins as PreparedRecord::moment.
 struct FittedRecord {
   std::vector<Complex> mean;
   std::vector<double> own_noise, variance;  // (N m)^2, of the effects alone and of all
+  FormErrors form_errors;
+};
+
+/// A record under a fit: whitened bins.
+struct WhitenedRecord {
+  std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
+  std::vector<double> deviation;  // sqrt(variance) [N m]
 };
 
 /// A hypothesis at its most probable parameters. Figures in their coordinates x.
@@ -38,8 +50,9 @@ struct HypothesisFit {
   double log_evidence = -std::numeric_limits<double>::infinity();   // all nuisances free
   std::vector<RetuneChoice> choices;                                // best first
   int n_iterations = 0;
+  /// Whitened energy of what each effect or retune does, sum |mean - mean without it|^2 / S.
+  std::vector<std::pair<const Effect*, double>> effect_energy;
   std::vector<FittedRecord> records;
-  std::vector<EffectAction> actions;  // of each effect and retune
 
   /// Form errors of all effects and retunes but one, in whitened energy: what gains less than this
   /// is not told from them.
@@ -47,12 +60,6 @@ struct HypothesisFit {
   /// Value and standard deviation of an effect's parameter (of x).
   std::optional<std::size_t> place(const std::string& effect, std::size_t parameter) const;
   Chain chain(const Experiment& experiment) const;
-};
-
-/// Residual of a fit, whitened: one entry a bin, all records in turn.
-struct WhitenedResidual {
-  std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
-  std::vector<double> deviation;  // sqrt(variance) [N m]
 };
 
 struct FitOptions {
@@ -72,6 +79,8 @@ struct FitOptions {
 HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hypothesis,
                              const HypothesisFit* start = nullptr, const FitOptions& options = {});
 
-WhitenedResidual whitened_residual(const Experiment& experiment, const HypothesisFit& fit);
+/// All records in turn.
+std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
+                                              const HypothesisFit& fit);
 
 }  // namespace vibrissa::diagnosis

@@ -45,8 +45,9 @@ State state_at(const Experiment& experiment, const HypothesisFit& fit, const Eig
 /// change's nats, is its square: real and imaginary part of the mean, log variance over sqrt 2.
 class Changes {
  public:
-  Changes(const Experiment& experiment, const HypothesisFit& fit)
-      : experiment_(experiment), deviation_(whitened_residual(experiment, fit).deviation) {
+  Changes(const Experiment& experiment, const HypothesisFit& fit) : experiment_(experiment) {
+    for (const WhitenedRecord& record : whitened_residual(experiment, fit))
+      deviation_.insert(deviation_.end(), record.deviation.begin(), record.deviation.end());
     const State state = state_at(experiment, fit, fit.x);
     mean_.resize(2 * static_cast<Eigen::Index>(deviation_.size()));
     noise_.resize(static_cast<Eigen::Index>(deviation_.size()));

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace vibrissa::diagnosis {
@@ -64,6 +65,9 @@ std::vector<RetuneChoice> retune_choices(const HypothesisFit& fit) {
     }
     const double exact = as_built - tolerance_at_nominal + log_density_at_nominal(fit, others);
     choice.log_evidence = log_mean(exact, as_built);
+    // Where the retuned sensor is unstable there is no answer.
+    if (!std::isfinite(choice.log_evidence))
+      choice.log_evidence = -std::numeric_limits<double>::infinity();
     choices.push_back(std::move(choice));
   }
   std::sort(choices.begin(), choices.end(), [](const RetuneChoice& a, const RetuneChoice& b) {

@@ -82,26 +82,25 @@ double choice_posterior(const HypothesisFit& fit, const RetuneChoice& choice,
 /// How much of the whitened residual one effect's own shape explains, over all its starts: twice
 /// the log likelihood that the best multiple of it gains, to first order.
 double resemblance(const Experiment& experiment, const HypothesisFit& fit,
-                   const std::vector<std::vector<Complex>>& means, const WhitenedResidual& residual,
-                   const Effect& effect) {
+                   const std::vector<std::vector<Complex>>& means,
+                   const std::vector<WhitenedRecord>& residual, const Effect& effect) {
   double best = 0.;
   for (const std::vector<double>& values : effect.starts) {
     Chain chain = fit.chain(experiment);
     effect.extend(chain, values, experiment.scales);
     const std::vector<Prediction> moved = ChainSimulator(chain).predict(experiment.records);
     double cross = 0., own = 0., excess = 0., square = 0.;
-    std::size_t row = 0;
     const double reference = chain.reference_variance;
     for (std::size_t r = 0; r < experiment.records.size(); ++r) {
       const Prediction& there = moved[r];
-      for (std::size_t b = 0; b < there.mean.size(); ++b, ++row) {
-        const Complex d = (there.mean[b] - means[r][b]) / residual.deviation[row];
-        cross += (std::conj(d) * residual.error[row]).real();
+      for (std::size_t b = 0; b < there.mean.size(); ++b) {
+        const Complex d = (there.mean[b] - means[r][b]) / residual[r].deviation[b];
+        cross += (std::conj(d) * residual[r].error[b]).real();
         own += std::norm(d);
         const double v = (there.own_noise[b] + reference * there.acceleration_noise[b]) /
-                         (residual.deviation[row] * residual.deviation[row]);
+                         (residual[r].deviation[b] * residual[r].deviation[b]);
         const double w = v / (1. + v);
-        excess += w * (std::norm(residual.error[row]) - 1.);
+        excess += w * (std::norm(residual[r].error[b]) - 1.);
         square += w * w;
       }
     }
@@ -261,7 +260,7 @@ class Searcher {
 
   std::vector<const Effect*> partners(std::size_t base) {
     const HypothesisFit& fit = fits_[base];
-    const WhitenedResidual residual = whitened_residual(experiment_, fit);
+    const std::vector<WhitenedRecord> residual = whitened_residual(experiment_, fit);
     const Chain chain = fit.chain(experiment_);
     const std::vector<std::vector<Complex>> means =
         ChainSimulator(chain).means(experiment_.records);
@@ -303,6 +302,7 @@ class Searcher {
       for (const Effect* effect : fit.hypothesis.effects()) ids.push_back(effect->id);
       const std::string name = joined_name(ids);
       const double posterior = posterior_of(i, choice);
+      if (!std::isfinite(posterior)) continue;
       const auto found = by_name.find(name);
       if (found != by_name.end() && found->second.log_posterior >= posterior) continue;
       by_name[name] = {name, i, choice.named, posterior, 0.};

@@ -3,15 +3,20 @@
 namespace vibrissa::diagnosis::effects {
 namespace {
 
+/// A spring that softens keeps a tenth of its tangent: from there on it is straight.
 class Cubic : public JointLaw {
  public:
-  explicit Cubic(double coefficient) : coefficient_(coefficient) {}
+  explicit Cubic(double coefficient)
+      : coefficient_(coefficient),
+        straight_(coefficient < 0. ? std::sqrt(0.3 / -coefficient)
+                                   : std::numeric_limits<double>::infinity()) {}
   Lanes moment(const Lanes& y, const Lanes&, const Lanes&, double, bool) override {
-    return coefficient_ * y * y * y;
+    const Lanes bent = y.max(-straight_).min(straight_);
+    return coefficient_ * bent * bent * (3. * y - 2. * bent);
   }
 
  private:
-  double coefficient_;
+  double coefficient_, straight_;
 };
 
 }  // namespace

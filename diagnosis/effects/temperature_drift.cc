@@ -1,18 +1,21 @@
 #include "diagnosis/effect.h"
+#include "diagnosis/joint_model.h"
 
 namespace vibrissa::diagnosis::effects {
 namespace {
 
 class Drift : public JointLaw {
  public:
-  Drift(double slope, const Lanes& offset) : slope_(slope), offset_(offset) {}
-  Lanes moment(const Lanes& y, const Lanes&, const Lanes& t_s, double, bool) override {
-    return (offset_ + slope_ * t_s) * y;
+  Drift(double slope, const Lanes& offset, double loss_s)
+      : slope_(slope), offset_(offset), loss_s_(loss_s) {}
+  Lanes moment(const Lanes& y, const Lanes& y_rate, const Lanes& t_s, double, bool) override {
+    return (offset_ + slope_ * t_s) * (y + loss_s_ * y_rate);
   }
 
  private:
   double slope_;
   Lanes offset_;
+  double loss_s_;
 };
 
 }  // namespace
@@ -21,18 +24,25 @@ Effect temperature_drift() {
   return Effect{
       .id = "temperature_drift",
       .link = Link::structure,
-      .equation = "k = k0 (1 + d t / T + e n), n the number of the record",
+      .equation =
+          "k = k0 (1 + d t / T + e n), n the number of the record; c = c0 (1 + p (d t / T + e n))",
       .source = "effects.md",
       .confused_with = "sensor_drift; frequency moves here, offset there",
       .form_error = 0.05,
       .needs = {.base = true},
       .parameters = {uniform("within_record", "1", -0.4, 0.4, 0.),
-                     normal("between_records", "1", 0., 0.005, -0.1, 0.1, 0.)},
-      .starts = {{0.02, 0.}, {-0.02, 0.}},
+                     normal("between_records", "1", 0., 0.005, -0.1, 0.1, 0.),
+                     normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.)},
+      .starts = {{0.02, 0., 0.}, {-0.02, 0., 0.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-        chain.joint.push_back([slope = v[0] / scales.duration_s, jump = v[1]](const Lanes& number) {
-          return std::make_unique<Drift>(slope, jump * number);
-        });
+        if (chain.structure.modes.empty()) return;
+        const JointModel joint(chain.structure.modes.front(), chain.joint_share,
+                               chain.joint_loss_factor);
+        const double loss_s = v[2] * joint.loss / joint.frequency_rad_s;
+        chain.joint.push_back(
+            [slope = v[0] / scales.duration_s, jump = v[1], loss_s](const Lanes& number) {
+              return std::make_unique<Drift>(slope, jump * number, loss_s);
+            });
       }};
 }
 
