@@ -12,6 +12,15 @@ constexpr double usual_spread = 0.3;
 /// Upper edges of the bands of a discrepancy, in frequencies of the first mode; the last has none.
 constexpr std::array<double, 4> discrepancy_edges{0.5, 0.9, 1.1, 2.};
 
+/// The joint's share in the damping of the first mode is not more than all of it.
+double most_joint_loss(const NominalModel& nominal) {
+  constexpr double most = 1.3, least = 1.;
+  if (nominal.modes.empty()) return most;
+  const StructuralMode& mode = nominal.modes.front();
+  const double all = 2. * mode.damping_ratio * mode.base_gain;
+  return all * mode.base_rate > 0. ? std::clamp(all / mode.base_rate, least, most) : most;
+}
+
 }  // namespace
 
 std::size_t n_discrepancy_bands() {
@@ -44,7 +53,8 @@ std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothe
   figures[place_joint_share].description =
       normal("joint_share", "1", experiment.nominal.joint_share,
              experiment.nominal.joint_share_deviation, 0.3, 1., 1.);
-  figures[place_joint_loss].description = normal("joint_loss_factor", "1", 1., 0.05, 0.7, 1.3, 1.);
+  figures[place_joint_loss].description =
+      normal("joint_loss_factor", "1", 1., 0.05, 0.7, most_joint_loss(experiment.nominal), 1.);
   const auto add = [&](const Effect& effect, bool nuisance) {
     for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
       figures.push_back({&effect, i, effect.parameters[i], nuisance});

@@ -31,20 +31,20 @@ bool adds_nonlinear(const HypothesisFit& fit, const HypothesisFit& fewer) {
                      });
 }
 
-}  // namespace
+/// Of a linear effect's form little is unknown: its error explains no more than this, in nats.
+constexpr double most_hidden_by_linear = 25.;
 
-double hidden_gain(const Experiment& experiment, const HypothesisFit& fit,
-                   const HypothesisFit& fewer) {
+double hidden_by(const Experiment& experiment, const HypothesisFit& fit, const HypothesisFit& fewer,
+                 bool linear) {
   struct Sums {
     double explained = 0., freedom = 0.;
   };
   std::map<std::size_t, Sums> blocks;
-  const bool nonlinear = adds_nonlinear(fit, fewer);
   for (std::size_t r = 0; r < experiment.records.size(); ++r) {
     const std::vector<double> gained = change(fit.records[r], fewer.records[r]);
     const FormErrors& errors = fewer.records[r].form_errors;
     for (std::size_t b = 0; b < gained.size(); ++b) {
-      const double form = errors.nonlinear[b] + (nonlinear ? 0. : errors.linear[b]);
+      const double form = errors.nonlinear[b] + (linear ? errors.linear[b] : 0.);
       Sums& block = blocks[block_of(experiment, experiment.records[r], b)];
       block.explained += std::min(gained[b], form) / fit.records[r].variance[b];
       block.freedom += form / fit.records[r].variance[b];
@@ -54,7 +54,17 @@ double hidden_gain(const Experiment& experiment, const HypothesisFit& fit,
   for (const auto& [place, block] : blocks)
     hidden += std::max(0., block.explained - std::log1p(block.freedom));
   // A retune without which the sensor is unstable has no form error that could be told.
-  if (!std::isfinite(hidden)) return 0.;
+  return std::isfinite(hidden) ? hidden : 0.;
+}
+
+}  // namespace
+
+double hidden_gain(const Experiment& experiment, const HypothesisFit& fit,
+                   const HypothesisFit& fewer) {
+  double hidden = hidden_by(experiment, fit, fewer, false);
+  if (!adds_nonlinear(fit, fewer))
+    hidden +=
+        std::clamp(hidden_by(experiment, fit, fewer, true) - hidden, 0., most_hidden_by_linear);
   return std::min(hidden, std::max(0., fit.log_likelihood - fewer.log_likelihood));
 }
 
