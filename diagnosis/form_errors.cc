@@ -32,7 +32,7 @@ bool adds_nonlinear(const HypothesisFit& fit, const HypothesisFit& fewer) {
 }
 
 /// Of a linear effect's form little is unknown: its error explains no more than this, in nats.
-constexpr double most_hidden_by_linear = 25.;
+constexpr double most_hidden_by_linear = 40.;
 
 double hidden_by(const Experiment& experiment, const HypothesisFit& fit, const HypothesisFit& fewer,
                  bool linear) {

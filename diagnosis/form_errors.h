@@ -10,7 +10,7 @@ namespace vibrissa::diagnosis {
 ///   sum over blocks of max(0, E - ln(1 + F)),  E = sum min(g, f) / S,  F = sum f / S,
 /// g the power by which the predictions differ, f that of the form errors, around each bin, S the
 /// variance; the logarithm is the price of a free complex value. Form errors of linear effects do
-/// not look like a nonlinear effect, and hide no more than 25 nats.
+/// not look like a nonlinear effect, and hide no more than 40 nats.
 /// Proven by tests/diagnosis/form_errors_test.cc.
 double hidden_gain(const Experiment& experiment, const HypothesisFit& fit,
                    const HypothesisFit& fewer);
