@@ -45,11 +45,20 @@ std::vector<Complex> judged_bins(const PreparedRecord& record, std::vector<Compl
   return {part.begin() + 1, part.end() - 1};
 }
 
+bool has_cross(const Chain& chain, const PreparedRecord& record) {
+  return !chain.cross.empty() && !record.cross_acceleration.empty();
+}
+
+Complex cross_response(const Chain& chain, Complex s) {
+  Complex sum = 0.;
+  for (const Filter& filter : chain.cross) sum += filter(s);
+  return sum;
+}
+
 void add_cross(const Chain& chain, const PreparedRecord& record, std::vector<Complex>& moment) {
-  if (chain.cross.empty() || record.cross_acceleration.empty()) return;
+  if (!has_cross(chain, record)) return;
   for (std::size_t k = 0; k < moment.size(); ++k)
-    for (const Filter& filter : chain.cross)
-      moment[k] += filter(record.line_s(k)) * record.cross_acceleration[k];
+    moment[k] += cross_response(chain, record.line_s(k)) * record.cross_acceleration[k];
 }
 
 }  // namespace
@@ -142,6 +151,15 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
       const std::size_t k = record.whole_line(b);
       prediction.acceleration_noise[b] =
           n * std::norm(lines[k].base * lines[k].sensor) * record.noise_share[k];
+    }
+  }
+  // Both axes of an accelerometer are as noisy.
+  if (has_cross(chain_, record)) {
+    const std::vector<LinearPart>& lines = response_.lines(record);
+    for (std::size_t b = 0; b < n_bins; ++b) {
+      const std::size_t k = record.whole_line(b);
+      prediction.acceleration_noise[b] +=
+          n * std::norm(cross_response(chain_, record.line_s(k)) * lines[k].sensor);
     }
   }
   prediction.own_noise.assign(n_bins, 0.);

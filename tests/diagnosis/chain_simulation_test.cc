@@ -117,5 +117,38 @@ TEST(SimulateChain, CarriesTheNoiseOfBothChannels) {
   }
 }
 
+TEST(SimulateChain, ARigidWhiskerOnAChangedJointIsAChangedOscillator) {
+  // p = 1: (i x'' + z x' + k) with each of its parts changed.
+  const Experiment experiment = experiment_of(test::OneModeRig{});
+  const PreparedRecord& record = experiment.records.front();
+  Chain chain{.structure = experiment.nominal};
+  chain.structure.modes.front().base_rate = 0.;  // all damping in the whisker
+  chain.joint_change = {.spring = 0.7, .rest_damping = 1.5, .inertia = 1.2};
+  const StructuralMode& mode = chain.structure.modes.front();
+  const auto expected = filtered(record, [&](Complex s) {
+    const Complex x = s / mode.frequency_rad_s;
+    return mode.base_gain / (1. + 1.2 / 0.7 * (x * x + 2. * 1.5 * mode.damping_ratio * x));
+  });
+  EXPECT_LT(relative_difference(simulate_mean(chain, record), expected), 1e-12);
+}
+
+TEST(SimulateChain, RecordsSideBySideAreAsRecordsAlone) {
+  test::OneModeRig rig = test::noisy_rig();
+  const Experiment experiment =
+      prepare_experiment(test::nominal_of(test::OneModeRig{}, true),
+                         test::rig_dataset(rig, {.wind = true}), Split::fit, InputNoise::reduced);
+  Chain chain{.structure = experiment.nominal};
+  for (const char* id : {"joint_friction", "softening_history", "temperature_drift"})
+    find_effect(id).extend(chain, find_effect(id).starts.front(), experiment.scales);
+  find_effect("relative_drag").extend(chain, std::vector<double>{0.3}, experiment.scales);
+  const std::vector<Prediction> together = ChainSimulator(chain).predict(experiment.records);
+  for (std::size_t r = 0; r < experiment.records.size(); ++r) {
+    if (experiment.records[r].is_still()) continue;
+    EXPECT_LT(relative_difference(together[r].mean, simulate_mean(chain, experiment.records[r])),
+              1e-6)
+        << experiment.records[r].name;
+  }
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis

@@ -1,0 +1,53 @@
+#include "diagnosis/search.h"
+
+#include <gmock/gmock.h>
+
+#include "one_mode_rig.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+Experiment experiment_of(const test::OneModeRig& rig, const test::RigDatasetOptions& options = {}) {
+  return prepare_experiment(test::nominal_of(test::OneModeRig{}, options.wind),
+                            test::rig_dataset(rig, options), signals::Split::fit,
+                            InputNoise::reduced);
+}
+
+TEST(Search, AnswersAlikeWithAnyNumberOfThreads) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.cubic = 3e6;
+  const Experiment experiment = experiment_of(rig);
+  const SearchResult one = search(experiment, {.max_effects = 2, .n_threads = 1});
+  const SearchResult three = search(experiment, {.max_effects = 2, .n_threads = 3});
+  ASSERT_EQ(one.candidates.size(), three.candidates.size());
+  for (std::size_t i = 0; i < one.candidates.size(); ++i) {
+    EXPECT_EQ(one.candidates[i].name, three.candidates[i].name);
+    EXPECT_EQ(one.candidates[i].log_posterior, three.candidates[i].log_posterior);
+  }
+}
+
+TEST(Search, ASensorThatIsALittleOffEverywhereIsAsBuilt) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.stiffness = 0.975;
+  rig.loss = 1.1;
+  rig.moment_mass *= 1.02;
+  rig.drag *= 0.94;
+  EXPECT_EQ(search(experiment_of(rig, {.wind = true})).candidates.front().name, "none");
+}
+
+TEST(Search, NamesARetuneThatIsFarOff) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.drag *= 1.5;
+  EXPECT_EQ(search(experiment_of(rig, {.wind = true})).candidates.front().name, "drag_error");
+}
+
+TEST(Search, EffectsThatAreLeftOutAreNotNamed) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.delay_s = 1e-3;
+  const SearchResult result = search(experiment_of(rig), {.left_out = {"delay"}});
+  for (const Candidate& candidate : result.candidates)
+    EXPECT_THAT(candidate.name, testing::Not(testing::HasSubstr("delay")));
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis
