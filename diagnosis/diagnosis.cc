@@ -141,7 +141,10 @@ Diagnosis diagnose(const NominalModel& nominal, const signals::Dataset& real,
   out.confidence_set = confidence_set(result.candidates, 0.95);
   const Experiment held_out =
       prepare_experiment(nominal, real, signals::Split::held_out, InputNoise::as_measured);
-  if (has_moving(held_out)) score_answers(out, result, experiment, held_out, options);
+  if (has_moving(held_out)) {
+    score_answers(out, result, experiment, held_out, options);
+    out.ranking.front().shares = effect_shares(experiment, held_out, result, result.fits[best.fit]);
+  }
   set_gap(out, nominal, real, result, experiment);
   out.response = compare_response(experiment, result.fits[best.fit]);
   out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);

@@ -13,6 +13,7 @@
 #include "diagnosis/location.h"
 #include "diagnosis/next_experiment.h"
 #include "diagnosis/search.h"
+#include "diagnosis/shares.h"
 
 namespace vibrissa::diagnosis {
 
@@ -35,6 +36,7 @@ struct RankedAnswer {
   double probability = 0.;
   std::vector<ParameterEstimate> parameters{};
   std::optional<HeldOutScore> held_out{};  // of the first few
+  std::vector<EffectShare> shares{};       // of the first, when it is a combination
 };
 
 struct Gap {

@@ -61,6 +61,11 @@ json held_out_json(const HeldOutScore& score) {
   json out = score_json(score.overall);
   out["foretold"] = score.foretold;
   out["not_foretold"] = score.not_foretold;
+  if (score.vibration_left)
+    out["vibration_left_db"] = {{"before", number(score.vibration_left->before_db)},
+                                {"after", number(score.vibration_left->after_db)}};
+  else
+    out["vibration_left_db"] = nullptr;
   out["records"] = json::array();
   for (const ErrorScore& record : score.records) out["records"].push_back(score_json(record));
   return out;
@@ -74,9 +79,13 @@ json answer_json(const RankedAnswer& answer) {
                           {"value", number(parameter.value)},
                           {"unit", parameter.unit},
                           {"ci95", interval(parameter.ci95)}});
+  json shares = json::array();
+  for (const EffectShare& share : answer.shares)
+    shares.push_back({{"effect", share.effect}, {"gap_closed", number(share.share)}});
   return {{"effect", answer.name},
           {"probability", number(answer.probability)},
           {"parameters", parameters},
+          {"shapley_shares", shares},
           {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)}};
 }
 
@@ -122,6 +131,23 @@ std::string held_out_line(const HeldOutScore& score) {
             percent((*all.gap_closed_ci95)[1]) + ")";
   if (!score.not_foretold.empty())
     text += "; of " + joined(score.not_foretold, ", ") + " nothing can be foretold";
+  return text;
+}
+
+std::string separation_line(const HeldOutScore& score) {
+  if (!score.vibration_left) return "";
+  std::ostringstream text;
+  text.precision(1);
+  text << std::fixed << "Separation: vibration left when the foretold one is subtracted "
+       << score.vibration_left->before_db << " dB -> " << score.vibration_left->after_db << " dB";
+  return text.str();
+}
+
+std::string shares_line(const RankedAnswer& answer) {
+  std::string text;
+  for (const EffectShare& share : answer.shares)
+    text += (text.empty() ? "Shares of the gap closed: " : ", ") + share.effect + " " +
+            percent(share.share);
   return text;
 }
 
@@ -189,7 +215,11 @@ std::string verdict_text(const Diagnosis& diagnosis) {
     add(parameters_line(diagnosis.ranking.front()));
     add("Gap: error " + percent(diagnosis.gap.nrmse) + " of the signal, noise alone " +
         percent(diagnosis.gap.noise_floor));
-    if (diagnosis.ranking.front().held_out) add(held_out_line(*diagnosis.ranking.front().held_out));
+    if (diagnosis.ranking.front().held_out) {
+      add(held_out_line(*diagnosis.ranking.front().held_out));
+      add(separation_line(*diagnosis.ranking.front().held_out));
+    }
+    add(shares_line(diagnosis.ranking.front()));
   }
   add("Where: " + location_sentence(diagnosis.location));
   add(others_line(diagnosis));

@@ -210,6 +210,14 @@ std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
   return std::array<double, 2>{quantile(0.025), quantile(0.975)};
 }
 
+std::optional<VibrationLeft> vibration_left(const std::vector<Block>& blocks) {
+  Block sum;
+  for (const Block& block : blocks) add(sum, block);
+  if (!(sum.measured > 0.)) return std::nullopt;
+  const auto db = [&](double power) { return 10. * std::log10(power / sum.measured); };
+  return VibrationLeft{db(sum.before), db(sum.after)};
+}
+
 ErrorScore score(const std::string& name, const std::vector<Block>& blocks, const Levels& levels,
                  const HeldOutOptions& options) {
   Block sum;
@@ -263,7 +271,7 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
       (effect->id == "hum" ? out.foretold : out.not_foretold).push_back(effect->id);
   const bool halved = fit.hypothesis.contains("hum") || fit.hypothesis.contains("sensor_drift");
   bool ramp = false;
-  std::vector<Block> all;
+  std::vector<Block> all, of_base;
   for (const PreparedRecord& record : held_out.records) {
     if (!record.excitation.base && !record.excitation.wind) continue;
     const Prediction prediction = simulate(chain, record);
@@ -282,7 +290,9 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
         blocks_of(record, before, after, measured, first, floor, options.block_s);
     out.records.push_back(score(record.name, blocks, levels, options));
     all.insert(all.end(), blocks.begin(), blocks.end());
+    if (!record.excitation.wind) of_base.insert(of_base.end(), blocks.begin(), blocks.end());
   }
+  out.vibration_left = vibration_left(of_base);
   if (all.empty()) throw signals::UserError("every held_out record is at rest: nothing to score");
   if (ramp) {
     std::erase(out.not_foretold, "sensor_drift");

@@ -26,8 +26,16 @@ struct ErrorScore {
   std::optional<std::array<double, 2>> gap_closed_ci95{};
 };
 
+/// What subtraction of the foretold vibration leaves of it in records moved by the base alone
+/// [dB of the measured moment].
+struct VibrationLeft {
+  double before_db = 0.;  // foretold by the nominal model
+  double after_db = 0.;   // by the fit's chain
+};
+
 struct HeldOutScore {
   ErrorScore overall{};
+  std::optional<VibrationLeft> vibration_left{};  // nothing: no record is moved by the base alone
   std::vector<ErrorScore> records{};
   /// Irreducible effects whose course was estimated on the first half of each record. With hum or
   /// sensor_drift in the fit only second halves are scored.

@@ -38,10 +38,6 @@ Complex JointModel::changed_inertia_ratio(const Complex s, const Complex further
   return inertia * (compliance(s) / (1. + stiffness_change(s) + further) + 1. - share);
 }
 
-Complex JointModel::added_moment(const Complex s) const {
-  return inertia(s) * compliance(s) / (1. + inertia_ratio(s));
-}
-
 JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) {
   const JointModel model = made_dynamic(joint);
   share_ = model.share;

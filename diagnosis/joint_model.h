@@ -30,8 +30,6 @@ struct JointModel {
     const Complex x = s / frequency_rad_s;
     return x * x + 2. * damping * x;
   }
-  /// 1 - P: moment at the base for a moment T added in the joint, (1 - P) T.
-  Complex added_moment(Complex s) const;
   /// Moment of inertia over moment of the springs per rotation: the poles are where it is -1. For a
   /// joint K(s) (1 + D) its compliance is that over 1 + D.
   Complex inertia_ratio(Complex s) const;

@@ -15,6 +15,16 @@ StructuralMode mode() {
           .base_rate = -7.2e-7};
 }
 
+/// What the joint model is under its factors, with a moment T added in the joint: the moment at the
+/// base for one of T.
+Complex added_moment(const JointModel& model, Complex s) {
+  const Complex d = model.stiffness_change(s), inertia = model.changed_inertia_ratio(s, 0.);
+  const Complex x = s / model.frequency_rad_s;
+  const Complex z =
+      model.change.inertia * (x * x + 2. * model.change.rest_damping * model.damping * x);
+  return z * model.compliance(s) / (1. + d) / (1. + inertia);
+}
+
 TEST(JointModel, HasThePoleOfItsMode) {
   const StructuralMode given = mode();
   const JointModel model(given, 0.65);
@@ -25,17 +35,7 @@ TEST(JointModel, HasThePoleOfItsMode) {
 }
 
 TEST(JointModel, AStaticMomentInTheJointDoesNotReachTheBase) {
-  EXPECT_LT(std::abs(JointModel(mode(), 0.65).added_moment(Complex(0., 1e-6))), 1e-9);
-}
-
-/// What the joint model is under its factors, with a moment T added in the joint: the moment at the
-/// base for one of T.
-Complex added_moment(const JointModel& model, Complex s) {
-  const Complex d = model.stiffness_change(s), inertia = model.changed_inertia_ratio(s, 0.);
-  const Complex x = s / model.frequency_rad_s;
-  const Complex z =
-      model.change.inertia * (x * x + 2. * model.change.rest_damping * model.damping * x);
-  return z * model.compliance(s) / (1. + d) / (1. + inertia);
+  EXPECT_LT(std::abs(added_moment(JointModel(mode(), 0.65), Complex(0., 1e-6))), 1e-9);
 }
 
 class JointIntegratorTest : public testing::TestWithParam<JointChange> {};
