@@ -1,6 +1,7 @@
 #include "diagnosis/joint_simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -40,22 +41,36 @@ class DifferenceIntegrator {
   /// needs the solution of T = law(y(T)). Secant rule from the line through the steps before, with
   /// their slope.
   void solve_torque(const Lanes& y, const Lanes& y_rate, const Lanes& t_s) {
-    // Of the residual before the last correction; what is left after it is far less.
-    constexpr double tolerance = 1e-5;
     Lanes from = 2. * torque_ - torque_before_;
     Lanes from_excess = law_moment(y, y_rate, t_s, from, false) - from;
     Lanes at = from - from_excess / slope_;
-    for (int i = 0; i < 4 && (from_excess.abs() > tolerance * at.abs()).any(); ++i) {
+    for (int i = 0; i < 4 && is_open(from_excess, at); ++i) {
       const Lanes at_excess = law_moment(y, y_rate, t_s, at, false) - at;
-      const Lanes slope = (at_excess - from_excess) / (at - from);
-      const auto usable = (at_excess != 0.) && (slope < 0.);
-      slope_ = usable.select(slope, slope_);
-      from = at;
-      from_excess = at_excess;
-      at = usable.select(at - at_excess / slope_, at);
+      take_secant(from, from_excess, at, at_excess);
     }
     torque_before_ = torque_;
     torque_ = at;
+  }
+
+  /// Is the residual before the last correction large in any lane? What is left after it is far
+  /// less. Plain loops here: Eigen's comparisons are not vectorised.
+  static bool is_open(const Lanes& excess, const Lanes& at) {
+    constexpr double tolerance = 1e-5;
+    int n_open = 0;
+    for (Eigen::Index i = 0; i < excess.size(); ++i)
+      n_open += std::abs(excess(i)) > tolerance * std::abs(at(i)) ? 1 : 0;
+    return n_open > 0;
+  }
+
+  void take_secant(Lanes& from, Lanes& from_excess, Lanes& at, const Lanes& at_excess) {
+    const Lanes slopes = (at_excess - from_excess) / (at - from);
+    from = at;
+    from_excess = at_excess;
+    for (Eigen::Index i = 0; i < at.size(); ++i) {
+      const bool usable = at_excess(i) != 0. && slopes(i) < 0.;
+      slope_(i) = usable ? slopes(i) : slope_(i);
+      at(i) -= usable ? at_excess(i) / slope_(i) : 0.;
+    }
   }
 
   Lanes law_moment(const Lanes& y, const Lanes& y_rate, const Lanes& t_s, const Lanes& assumed,
@@ -136,11 +151,16 @@ std::vector<std::vector<double>> side_by_side(const Chain& chain, const JointMod
   const std::size_t factor = refinement(joint, rate_hz);
   std::size_t n_steps = 0;
   Lanes start = Lanes::Zero(), number = Lanes::Zero();
+  struct Next {
+    std::size_t step = 0, sample = 0;
+  };
+  std::array<Next, n_lanes> next{};  // where each record is sampled next
   std::vector<std::vector<double>> out;
   for (std::size_t lane = 0; lane < elastic.size(); ++lane) {
     const PreparedRecord& record = *elastic[lane].record;
     const std::size_t before = warm_up(record, factor);
     start(static_cast<Eigen::Index>(lane)) = static_cast<double>(before);
+    next[lane] = {before, 0};
     number(static_cast<Eigen::Index>(lane)) = static_cast<double>(record.number);
     n_steps = std::max(n_steps, before + record.n_samples * factor);
     out.emplace_back(record.n_samples);
@@ -163,13 +183,11 @@ std::vector<std::vector<double>> side_by_side(const Chain& chain, const JointMod
     // A record's own clock starts at its first sample: before it slow changes stand still.
     const Lanes t_s = (static_cast<double>(i) - start).max(0.) * dt;
     const Lanes added = integrator.advance(fine.y[i], fine.y_rate[i], t_s, load);
-    for (std::size_t lane = 0; lane < elastic.size(); ++lane) {
-      const auto place = static_cast<std::ptrdiff_t>(i) -
-                         static_cast<std::ptrdiff_t>(start(static_cast<Eigen::Index>(lane)));
-      if (place < 0 || place % static_cast<std::ptrdiff_t>(factor) != 0) continue;
-      const std::size_t sample = static_cast<std::size_t>(place) / factor;
-      if (sample < out[lane].size()) out[lane][sample] = added(static_cast<Eigen::Index>(lane));
-    }
+    for (std::size_t lane = 0; lane < elastic.size(); ++lane)
+      if (i == next[lane].step && next[lane].sample < out[lane].size()) {
+        out[lane][next[lane].sample++] = added(static_cast<Eigen::Index>(lane));
+        next[lane].step += factor;
+      }
   }
   return out;
 }
