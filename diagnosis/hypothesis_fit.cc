@@ -234,6 +234,20 @@ std::vector<WhitenedRecord> whitened(const Experiment& experiment, const FitPost
   return records;
 }
 
+double excess_of(const std::vector<WhitenedRecord>& records,
+                 const std::vector<Prediction>& predictions) {
+  // What the line of a drift leaves is judged with the drift.
+  constexpr std::size_t n_lines_of_ramp = 10;
+  double power = 0., count = 0.;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (std::size_t b = predictions[r].ramp_variance > 0. ? n_lines_of_ramp : 0;
+         b < records[r].error.size(); ++b) {
+      power += std::norm(records[r].error[b]);
+      count += 1.;
+    }
+  return count > 0. ? power / count - 1. : 0.;
+}
+
 }  // namespace
 
 std::optional<std::size_t> HypothesisFit::place(const std::string& effect,
@@ -291,6 +305,8 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   if (!std::isfinite(fit.log_evidence)) fit.log_evidence = -std::numeric_limits<double>::infinity();
   fit.choices = retune_choices(fit);
   fit.records = fitted_records(experiment, posterior, fit, climb.predictions, actions);
+  fit.excess =
+      excess_of(whitened(experiment, posterior, fit.x, climb.predictions), climb.predictions);
   return fit;
 }
 

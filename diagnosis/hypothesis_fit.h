@@ -53,6 +53,9 @@ struct HypothesisFit {
   /// Whitened energy of what each effect or retune does, sum |mean - mean without it|^2 / S.
   std::vector<std::pair<const Effect*, double>> effect_energy;
   std::vector<FittedRecord> records;
+  /// Mean of the whitened residual's power less one: what neither the effects nor the bounds of
+  /// their form errors explain.
+  double excess = 0.;
 
   /// Form errors of all effects and retunes but one, in whitened energy: what gains less than this
   /// is not told from them.

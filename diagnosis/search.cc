@@ -125,6 +125,13 @@ bool tells_noise(const Effect& effect) {
   return chain.reference_variance > 0.;
 }
 
+/// An answer whose residual stands out of the noise, the bounds of its form errors included, names
+/// the wrong cause or not all: something unknown is there.
+bool leaves_too_much(const HypothesisFit& fit) {
+  constexpr double most_excess = 0.05;
+  return !fit.hypothesis.effects().empty() && fit.excess > most_excess;
+}
+
 class Searcher {
  public:
   Searcher(const Experiment& experiment, const SearchOptions& options)
@@ -226,6 +233,7 @@ class Searcher {
   }
 
   double posterior_of(std::size_t i, const RetuneChoice& choice) const {
+    if (leaves_too_much(fits_[i])) return -std::numeric_limits<double>::infinity();
     return choice_posterior(fits_[i], choice, testable_.size()) + hidden_[i];
   }
 

@@ -41,6 +41,15 @@ TEST(Search, NamesARetuneThatIsFarOff) {
   EXPECT_EQ(search(experiment_of(rig, {.wind = true})).candidates.front().name, "drag_error");
 }
 
+TEST(Search, WhatNoKnownEffectExplainsIsOutsideTheCatalogue) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.cubic = 1e7;
+  const std::vector<std::string> kin{"hardening", "softening_history", "joint_friction", "backlash",
+                                     "sensor_nonlinearity"};
+  EXPECT_EQ(search(experiment_of(rig), {.left_out = kin}).candidates.front().name,
+            outside_catalogue);
+}
+
 TEST(Search, EffectsThatAreLeftOutAreNotNamed) {
   test::OneModeRig rig = test::noisy_rig();
   rig.delay_s = 1e-3;
