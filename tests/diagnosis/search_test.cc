@@ -41,12 +41,11 @@ TEST(Search, NamesARetuneThatIsFarOff) {
   EXPECT_EQ(search(experiment_of(rig, {.wind = true})).candidates.front().name, "drag_error");
 }
 
-TEST(Search, WhatNoKnownEffectExplainsIsOutsideTheCatalogue) {
+TEST(Search, AnAnswerThatLeavesMoreThanNoiseIsNone) {
+  // Other joints come near a hard spring, but not down to the noise.
   test::OneModeRig rig = test::noisy_rig();
   rig.cubic = 1e7;
-  const std::vector<std::string> kin{"hardening", "softening_history", "joint_friction", "backlash",
-                                     "sensor_nonlinearity"};
-  EXPECT_EQ(search(experiment_of(rig), {.left_out = kin}).candidates.front().name,
+  EXPECT_EQ(search(experiment_of(rig), {.left_out = {"hardening"}}).candidates.front().name,
             outside_catalogue);
 }
 
