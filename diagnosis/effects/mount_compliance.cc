@@ -25,6 +25,7 @@ Effect mount_compliance() {
                            {350., 0.025, 0.05}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
                   const double w = 2. * std::numbers::pi * v[0];
+                  if (chain.structure.modes.empty()) return;
                   const StructuralMode mode = chain.structure.modes.front();
                   chain.mount.push_back([w, z = v[1], share = v[2], mode](Complex s) {
                     const Complex x = s / mode.frequency_rad_s;
