@@ -233,7 +233,6 @@ class Searcher {
   }
 
   double posterior_of(std::size_t i, const RetuneChoice& choice) const {
-    if (leaves_too_much(fits_[i])) return -std::numeric_limits<double>::infinity();
     return choice_posterior(fits_[i], choice, testable_.size()) + hidden_[i];
   }
 
@@ -304,6 +303,8 @@ class Searcher {
 
   void add_choices(std::map<std::string, Candidate>& by_name, std::size_t i) const {
     const HypothesisFit& fit = fits_[i];
+    // As a part of a combination it may be right all the same.
+    if (leaves_too_much(fit)) return;
     for (const RetuneChoice& choice : fit.choices) {
       std::vector<std::string> ids = choice.named;
       if (fit.hypothesis.is_discrepancy()) ids.push_back(outside_catalogue);

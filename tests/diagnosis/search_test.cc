@@ -49,6 +49,13 @@ TEST(Search, AnAnswerThatLeavesMoreThanNoiseIsNone) {
             outside_catalogue);
 }
 
+TEST(Search, NamesAPairOfStrongEffects) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.delay_s = 1e-3;
+  rig.cubic = 1e7;
+  EXPECT_EQ(search(experiment_of(rig)).candidates.front().name, "delay+hardening");
+}
+
 TEST(Search, EffectsThatAreLeftOutAreNotNamed) {
   test::OneModeRig rig = test::noisy_rig();
   rig.delay_s = 1e-3;
