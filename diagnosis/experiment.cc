@@ -194,11 +194,32 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   return out;
 }
 
+double band_rate_hz(const Experiment& experiment) {
+  double highest = 0.;
+  for (const PreparedRecord& record : experiment.records)
+    highest = std::max(highest, record.sampling_rate_hz);
+  return highest;
+}
+
+/// Does the effect change anything but the joint of the first mode?
+bool acts_without_modes(const Effect& effect) {
+  Chain chain;
+  effect.extend(chain, effect.starts.front(), {});
+  return !(chain.reference.empty() && chain.mount.empty() && chain.parallel.empty() &&
+           chain.wind.empty() && chain.drag_factor == 1. && chain.feedthrough.empty() &&
+           chain.cross.empty() && chain.readout.empty() && chain.sensor.empty() &&
+           chain.clock_rate_error == 0. && chain.reference_variance == 0. && chain.noise.empty() &&
+           chain.ramp_variance_rate == 0.);
+}
+
 Scales scales_of(const Experiment& experiment) {
   Scales scales;
   const NominalModel& nominal = experiment.nominal;
   scales.static_gain = std::abs(nominal.base_response(0.));
-  if (!nominal.modes.empty()) scales.first_mode_rad_s = nominal.modes.front().frequency_rad_s;
+  // Without a mode the middle of the band, in decades, stands for it.
+  scales.first_mode_rad_s = !nominal.modes.empty()
+                                ? nominal.modes.front().frequency_rad_s
+                                : 0.1 * std::numbers::pi * band_rate_hz(experiment);
   scales.joint_moment_n_m = 0.;
   scales.duration_s = 0.;
   scales.moment_rms_n_m = 0.;
@@ -225,7 +246,8 @@ bool is_comparable(const NominalModel& nominal, const DatasetRecord& entry) {
 bool shows(const Experiment& experiment, const Effect& effect) {
   return (!effect.needs.base || experiment.has_base) &&
          (!effect.needs.wind || experiment.has_wind) &&
-         (!effect.needs.cross || experiment.has_cross);
+         (!effect.needs.cross || experiment.has_cross) &&
+         (!experiment.nominal.modes.empty() || acts_without_modes(effect));
 }
 
 std::size_t PreparedRecord::whole_line(const std::size_t b) const {

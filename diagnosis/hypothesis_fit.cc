@@ -186,12 +186,12 @@ Climb best_start(FitPosterior& posterior, const std::vector<FreeFigure>& figures
   return std::move(climbs.front());
 }
 
-FormErrors form_errors_of(const std::vector<EffectAction>& actions, std::size_t record) {
-  FormErrors out;
+FormErrors form_errors_of(const std::vector<EffectAction>& actions, std::size_t record,
+                          std::size_t n_bins) {
+  FormErrors out{std::vector<double>(n_bins, 0.), std::vector<double>(n_bins, 0.)};
   for (const EffectAction& action : actions) {
     const double share = action.effect->form_error * action.effect->form_error;
     const std::vector<double> power = neighbour_mean(powers(action.change[record]), form_reach);
-    for (std::vector<double>* sum : {&out.linear, &out.nonlinear}) sum->resize(power.size(), 0.);
     std::vector<double>& sum = is_nonlinear(*action.effect) ? out.nonlinear : out.linear;
     for (std::size_t b = 0; b < power.size(); ++b) sum[b] += share * power[b];
   }
@@ -209,7 +209,7 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
     FittedRecord record{.mean = predictions[r].mean,
                         .own_noise = predictions[r].own_noise,
                         .variance = posterior.variance(fit.x, predictions[r], r, a_variance),
-                        .form_errors = form_errors_of(actions, r)};
+                        .form_errors = form_errors_of(actions, r, predictions[r].mean.size())};
     for (std::size_t b = 0; b < record.own_noise.size(); ++b)
       record.own_noise[b] += a_excess * predictions[r].acceleration_noise[b];
     records.push_back(std::move(record));

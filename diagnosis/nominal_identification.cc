@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "diagnosis/chain_simulation.h"
 #include "diagnosis/experiment.h"
@@ -78,11 +79,27 @@ void keep_periodic_if_any(std::vector<const DatasetRecord*>& entries) {
     std::erase_if(entries, [&](const DatasetRecord* entry) { return !periodic(entry); });
 }
 
+/// The one real gain of a simulation without dynamics of its own; nothing where it has some.
+std::optional<double> flat_gain(const signals::FrequencyResponse& response) {
+  constexpr double flat = 1e-4;
+  const double n = static_cast<double>(response.value.size());
+  double gain = 0., error = 0.;
+  for (const Complex& value : response.value) gain += value.real() / n;
+  for (const Complex& value : response.value) error += std::norm(value - gain) / n;
+  if (!(std::sqrt(error) <= flat * std::abs(gain))) return std::nullopt;
+  return gain;
+}
+
 void set_base_path(NominalModel& model, const signals::Dataset& simulation) {
   std::vector<const DatasetRecord*> entries = choose(simulation, true, false);
   if (entries.empty()) return;
   keep_periodic_if_any(entries);
   const signals::FrequencyResponse response = joined_response(entries);
+  if (const std::optional<double> gain = flat_gain(response)) {
+    model.base_direct = *gain;
+    model.has_base = true;
+    return;
+  }
   const auto fits = separation::identify_frequency_orders(response, {.order = max_order});
   const separation::FittedBvrm* best = nullptr;
   double best_misfit = 0.;

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "diagnosis/experiment.h"
 #include "one_mode_rig.h"
 #include "signals/error.h"
 
@@ -79,6 +80,26 @@ TEST(IdentifyNominal, RefusesASimulationThatDeterminesNothing) {
   signals::Dataset simulation = test::rig_dataset(test::OneModeRig{}, {.held_out = false});
   simulation.records.erase(simulation.records.begin() + 1, simulation.records.end());  // quiet
   EXPECT_THROW(identify_nominal(simulation), signals::UserError);
+}
+
+TEST(IdentifyNominal, ASimulationWithoutDynamicsIsOneGain) {
+  NominalModel gain;
+  gain.base_direct = 1e-5;
+  gain.has_base = true;
+  std::vector<double> lines;
+  for (int k = 1; k < 60; k += 2) lines.push_back(k * 500. / 2048.);
+  signals::Dataset simulation;
+  simulation.records = {steady_record(gain, {true, false}, lines, 4096, 500.)};
+  const NominalModel found = identify_nominal(simulation);
+  EXPECT_TRUE(found.modes.empty());
+  EXPECT_NEAR(found.base_direct, 1e-5, 1e-11);
+  // What acts on a joint alone has nothing to act on.
+  const Experiment experiment =
+      prepare_experiment(found, simulation, Split::fit, InputNoise::reduced);
+  EXPECT_FALSE(shows(experiment, find_effect("hardening")));
+  EXPECT_FALSE(shows(experiment, find_effect("stiffness")));
+  EXPECT_TRUE(shows(experiment, find_effect("delay")));
+  EXPECT_TRUE(shows(experiment, find_effect("reference_highpass")));
 }
 
 }  // namespace
