@@ -10,23 +10,22 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "benchmarks/labelled_set.h"
 #include "diagnosis/chain_simulation.h"
 #include "diagnosis/hypothesis_fit.h"
 #include "diagnosis/location.h"
 #include "diagnosis/nominal_identification.h"
-#include "signals/error.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace vibrissa;
 using namespace vibrissa::diagnosis;
+using namespace vibrissa::benchmarks;
 
 /// Residual of the simulation as it is, and the shapes of effects at their starts, whitened by the
 /// deviations of the fit without effects; real and imaginary parts in turn.
@@ -167,14 +166,6 @@ std::vector<std::string> answers(const Experiment& experiment) {
           by_lasso(shapes), by_bic(experiment, none, singles)};
 }
 
-std::string without_retunes(const std::string& name) {
-  std::vector<std::string> ids;
-  for (const std::string& id : effect_ids(name))
-    if (std::find(nuisance_ids().begin(), nuisance_ids().end(), id) == nuisance_ids().end())
-      ids.push_back(id);
-  return joined_name(ids);
-}
-
 int run(int argc, char** argv) {
   if (argc != 2) {
     std::cerr << "usage: score_baselines SET\n";
@@ -182,17 +173,15 @@ int run(int argc, char** argv) {
   }
   const fs::path set = argv[1];
   const NominalModel nominal = identify_nominal(signals::read_dataset(set / "sim"));
-  std::ifstream file(set / "labels.json");
-  const nlohmann::json labels = nlohmann::json::parse(file);
   const std::vector<std::string> names{"correlation", "k, c, m", "discrepancy", "lasso", "BIC"};
   std::vector<int> right(names.size(), 0), nearly(names.size(), 0);
   int n = 0;
-  for (const auto& [name, entry] : labels.items()) {
+  for (const std::string& name : cases_of(set)) {
     const Experiment experiment =
         prepare_experiment(nominal, signals::read_dataset(set / name / "real"), signals::Split::fit,
                            InputNoise::reduced);
     const std::vector<std::string> given = answers(experiment);
-    const std::string label = joined_name(effect_ids(entry["effect"]));
+    const std::string label = sorted_name(label_of(set, name)["effect"]);
     ++n;
     std::printf("%s %-30s", name.c_str(), label.c_str());
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -212,10 +201,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const signals::UserError& error) {
-    std::cerr << error.what() << "\n";
-    return 2;
-  }
+  return vibrissa::benchmarks::guarded([&] { return run(argc, argv); });
 }

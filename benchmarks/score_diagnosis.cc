@@ -1,41 +1,24 @@
 // Scores diagnoses against labels: score_diagnosis SET [FIRST LAST], SET a folder with sim/,
 // caseNNN/real/ and labels.json. The labels are read after the diagnosis of a case is made.
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
+#include "benchmarks/labelled_set.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/effect.h"
 #include "diagnosis/nominal_identification.h"
-#include "signals/error.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace vibrissa;
-
-/// The name without retune effects, as sensors that are a little off everywhere are scored.
-std::string without_retunes(const std::string& name) {
-  std::vector<std::string> ids;
-  for (const std::string& id : diagnosis::effect_ids(name)) {
-    const auto& retunes = diagnosis::nuisance_ids();
-    if (std::find(retunes.begin(), retunes.end(), id) == retunes.end()) ids.push_back(id);
-  }
-  return diagnosis::joined_name(ids);
-}
-
-std::string sorted_name(const std::string& name) {
-  return diagnosis::joined_name(diagnosis::effect_ids(name));
-}
+using namespace vibrissa::benchmarks;
 
 /// Figures of labels.json that are the same quantity as a parameter of ours.
 struct SameQuantity {
@@ -114,8 +97,7 @@ void score_case(const fs::path& set, const std::string& name,
   const diagnosis::Diagnosis answer = diagnosis::diagnose(nominal, real);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::ifstream file(set / "labels.json");
-  const nlohmann::json entry = nlohmann::json::parse(file)[name];
+  const nlohmann::json entry = label_of(set, name);
   const std::string label = entry["effect"];
   const bool right = answer.verdict == sorted_name(label);
   const bool nearly = without_retunes(answer.verdict) == without_retunes(label);
@@ -161,16 +143,14 @@ int run(int argc, char** argv) {
     return 2;
   }
   const fs::path set = argv[1];
-  const int first = argc == 4 ? std::atoi(argv[2]) : 0, last = argc == 4 ? std::atoi(argv[3]) : 999;
+  const std::vector<std::string> names = cases_of(set);
+  const std::size_t first = argc == 4 ? std::stoul(argv[2]) : 0;
+  const std::size_t end =
+      argc == 4 ? std::min(names.size(), std::stoul(argv[3]) + 1) : names.size();
   const diagnosis::NominalModel nominal =
       diagnosis::identify_nominal(signals::read_dataset(set / "sim"));
   Score score;
-  for (int i = first; i <= last; ++i) {
-    std::array<char, 16> name{};
-    std::snprintf(name.data(), name.size(), "case%03d", i);
-    if (!fs::exists(set / name.data())) break;
-    score_case(set, name.data(), nominal, score);
-  }
+  for (std::size_t i = first; i < end; ++i) score_case(set, names[i], nominal, score);
   print(score);
   return 0;
 }
@@ -178,10 +158,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const signals::UserError& error) {
-    std::cerr << error.what() << "\n";
-    return 2;
-  }
+  return vibrissa::benchmarks::guarded([&] { return run(argc, argv); });
 }

@@ -45,22 +45,6 @@ std::vector<Complex> judged_bins(const PreparedRecord& record, std::vector<Compl
   return {part.begin() + 1, part.end() - 1};
 }
 
-bool has_cross(const Chain& chain, const PreparedRecord& record) {
-  return !chain.cross.empty() && !record.cross_acceleration.empty();
-}
-
-Complex cross_response(const Chain& chain, Complex s) {
-  Complex sum = 0.;
-  for (const Filter& filter : chain.cross) sum += filter(s);
-  return sum;
-}
-
-void add_cross(const Chain& chain, const PreparedRecord& record, std::vector<Complex>& moment) {
-  if (!has_cross(chain, record)) return;
-  for (std::size_t k = 0; k < moment.size(); ++k)
-    moment[k] += cross_response(chain, record.line_s(k)) * record.cross_acceleration[k];
-}
-
 }  // namespace
 
 /// The linear part before the sensor, without what the transverse axis adds.
@@ -124,7 +108,11 @@ std::vector<std::vector<Complex>> ChainSimulator::means(std::span<const Prepared
       continue;
     }
     for (std::size_t k = 0; k < added[r].size(); ++k) moments[r][k] += added[r][k];
-    add_cross(chain_, record, moments[r]);
+    if (!record.cross_acceleration.empty()) {
+      const std::vector<LinearPart>& lines = response_.lines(record);
+      for (std::size_t k = 0; k < lines.size(); ++k)
+        moments[r][k] += lines[k].cross * record.cross_acceleration[k];
+    }
     out.push_back(judged_bins(record, reading(record, std::move(moments[r]))));
   }
   return out;
@@ -145,21 +133,17 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
   const double n = static_cast<double>(record.n_judged);
   prediction.moment_noise.assign(n_bins, n);
   prediction.acceleration_noise.assign(n_bins, 0.);
-  if (!record.acceleration.empty() && !record.is_still()) {
+  if (!record.is_still()) {
+    // Both axes of an accelerometer are as noisy.
+    const bool base = !record.acceleration.empty(), cross = !record.cross_acceleration.empty();
     const std::vector<LinearPart>& lines = response_.lines(record);
     for (std::size_t b = 0; b < n_bins; ++b) {
       const std::size_t k = record.whole_line(b);
-      prediction.acceleration_noise[b] =
-          n * std::norm(lines[k].base * lines[k].sensor) * record.noise_share[k];
-    }
-  }
-  // Both axes of an accelerometer are as noisy.
-  if (has_cross(chain_, record)) {
-    const std::vector<LinearPart>& lines = response_.lines(record);
-    for (std::size_t b = 0; b < n_bins; ++b) {
-      const std::size_t k = record.whole_line(b);
-      prediction.acceleration_noise[b] +=
-          n * std::norm(cross_response(chain_, record.line_s(k)) * lines[k].sensor);
+      const LinearPart& line = lines[k];
+      if (base)
+        prediction.acceleration_noise[b] +=
+            n * std::norm(line.base * line.sensor) * record.noise_share[k];
+      if (cross) prediction.acceleration_noise[b] += n * std::norm(line.cross * line.sensor);
     }
   }
   prediction.own_noise.assign(n_bins, 0.);

@@ -31,17 +31,16 @@ ResponseComparison compare_response(const Experiment& experiment, const Hypothes
   if (record == nullptr) return out;
   out.record = record->name;
   const std::vector<Complex> nominal = simulate_mean({.structure = experiment.nominal}, *record);
-  const std::vector<Complex> mended = simulate_mean(fit.chain(experiment), *record);
   const auto place = static_cast<std::size_t>(record - experiment.records.data());
-  const std::vector<double> deviation = whitened_residual(experiment, fit)[place].deviation;
+  const FittedRecord& mended = fit.records[place];
   for (std::size_t b = 0; b < record->n_bins(); ++b) {
     const double a = std::abs(record->acceleration[record->whole_line(b)]);
     if (a == 0.) continue;
     out.frequency_hz.push_back(static_cast<double>(b + 1) * record->bin_hz());
     out.measured.push_back(std::abs(record->moment[b]) / a);
     out.nominal.push_back(std::abs(nominal[b]) / a);
-    out.mended.push_back(std::abs(mended[b]) / a);
-    out.deviation.push_back(deviation[b] / a);
+    out.mended.push_back(std::abs(mended.mean[b]) / a);
+    out.deviation.push_back(std::sqrt(mended.variance[b]) / a);
   }
   return out;
 }

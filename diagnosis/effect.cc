@@ -133,10 +133,14 @@ Parameter normal(std::string name, std::string unit, const double centre, const 
           .step = 1e-3 * scale};
 }
 
-bool is_nonlinear(const Effect& effect) {
-  Chain chain;
-  chain.structure.modes.emplace_back();
+Chain probe(const Effect& effect, const NominalModel& structure) {
+  Chain chain{.structure = structure};
   effect.extend(chain, effect.starts.front(), {});
+  return chain;
+}
+
+bool is_nonlinear(const Effect& effect) {
+  const Chain chain = probe(effect);
   return !chain.joint.empty() || !chain.readout.empty() || chain.relative_wind.on;
 }
 

@@ -84,6 +84,8 @@ struct Effect {
   std::function<void(Chain&, std::span<const double> values, const Scales&)> extend{};
 };
 
+/// The effect at its first start, on a chain that is empty otherwise but for its structure.
+Chain probe(const Effect& effect, const NominalModel& structure = {.modes = {{}}});
 /// Is what the effect does out of proportion to what moves the sensor?
 bool is_nonlinear(const Effect& effect);
 

@@ -38,8 +38,11 @@ void average_periods(std::vector<Complex>& spectrum, std::size_t n_periods) {
 /// stands out in one record is taken as excited in all, weak ones too.
 using ExcitedHarmonics = std::map<std::size_t, std::vector<bool>>;
 
-/// A line without excitation exceeds this multiple of the noise once in a hundred thousand.
-constexpr double standing_out = 12.;
+/// Without excitation a line does so once in a hundred thousand.
+bool stands_out(const Complex line, const double noise_power) {
+  constexpr double least_ratio = 12.;
+  return std::norm(line) > least_ratio * noise_power;
+}
 
 ExcitedHarmonics excited_harmonics(const signals::Dataset& dataset, signals::Split split,
                                    double noise) {
@@ -52,8 +55,7 @@ ExcitedHarmonics excited_harmonics(const signals::Dataset& dataset, signals::Spl
         spectrum_of(entry.record.channel(channel::base_acceleration));
     std::vector<bool>& mask = excited.try_emplace(period, period / 2 + 1, false).first->second;
     for (std::size_t h = 1; h < mask.size(); ++h)
-      if (std::norm(spectrum[h * (n / period)]) >
-          standing_out * static_cast<double>(n) * noise * noise)
+      if (stands_out(spectrum[h * (n / period)], static_cast<double>(n) * noise * noise))
         mask[h] = true;
   }
   return excited;
@@ -67,8 +69,7 @@ std::optional<std::size_t> period_of_drive(const DatasetRecord& entry, double no
   const std::size_t n = entry.record.n_samples();
   std::size_t divisor = 0;
   for (std::size_t k = 1; k < a.size(); ++k)
-    if (std::norm(a[k]) > standing_out * static_cast<double>(n) * noise * noise)
-      divisor = std::gcd(divisor, k);
+    if (stands_out(a[k], static_cast<double>(n) * noise * noise)) divisor = std::gcd(divisor, k);
   if (divisor < 2 || n % divisor != 0) return std::nullopt;
   return n / divisor;
 }
@@ -87,14 +88,12 @@ std::vector<double> signal_share(const std::vector<Complex>& spectrum, double no
                                  const std::vector<std::size_t>& lines) {
   std::vector<double> share(spectrum.size(), 0.);
   constexpr std::size_t reach = 10;
-  const auto stands_out = [&](std::size_t i) {
-    return std::norm(spectrum[lines[i]]) > standing_out * noise_power;
-  };
+  const auto is_tone = [&](std::size_t i) { return stands_out(spectrum[lines[i]], noise_power); };
   for (std::size_t i = 0; i < lines.size(); ++i) {
     double power = 0., count = 0.;
     const std::size_t low = i < reach ? 0 : i - reach, high = std::min(lines.size(), i + reach + 1);
     for (std::size_t j = low; j < high; ++j)
-      if (j == i || (!stands_out(j) && !stands_out(i))) {
+      if (j == i || (!is_tone(j) && !is_tone(i))) {
         power += std::norm(spectrum[lines[j]]);
         count += 1.;
       }
@@ -203,8 +202,7 @@ double band_rate_hz(const Experiment& experiment) {
 
 /// Does the effect change anything but the joint of the first mode?
 bool acts_without_modes(const Effect& effect) {
-  Chain chain;
-  effect.extend(chain, effect.starts.front(), {});
+  const Chain chain = probe(effect, NominalModel{});
   return !(chain.reference.empty() && chain.mount.empty() && chain.parallel.empty() &&
            chain.wind.empty() && chain.drag_factor == 1. && chain.feedthrough.empty() &&
            chain.cross.empty() && chain.readout.empty() && chain.sensor.empty() &&

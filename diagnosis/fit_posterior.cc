@@ -28,6 +28,12 @@ double accelerometer_term(const PreparedRecord& record, double variance) {
 
 }  // namespace
 
+std::vector<double> form_error_power(const Effect& effect, std::span<const Complex> change) {
+  std::vector<double> out = neighbour_mean(powers(change), form_reach);
+  for (double& power : out) power *= effect.form_error * effect.form_error;
+  return out;
+}
+
 FitPosterior::FitPosterior(const Experiment& experiment, const std::vector<FreeFigure>& figures,
                            const Hypothesis& hypothesis)
     : experiment_(experiment),
@@ -60,11 +66,9 @@ void FitPosterior::add_form_error(const Eigen::VectorXd& x, const std::vector<Pr
                                   const Effect& effect) {
   const Chain without = make_chain(experiment_, figures_, x, &effect);
   const std::vector<std::vector<Complex>> mean = ChainSimulator(without).means(experiment_.records);
-  const double limit = effect.form_error * effect.form_error;
   for (std::size_t r = 0; r < at.size(); ++r) {
-    const std::vector<double> power =
-        neighbour_mean(powers(difference(at[r].mean, mean[r])), form_reach);
-    for (std::size_t b = 0; b < power.size(); ++b) form_[r][b] += limit * power[b];
+    const std::vector<double> power = form_error_power(effect, difference(at[r].mean, mean[r]));
+    for (std::size_t b = 0; b < power.size(); ++b) form_[r][b] += power[b];
   }
 }
 

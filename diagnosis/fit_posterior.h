@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,8 +18,11 @@ struct EffectAction {
   std::vector<std::vector<Complex>> change{};  // of the mean [record][bin], N m
 };
 
-/// A wrong form is wrong beside its lines, too: so many bins to each side.
+/// What is wrong with a form is wrong beside its lines, too: up to this many bins away.
 inline constexpr std::size_t form_reach = 10;
+
+/// Power that the form error of an effect may have around each bin, given what it changes.
+std::vector<double> form_error_power(const Effect& effect, std::span<const Complex> change);
 
 /// Log posterior of a fit's figures by Whittle's likelihood (see fit_hypothesis()). What the
 /// variance takes from the mean, misfit of the nominal form and form errors, is held fixed between

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <vector>
 
 #include "diagnosis/spectrum.h"
 
@@ -34,37 +34,57 @@ bool adds_nonlinear(const HypothesisFit& fit, const HypothesisFit& fewer) {
 /// Of a linear effect's form little is unknown: its error explains no more than this, in nats.
 constexpr double most_hidden_by_linear = 40.;
 
-double hidden_by(const Experiment& experiment, const HypothesisFit& fit, const HypothesisFit& fewer,
-                 bool linear) {
-  struct Sums {
-    double explained = 0., freedom = 0.;
-  };
-  std::map<std::size_t, Sums> blocks;
+/// Of the nonlinear effects' form errors, and of all.
+struct Hidden {
+  double by_nonlinear = 0., by_all = 0.;
+};
+
+class Block {
+ public:
+  void add(double gained, double form, double variance) {
+    explained_ += std::min(gained, form) / variance;
+    freedom_ += form / variance;
+  }
+  double hidden() const { return std::max(0., explained_ - std::log1p(freedom_)); }
+
+ private:
+  double explained_ = 0., freedom_ = 0.;
+};
+
+Hidden hidden_by_forms(const Experiment& experiment, const HypothesisFit& fit,
+                       const HypothesisFit& fewer) {
+  std::vector<Block> nonlinear, all;
   for (std::size_t r = 0; r < experiment.records.size(); ++r) {
     const std::vector<double> gained = change(fit.records[r], fewer.records[r]);
     const FormErrors& errors = fewer.records[r].form_errors;
     for (std::size_t b = 0; b < gained.size(); ++b) {
-      const double form = errors.nonlinear[b] + (linear ? errors.linear[b] : 0.);
-      Sums& block = blocks[block_of(experiment, experiment.records[r], b)];
-      block.explained += std::min(gained[b], form) / fit.records[r].variance[b];
-      block.freedom += form / fit.records[r].variance[b];
+      const std::size_t place = block_of(experiment, experiment.records[r], b);
+      if (place >= all.size()) {
+        nonlinear.resize(place + 1);
+        all.resize(place + 1);
+      }
+      const double variance = fit.records[r].variance[b];
+      nonlinear[place].add(gained[b], errors.nonlinear[b], variance);
+      all[place].add(gained[b], errors.nonlinear[b] + errors.linear[b], variance);
     }
   }
-  double hidden = 0.;
-  for (const auto& [place, block] : blocks)
-    hidden += std::max(0., block.explained - std::log1p(block.freedom));
-  // A retune without which the sensor is unstable has no form error that could be told.
-  return std::isfinite(hidden) ? hidden : 0.;
+  const auto sum = [](const std::vector<Block>& blocks) {
+    double total = 0.;
+    for (const Block& block : blocks) total += block.hidden();
+    // A retune without which the sensor is unstable has no form error that could be told.
+    return std::isfinite(total) ? total : 0.;
+  };
+  return {sum(nonlinear), sum(all)};
 }
 
 }  // namespace
 
 double hidden_gain(const Experiment& experiment, const HypothesisFit& fit,
                    const HypothesisFit& fewer) {
-  double hidden = hidden_by(experiment, fit, fewer, false);
+  const Hidden part = hidden_by_forms(experiment, fit, fewer);
+  double hidden = part.by_nonlinear;
   if (!adds_nonlinear(fit, fewer))
-    hidden +=
-        std::clamp(hidden_by(experiment, fit, fewer, true) - hidden, 0., most_hidden_by_linear);
+    hidden += std::clamp(part.by_all - part.by_nonlinear, 0., most_hidden_by_linear);
   return std::min(hidden, std::max(0., fit.log_likelihood - fewer.log_likelihood));
 }
 

@@ -186,14 +186,21 @@ Climb best_start(FitPosterior& posterior, const std::vector<FreeFigure>& figures
   return std::move(climbs.front());
 }
 
-FormErrors form_errors_of(const std::vector<EffectAction>& actions, std::size_t record,
-                          std::size_t n_bins) {
-  FormErrors out{std::vector<double>(n_bins, 0.), std::vector<double>(n_bins, 0.)};
+/// Of each record.
+std::vector<FormErrors> form_errors_of(const std::vector<EffectAction>& actions,
+                                       const std::vector<Prediction>& predictions) {
+  std::vector<FormErrors> out;
+  for (const Prediction& prediction : predictions) {
+    const std::vector<double> zero(prediction.mean.size(), 0.);
+    out.push_back({zero, zero});
+  }
   for (const EffectAction& action : actions) {
-    const double share = action.effect->form_error * action.effect->form_error;
-    const std::vector<double> power = neighbour_mean(powers(action.change[record]), form_reach);
-    std::vector<double>& sum = is_nonlinear(*action.effect) ? out.nonlinear : out.linear;
-    for (std::size_t b = 0; b < power.size(); ++b) sum[b] += share * power[b];
+    const bool nonlinear = is_nonlinear(*action.effect);
+    for (std::size_t r = 0; r < out.size(); ++r) {
+      const std::vector<double> power = form_error_power(*action.effect, action.change[r]);
+      std::vector<double>& sum = nonlinear ? out[r].nonlinear : out[r].linear;
+      for (std::size_t b = 0; b < power.size(); ++b) sum[b] += power[b];
+    }
   }
   return out;
 }
@@ -204,12 +211,13 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
                                          const std::vector<EffectAction>& actions) {
   const double a_variance = posterior.acceleration_variance(fit.x);
   const double a_excess = fit.chain(experiment).reference_variance;
+  std::vector<FormErrors> form_errors = form_errors_of(actions, predictions);
   std::vector<FittedRecord> records;
   for (std::size_t r = 0; r < predictions.size(); ++r) {
     FittedRecord record{.mean = predictions[r].mean,
                         .own_noise = predictions[r].own_noise,
                         .variance = posterior.variance(fit.x, predictions[r], r, a_variance),
-                        .form_errors = form_errors_of(actions, r, predictions[r].mean.size())};
+                        .form_errors = std::move(form_errors[r])};
     for (std::size_t b = 0; b < record.own_noise.size(); ++b)
       record.own_noise[b] += a_excess * predictions[r].acceleration_noise[b];
     records.push_back(std::move(record));
@@ -217,32 +225,15 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
   return records;
 }
 
-std::vector<WhitenedRecord> whitened(const Experiment& experiment, const FitPosterior& posterior,
-                                     const Eigen::VectorXd& x,
-                                     const std::vector<Prediction>& predictions) {
-  const double a_variance = posterior.acceleration_variance(x);
-  std::vector<WhitenedRecord> records(predictions.size());
-  for (std::size_t r = 0; r < predictions.size(); ++r) {
-    const std::vector<double> s = posterior.variance(x, predictions[r], r, a_variance);
-    for (std::size_t b = 0; b < s.size(); ++b) {
-      const double deviation = std::sqrt(s[b]);
-      records[r].deviation.push_back(deviation);
-      records[r].error.push_back((experiment.records[r].moment[b] - predictions[r].mean[b]) /
-                                 deviation);
-    }
-  }
-  return records;
-}
-
-double excess_of(const std::vector<WhitenedRecord>& records,
-                 const std::vector<Prediction>& predictions) {
+double excess_of(const Experiment& experiment, const HypothesisFit& fit) {
   // What the line of a drift leaves is judged with the drift.
   constexpr std::size_t n_lines_of_ramp = 10;
+  const std::size_t first =
+      fit.chain(experiment).ramp_variance_rate > 0. ? n_lines_of_ramp : std::size_t{0};
   double power = 0., count = 0.;
-  for (std::size_t r = 0; r < records.size(); ++r)
-    for (std::size_t b = predictions[r].ramp_variance > 0. ? n_lines_of_ramp : 0;
-         b < records[r].error.size(); ++b) {
-      power += std::norm(records[r].error[b]);
+  for (const WhitenedRecord& record : whitened_residual(experiment, fit))
+    for (std::size_t b = first; b < record.error.size(); ++b) {
+      power += std::norm(record.error[b]);
       count += 1.;
     }
   return count > 0. ? power / count - 1. : 0.;
@@ -305,17 +296,21 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   if (!std::isfinite(fit.log_evidence)) fit.log_evidence = -std::numeric_limits<double>::infinity();
   fit.choices = retune_choices(fit);
   fit.records = fitted_records(experiment, posterior, fit, climb.predictions, actions);
-  fit.excess =
-      excess_of(whitened(experiment, posterior, fit.x, climb.predictions), climb.predictions);
+  fit.excess = excess_of(experiment, fit);
   return fit;
 }
 
 std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
                                               const HypothesisFit& fit) {
-  FitPosterior posterior(experiment, fit.figures, fit.hypothesis);
-  const std::vector<Prediction> predictions = posterior.predict(fit.x);
-  posterior.renew_slow_variance(fit.x, predictions);
-  return whitened(experiment, posterior, fit.x, predictions);
+  std::vector<WhitenedRecord> records(fit.records.size());
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (std::size_t b = 0; b < fit.records[r].mean.size(); ++b) {
+      const double deviation = std::sqrt(fit.records[r].variance[b]);
+      const Complex error = experiment.records[r].moment[b] - fit.records[r].mean[b];
+      records[r].deviation.push_back(deviation);
+      records[r].error.push_back(error / deviation);
+    }
+  return records;
 }
 
 }  // namespace vibrissa::diagnosis

@@ -28,14 +28,10 @@ JointModel::JointModel(const StructuralMode& mode, const double joint_share,
   damping = mode.damping_ratio - 0.5 * in_joint;
 }
 
-Complex JointModel::inertia_ratio(const Complex s) const {
-  return inertia(s) * (compliance(s) + 1. - share);
-}
-
-Complex JointModel::changed_inertia_ratio(const Complex s, const Complex further) const {
-  const Complex x = s / frequency_rad_s;
-  const Complex inertia = change.inertia * (x * x + 2. * change.rest_damping * damping * x);
-  return inertia * (compliance(s) / (1. + stiffness_change(s) + further) + 1. - share);
+std::optional<JointModel> joint_of(const Chain& chain) {
+  if (chain.structure.modes.empty()) return std::nullopt;
+  return JointModel(chain.structure.modes.front(), chain.joint_share, chain.joint_loss_factor,
+                    chain.joint_change);
 }
 
 JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "diagnosis/chain.h"
 
@@ -25,16 +26,20 @@ struct JointModel {
 
   /// Joint's share of the compliance at s, of the static whole.
   Complex compliance(Complex s) const { return share / stiffness_ratio(s); }
-  /// Moment of inertia over w^2 theta.
+  /// Joint and whisker in series, of the static whole; a joint K(s) (1 + D) in place of K(s).
+  Complex total_compliance(Complex s, Complex d = 0.) const {
+    return compliance(s) / (1. + d) + 1. - share;
+  }
+  /// Moment of inertia over w^2 theta. The poles are where its product with the compliance is -1.
   Complex inertia(Complex s) const {
     const Complex x = s / frequency_rad_s;
     return x * x + 2. * damping * x;
   }
-  /// Moment of inertia over moment of the springs per rotation: the poles are where it is -1. For a
-  /// joint K(s) (1 + D) its compliance is that over 1 + D.
-  Complex inertia_ratio(Complex s) const;
-  /// The same with its factors changed, and a further D.
-  Complex changed_inertia_ratio(Complex s, Complex further) const;
+  /// With its factors changed.
+  Complex changed_inertia(Complex s) const {
+    const Complex x = s / frequency_rad_s;
+    return change.inertia * (x * x + 2. * change.rest_damping * damping * x);
+  }
   /// D of the factors of spring and damper.
   Complex stiffness_change(Complex s) const {
     const Complex nominal = stiffness_ratio(s);
@@ -43,6 +48,9 @@ struct JointModel {
   /// Viscous and elastic moment of the joint over its elastic one, 1 + rho s / w.
   Complex stiffness_ratio(Complex s) const { return 1. + loss * s / frequency_rad_s; }
 };
+
+/// The joint model of a chain's first mode; nothing without a mode.
+std::optional<JointModel> joint_of(const Chain& chain);
 
 /// Exact step of the joint model, with its factors, for T and M_ext that run linearly over it, from
 /// rest; a lane for each record.
@@ -57,8 +65,6 @@ class JointIntegrator {
   Lanes elastic_rate(const Lanes& torque, const Lanes& external) const {
     return free_.rate + torque_rate_ * torque + external_rate_ * external;
   }
-  /// d elastic / d torque.
-  double elastic_slope() const { return torque_new_(2); }
   /// Takes the step; returns the moment at its end.
   Lanes accept(const Lanes& torque, const Lanes& external);
 

@@ -17,10 +17,7 @@ Complex sum(const std::vector<Filter>& filters, Complex s) {
 
 }  // namespace
 
-LinearResponse::LinearResponse(const Chain& chain) : chain_(chain) {
-  if (!chain.structure.modes.empty())
-    joint_.emplace(chain.structure.modes.front(), chain.joint_share, chain.joint_loss_factor,
-                   chain.joint_change);
+LinearResponse::LinearResponse(const Chain& chain) : chain_(chain), joint_(joint_of(chain)) {
   if (chain.structure.has_base) static_response_ = chain.structure.base_response(0.);
 }
 
@@ -28,19 +25,22 @@ LinearPart LinearResponse::at(const Complex s) const {
   const Complex reference = product(chain_.reference, s);
   const Complex input = reference * product(chain_.mount, s);
   const auto [base, wind] = chain_.structure.responses(s);
-  LinearPart part{.base = base, .wind = wind, .elastic = 1., .sensor = product(chain_.sensor, s)};
+  LinearPart part{.base = base,
+                  .wind = wind,
+                  .elastic = 1.,
+                  .cross = sum(chain_.cross, s),
+                  .sensor = product(chain_.sensor, s)};
   if (joint_) {
-    const Complex relaxed = sum(chain_.relaxation, s);
-    const Complex d = relaxed + joint_->stiffness_change(s);
+    const Complex d = sum(chain_.relaxation, s) + joint_->stiffness_change(s);
     part.elastic = 1. / (joint_->stiffness_ratio(s) * (1. + d));
     // P of the joint model; what the modes above the first do to H they do to 1 / (1 + K G), too: B
     // is that of the load.
     const Complex rest = joint_->compliance(s) * joint_->inertia(s) * base / static_response_;
     Complex change = (1. + d) / (1. + d * (1. - rest));
     if (chain_.joint_change.any()) {
-      const Complex same =
-          joint_->inertia(s) * (joint_->compliance(s) / (1. + d) + 1. - joint_->share);
-      change *= (1. + same) / (1. + joint_->changed_inertia_ratio(s, relaxed));
+      const Complex compliance = joint_->total_compliance(s, d);
+      change *=
+          (1. + joint_->inertia(s) * compliance) / (1. + joint_->changed_inertia(s) * compliance);
     }
     part.base *= change;
     part.wind *= change;

@@ -17,6 +17,7 @@ struct LinearPart {
   Complex base;     // reading of the accelerometer -> moment before the sensor
   Complex wind;     // u |u| -> moment before the sensor
   Complex elastic;  // moment before the sensor -> its elastic share in the joint
+  Complex cross;    // transverse acceleration -> moment before the sensor
   Complex sensor;   // moment before the sensor -> reading
 };
 

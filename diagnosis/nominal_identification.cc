@@ -141,8 +141,7 @@ Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& r
   for (Eigen::Index c = 0; c < columns.cols(); ++c) {
     std::vector<Complex> whole(spectrum.size());
     for (std::size_t k = 0; k < whole.size(); ++k) {
-      const Complex s(0., 2. * std::numbers::pi * record.sampling_rate_hz * static_cast<double>(k) /
-                              static_cast<double>(record.n_samples));
+      const Complex s = record.line_s(k);
       Complex response = 1.;
       if (c < 2 * n_modes) {
         StructuralMode mode = model.modes[static_cast<std::size_t>(c / 2)];

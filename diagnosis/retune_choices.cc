@@ -42,7 +42,7 @@ double log_mean(double a, double b) {
 
 std::vector<RetuneChoice> retune_choices(const HypothesisFit& fit) {
   std::vector<Eigen::Index> ratios;
-  for (std::size_t i = 0; i < fit.figures.size(); ++i)
+  for (std::size_t i = 0; i < fit.figures.size() && !fit.hypothesis.is_discrepancy(); ++i)
     if (fit.figures[i].nuisance && fit.figures[i].parameter == 0)
       ratios.push_back(static_cast<Eigen::Index>(i));
   std::vector<RetuneChoice> choices;

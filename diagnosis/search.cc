@@ -74,15 +74,12 @@ double log_prior(const Hypothesis& hypothesis, std::size_t n_retunes, std::size_
 
 double choice_posterior(const HypothesisFit& fit, const RetuneChoice& choice,
                         std::size_t n_testable) {
-  if (fit.hypothesis.is_discrepancy() && !choice.named.empty())
-    return -std::numeric_limits<double>::infinity();
   return choice.log_evidence + log_prior(fit.hypothesis, choice.named.size(), n_testable);
 }
 
 /// How much of the whitened residual one effect's own shape explains, over all its starts: twice
 /// the log likelihood that the best multiple of it gains, to first order.
 double resemblance(const Experiment& experiment, const HypothesisFit& fit,
-                   const std::vector<std::vector<Complex>>& means,
                    const std::vector<WhitenedRecord>& residual, const Effect& effect) {
   double best = 0.;
   for (const std::vector<double>& values : effect.starts) {
@@ -94,7 +91,7 @@ double resemblance(const Experiment& experiment, const HypothesisFit& fit,
     for (std::size_t r = 0; r < experiment.records.size(); ++r) {
       const Prediction& there = moved[r];
       for (std::size_t b = 0; b < there.mean.size(); ++b) {
-        const Complex d = (there.mean[b] - means[r][b]) / residual[r].deviation[b];
+        const Complex d = (there.mean[b] - fit.records[r].mean[b]) / residual[r].deviation[b];
         cross += (std::conj(d) * residual[r].error[b]).real();
         own += std::norm(d);
         const double v = (there.own_noise[b] + reference * there.acceleration_noise[b]) /
@@ -119,10 +116,7 @@ double noise_strain(const HypothesisFit& fit) {
 
 /// Does the effect say more of the accelerometer's noise?
 bool tells_noise(const Effect& effect) {
-  Chain chain;
-  chain.structure.modes.emplace_back();
-  effect.extend(chain, effect.starts.front(), {});
-  return chain.reference_variance > 0.;
+  return probe(effect).reference_variance > 0.;
 }
 
 /// An answer whose residual stands out of the noise, the bounds of its form errors included, names
@@ -268,14 +262,11 @@ class Searcher {
   std::vector<const Effect*> partners(std::size_t base) {
     const HypothesisFit& fit = fits_[base];
     const std::vector<WhitenedRecord> residual = whitened_residual(experiment_, fit);
-    const Chain chain = fit.chain(experiment_);
-    const std::vector<std::vector<Complex>> means =
-        ChainSimulator(chain).means(experiment_.records);
     std::vector<std::pair<double, const Effect*>> scored(testable_.size());
     for_each_parallel(testable_.size(), options_.n_threads, [&](std::size_t i) {
       const Effect* effect = testable_[i];
       const bool there = fit.hypothesis.contains(effect->id);
-      scored[i] = {there ? -1. : resemblance(experiment_, fit, means, residual, *effect), effect};
+      scored[i] = {there ? -1. : resemblance(experiment_, fit, residual, *effect), effect};
       if (!there && tells_noise(*effect)) scored[i].first += 2. * noise_strain(fit);
     });
     std::sort(scored.begin(), scored.end(),

@@ -14,11 +14,10 @@ Effect base_compliance() {
                 .parameters = {log_uniform("stiffness_ratio", "1", 0.5, 60., 1e100)},
                 .starts = {{10.}, {30.}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
-                  if (chain.structure.modes.empty()) return;
-                  const JointModel joint(chain.structure.modes.front(), chain.joint_share,
-                                         chain.joint_loss_factor);
+                  const std::optional<JointModel> joint = joint_of(chain);
+                  if (!joint) return;
                   // K ks / (K + ks) over K: the damper of the silicone keeps its share.
-                  chain.relaxation.push_back([ratio = v[0], joint](Complex s) {
+                  chain.relaxation.push_back([ratio = v[0], joint = *joint](Complex s) {
                     const Complex nominal = joint.stiffness_ratio(s);
                     return -nominal / (nominal + ratio);
                   });

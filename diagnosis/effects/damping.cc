@@ -16,10 +16,9 @@ Effect damping() {
                      normal("rest_exponent", "1", 0.5, 0.5, 0., 1., 0.5)},
       .starts = {{0.9, 0.5}, {1.1, 0.5}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
-        if (chain.structure.modes.empty()) return;
-        const JointModel joint(chain.structure.modes.front(), chain.joint_share,
-                               chain.joint_loss_factor);
-        const bool joint_damps_most = 0.5 * joint.share * joint.loss >= joint.damping;
+        const std::optional<JointModel> joint = joint_of(chain);
+        if (!joint) return;
+        const bool joint_damps_most = 0.5 * joint->share * joint->loss >= joint->damping;
         const double most = v[0], least = std::pow(v[0], v[1]);
         chain.joint_change.damper *= joint_damps_most ? most : least;
         chain.joint_change.rest_damping *= joint_damps_most ? least : most;

@@ -35,10 +35,9 @@ Effect temperature_drift() {
                      normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.)},
       .starts = {{0.02, 0., 0.}, {-0.02, 0., 0.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-        if (chain.structure.modes.empty()) return;
-        const JointModel joint(chain.structure.modes.front(), chain.joint_share,
-                               chain.joint_loss_factor);
-        const double loss_s = v[2] * joint.loss / joint.frequency_rad_s;
+        const std::optional<JointModel> joint = joint_of(chain);
+        if (!joint) return;
+        const double loss_s = v[2] * joint->loss / joint->frequency_rad_s;
         chain.joint.push_back(
             [slope = v[0] / scales.duration_s, jump = v[1], loss_s](const Lanes& number) {
               return std::make_unique<Drift>(slope, jump * number, loss_s);

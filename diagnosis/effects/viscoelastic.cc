@@ -35,16 +35,15 @@ Effect viscoelastic() {
       .starts =
           {{0.1, 3e-3, 1.}, {0.1, 0.05, 1.}, {0.3, 1.5e-3, 1.}, {0.5, 3e-3, 1.}, {0.5, 3e-3, 2.5}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
-        if (chain.structure.modes.empty()) return;
-        const JointModel joint(chain.structure.modes.front(), chain.joint_share,
-                               chain.joint_loss_factor);
+        const std::optional<JointModel> joint = joint_of(chain);
+        if (!joint) return;
         // The branches stand beside spring and damper, which keep their own.
-        chain.relaxation.push_back(
-            [strength = v[0] / n_branches, times = branch_times(v[1], v[2]), joint](Complex s) {
-              Complex sum = 0.;
-              for (const double t : times) sum += s * t / (1. + s * t);
-              return strength * sum / joint.stiffness_ratio(s);
-            });
+        chain.relaxation.push_back([strength = v[0] / n_branches, times = branch_times(v[1], v[2]),
+                                    joint = *joint](Complex s) {
+          Complex sum = 0.;
+          for (const double t : times) sum += s * t / (1. + s * t);
+          return strength * sum / joint.stiffness_ratio(s);
+        });
       }};
 }
 

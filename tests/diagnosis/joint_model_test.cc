@@ -18,7 +18,8 @@ StructuralMode mode() {
 /// What the joint model is under its factors, with a moment T added in the joint: the moment at the
 /// base for one of T.
 Complex added_moment(const JointModel& model, Complex s) {
-  const Complex d = model.stiffness_change(s), inertia = model.changed_inertia_ratio(s, 0.);
+  const Complex d = model.stiffness_change(s);
+  const Complex inertia = model.changed_inertia(s) * model.total_compliance(s, d);
   const Complex x = s / model.frequency_rad_s;
   const Complex z =
       model.change.inertia * (x * x + 2. * model.change.rest_damping * model.damping * x);
@@ -31,7 +32,7 @@ TEST(JointModel, HasThePoleOfItsMode) {
   const double z = given.damping_ratio, w = given.frequency_rad_s;
   const Complex pole = w * Complex(-z, std::sqrt(1. - z * z));
   // Springs and damper in series damp as the mode does to first order in their loss.
-  EXPECT_LT(std::abs(model.inertia_ratio(pole) + 1.), 0.02);
+  EXPECT_LT(std::abs(model.inertia(pole) * model.total_compliance(pole) + 1.), 0.02);
 }
 
 TEST(JointModel, AStaticMomentInTheJointDoesNotReachTheBase) {
