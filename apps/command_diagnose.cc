@@ -8,6 +8,7 @@
 #include "apps/diagnosis_figures.h"
 #include "apps/sensor_model.h"
 #include "diagnosis/diagnosis_json.h"
+#include "diagnosis/mended_model_json.h"
 #include "diagnosis/nominal_from_model.h"
 #include "diagnosis/nominal_identification.h"
 #include "fem/solver_session.h"
@@ -33,8 +34,8 @@ signals::ReducedModel solve_case(const std::string& file, bool show_progress) {
   return make_reduced_model(fem::Sensor(parameters.sensor), parameters.sensor, show_progress);
 }
 
-/// The nominal model and the rate of the simulation's records, 0 when it is a model.
-std::pair<diagnosis::NominalModel, double> nominal_model(const DiagnoseCommand& options) {
+/// The simulation and the rate of its records, 0 when it is a model.
+std::pair<diagnosis::MendedModel, double> simulation(const DiagnoseCommand& options) {
   if (options.model.has_value() == options.simulation.has_value())
     throw signals::UserError(
         "give the simulation either as --model CASE.prm|model.json or as --sim DATASET");
@@ -43,6 +44,8 @@ std::pair<diagnosis::NominalModel, double> nominal_model(const DiagnoseCommand& 
     return {diagnosis::identify_nominal(dataset),
             dataset.records.front().record.sampling_rate_hz()};
   }
+  if (diagnosis::is_mended_model(*options.model))
+    return {diagnosis::read_mended_model(*options.model), 0.};
   const bool is_case = std::filesystem::path(*options.model).extension() == ".prm";
   const bool show = !options.common.quiet && !options.common.json;
   return {diagnosis::nominal_from(is_case ? solve_case(*options.model, show)
@@ -55,6 +58,7 @@ void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& d
       report::RunFolder::given_or_free(options.folder, std::filesystem::path("results/diagnosis"));
   folder.write_run({.command_line = given_command_line()});
   folder.write_text("diagnosis.json", diagnosis::diagnosis_json(diagnosis));
+  folder.write_text("mended_model.json", diagnosis::mended_model_json(diagnosis.mended));
   folder.write_text("verdict.txt", diagnosis::verdict_text(diagnosis));
   folder.write_text("ranking.csv", ranking_table(diagnosis).to_csv());
   for (const report::Figure& figure : diagnosis_figures(diagnosis))
@@ -65,7 +69,7 @@ void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& d
 }
 
 void diagnose(const DiagnoseCommand& options) {
-  const auto [nominal, rate_hz] = nominal_model(options);
+  const auto [model, rate_hz] = simulation(options);
   const signals::Dataset real = signals::read_dataset(options.real);
   // About forty single effects and combinations are fitted.
   constexpr std::size_t usual_fits = 75;
@@ -75,7 +79,7 @@ void diagnose(const DiagnoseCommand& options) {
   settings.simulated_rate_hz = rate_hz;
   settings.search.max_effects = options.max_effects;
   settings.search.on_fit = [&] { progress.advance(); };
-  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(nominal, real, settings);
+  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(model, real, settings);
   if (options.common.json)
     std::cout << diagnosis::diagnosis_json(diagnosis) << std::endl;
   else
@@ -90,13 +94,14 @@ void add_diagnose_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "diagnose",
       "Why the records differ from the simulation: where, which effect, how far the gap closes");
-  command->add_option("--model", options->model,
-                      "The simulation as a case file (.prm) or a reduced model (.json)");
+  command->add_option(
+      "--model", options->model,
+      "The simulation as a case file (.prm), a reduced model or a mended model (.json)");
   command->add_option("--sim", options->simulation,
                       "The simulation as a dataset: a folder of records with dataset.json");
   command->add_option("--real", options->real, "Dataset of the real sensor")->required();
   command->add_option("-o,--out", options->folder,
-                      "New folder for diagnosis.json, ranking.csv and pictures");
+                      "New folder for diagnosis.json, mended_model.json, ranking.csv and pictures");
   command
       ->add_option("--max-effects", options->max_effects,
                    "Most effects that are combined beside retuned parameters")

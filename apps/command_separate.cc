@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -6,6 +8,8 @@
 #include "apps/record_options.h"
 #include "apps/separation_methods.h"
 #include "apps/stream_methods.h"
+#include "diagnosis/mended_model_json.h"
+#include "diagnosis/record_simulation.h"
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
 #include "separation/input_hold.h"
@@ -32,13 +36,32 @@ struct SeparateOptions {
   double settling_s = 2.;
 };
 
+/// What is left of the measured moment when a mended model has foretold the part of the base.
+std::vector<double> separate_by_mended_model(const std::string& file,
+                                             const signals::Record& record) {
+  signals::Record base(record.sampling_rate_hz(), record.n_samples());
+  for (const std::string& name :
+       {signals::channel::base_acceleration, signals::channel::cross_acceleration})
+    if (record.has(name)) {
+      const auto values = record.channel(name);
+      base.set_channel(name, {values.begin(), values.end()});
+    }
+  std::vector<double> wind = diagnosis::simulate_moment(diagnosis::read_mended_model(file), base);
+  const auto measured = record.channel(signals::channel::base_moment);
+  std::transform(measured.begin(), measured.end(), wind.begin(), wind.begin(), std::minus<>());
+  return wind;
+}
+
 std::vector<SeparatedSignal> separate_all(const SeparateOptions& options,
                                           const signals::Record& record,
                                           const std::vector<double>& truth) {
   const auto measured = record.channel(signals::channel::base_moment);
   std::vector<SeparatedSignal> signals{score("nothing removed", {measured.begin(), measured.end()},
                                              record, truth, options.settling_s)};
-  if (options.model_file) {
+  if (options.model_file && diagnosis::is_mended_model(*options.model_file)) {
+    signals.push_back(score("mended_model", separate_by_mended_model(*options.model_file, record),
+                            record, truth, options.settling_s));
+  } else if (options.model_file) {
     separation::BvrmSeparator bvrm(separation::read_bvrm(*options.model_file),
                                    record.sampling_rate_hz(), separation::parse_hold(options.hold));
     signals.push_back(score("bvrm", separation::separate_record(bvrm, record), record, truth,
@@ -135,7 +158,8 @@ void add_separate_command(CLI::App& app) {
       ->required();
   command->add_option(
       "--model", options->model_file,
-      "BVRM as JSON, from 'vibrissa identify -o' (without it: adaptive filter only)");
+      "BVRM as JSON, from 'vibrissa identify -o', or mended_model.json of a diagnosis (without it: "
+      "adaptive filter only)");
   command
       ->add_option("--hold", options->hold,
                    "Base acceleration between samples: first_order, zero_order or band_limited")

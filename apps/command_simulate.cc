@@ -7,8 +7,11 @@
 #include "apps/inputs.h"
 #include "apps/rig.h"
 #include "apps/sensor_model.h"
+#include "diagnosis/mended_model_json.h"
+#include "diagnosis/record_simulation.h"
 #include "fem/linear_transient.h"
 #include "fem/solver_session.h"
+#include "signals/error.h"
 #include "signals/progress.h"
 #include "signals/record_io.h"
 
@@ -20,7 +23,8 @@ struct SimulateOptions {
   CommonOptions common;
   CaseOptions chosen;
   std::string record_file = "record.csv";
-  std::optional<std::string> model_file;
+  std::optional<std::string> model_file, input_file;
+  bool periodic = false;
   bool full_order = false;
   unsigned int substeps = 4;
 };
@@ -48,7 +52,42 @@ signals::Record full_order_record(const fem::Sensor& sensor, const Case& paramet
   return record;
 }
 
+/// The inputs of a record with the base moment that a mended model reads under them.
+signals::Record mended_record(const SimulateOptions& options) {
+  if (!options.input_file)
+    throw signals::UserError("--inputs: a mended model needs a record with its inputs");
+  signals::Record record = signals::read_record(*options.input_file);
+  record.set_channel(
+      signals::channel::base_moment,
+      diagnosis::simulate_moment(
+          diagnosis::read_mended_model(options.chosen.case_file), record,
+          options.periodic ? diagnosis::Start::periodic : diagnosis::Start::settled));
+  return record;
+}
+
+void report(const SimulateOptions& options, const signals::Record& record,
+            const std::string& solver) {
+  if (options.common.json) {
+    print_json({{"record", options.record_file},
+                {"samples", record.n_samples()},
+                {"sampling_rate_hz", record.sampling_rate_hz()},
+                {"channels", record.channel_names()},
+                {"solver", solver}});
+  } else {
+    std::cout << "wrote " << options.record_file << ": " << record.n_samples() << " samples at "
+              << record.sampling_rate_hz() << " Hz\n";
+  }
+}
+
 void simulate(const SimulateOptions& options) {
+  if (diagnosis::is_mended_model(options.chosen.case_file)) {
+    const signals::Record record = mended_record(options);
+    signals::write_record(options.record_file, record);
+    report(options, record, "mended model");
+    return;
+  }
+  if (options.input_file)
+    throw signals::UserError("--inputs is for a mended model; a case file names its own inputs");
   const Case parameters = options.chosen.load().read();
   const Inputs inputs = make_inputs(parameters);
   const fem::SolverSession session;
@@ -59,16 +98,7 @@ void simulate(const SimulateOptions& options) {
                                      : measure_on_rig(model, parameters, inputs).both;
   signals::write_record(options.record_file, record);
   if (options.model_file) signals::write_reduced_model(*options.model_file, model);
-  if (options.common.json) {
-    print_json({{"record", options.record_file},
-                {"samples", record.n_samples()},
-                {"sampling_rate_hz", record.sampling_rate_hz()},
-                {"channels", record.channel_names()},
-                {"solver", options.full_order ? "full order" : "reduced"}});
-  } else {
-    std::cout << "wrote " << options.record_file << ": " << record.n_samples() << " samples at "
-              << record.sampling_rate_hz() << " Hz\n";
-  }
+  report(options, record, options.full_order ? "full order" : "reduced");
 }
 
 }  // namespace
@@ -80,6 +110,11 @@ void add_simulate_command(CLI::App& app) {
   options->chosen.add_to(*command);
   command->add_option("--record", options->record_file, "Record written")->capture_default_str();
   command->add_option("--model", options->model_file, "Also write the reduced model (JSON)");
+  command->add_option("--inputs", options->input_file,
+                      "With a mended model (mended_model.json of a diagnosis) in place of the case "
+                      "file: CSV record with its base acceleration and wind speed; no noise");
+  command->add_flag("--periodic", options->periodic,
+                    "These inputs are whole periods in steady state");
   command->add_flag("--full-order", options->full_order,
                     "Integrate the whole solid in place of the reduced model; no noise");
   command->add_option("--substeps", options->substeps, "Steps of the full-order solid per sample")

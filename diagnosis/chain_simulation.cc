@@ -97,25 +97,34 @@ std::vector<Complex> ChainSimulator::reading(const PreparedRecord& record,
   return spectrum_of(reclocked(moment, record.n_samples, chain_.clock_rate_error));
 }
 
-std::vector<std::vector<Complex>> ChainSimulator::means(std::span<const PreparedRecord> records) {
+ChainSimulator::Spectra ChainSimulator::readings(std::span<const PreparedRecord> records) {
   Spectra moments = linear_moments(records);
   const Spectra added = added_moments(records, moments);
-  std::vector<std::vector<Complex>> out;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const PreparedRecord& record = records[r];
-    if (record.is_still()) {
-      out.emplace_back(record.n_bins(), 0.);
-      continue;
-    }
+    if (record.is_still()) continue;
     for (std::size_t k = 0; k < added[r].size(); ++k) moments[r][k] += added[r][k];
     if (!record.cross_acceleration.empty()) {
       const std::vector<LinearPart>& lines = response_.lines(record);
       for (std::size_t k = 0; k < lines.size(); ++k)
         moments[r][k] += lines[k].cross * record.cross_acceleration[k];
     }
-    out.push_back(judged_bins(record, reading(record, std::move(moments[r]))));
+    moments[r] = reading(record, std::move(moments[r]));
   }
+  return moments;
+}
+
+std::vector<std::vector<Complex>> ChainSimulator::means(std::span<const PreparedRecord> records) {
+  Spectra whole = readings(records);
+  std::vector<std::vector<Complex>> out;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    out.push_back(records[r].is_still() ? std::vector<Complex>(records[r].n_bins(), 0.)
+                                        : judged_bins(records[r], std::move(whole[r])));
   return out;
+}
+
+std::vector<double> ChainSimulator::samples(const PreparedRecord& record) {
+  return samples_of(readings({&record, 1}).front(), record.n_samples);
 }
 
 std::vector<Prediction> ChainSimulator::predict(std::span<const PreparedRecord> records) {

@@ -29,9 +29,12 @@ class ChainSimulator {
 
   std::vector<Prediction> predict(std::span<const PreparedRecord> records);
   std::vector<std::vector<Complex>> means(std::span<const PreparedRecord> records);
+  /// The reading [N m] at every sample of a record, its mean included.
+  std::vector<double> samples(const PreparedRecord& record);
 
  private:
   using Spectra = std::vector<std::vector<Complex>>;  // of each record, at its whole lines
+  Spectra readings(std::span<const PreparedRecord> records);
   Spectra linear_moments(std::span<const PreparedRecord> records);
   Spectra added_moments(std::span<const PreparedRecord> records, const Spectra& linear);
   std::vector<Complex> reading(const PreparedRecord& record, std::vector<Complex> moment);

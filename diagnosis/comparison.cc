@@ -30,7 +30,7 @@ ResponseComparison compare_response(const Experiment& experiment, const Hypothes
   const PreparedRecord* record = strongest_periodic(experiment);
   if (record == nullptr) return out;
   out.record = record->name;
-  const std::vector<Complex> nominal = simulate_mean({.structure = experiment.nominal}, *record);
+  const std::vector<Complex> nominal = simulate_mean(experiment.nominal_chain(), *record);
   const auto place = static_cast<std::size_t>(record - experiment.records.data());
   const FittedRecord& mended = fit.records[place];
   for (std::size_t b = 0; b < record->n_bins(); ++b) {
@@ -52,7 +52,7 @@ TraceComparison compare_trace(const Experiment& fitted_on, const Experiment& hel
     if (!record.excitation.base && !record.excitation.wind) continue;
     out.record = record.name;
     out.measured = judged_samples(record, record.moment);
-    out.nominal = judged_samples(record, simulate_mean({.structure = held_out.nominal}, record));
+    out.nominal = judged_samples(record, simulate_mean(held_out.nominal_chain(), record));
     out.mended = judged_samples(record, simulate_mean(fit.chain(fitted_on), record));
     for (std::size_t i = 0; i < out.measured.size(); ++i)
       out.time_s.push_back(static_cast<double>(record.first + i) / record.sampling_rate_hz);

@@ -44,6 +44,13 @@ bool has_moving(const Experiment& experiment) {
   return experiment.has_base || experiment.has_wind;
 }
 
+/// How well the joint is known after a fit.
+double joint_share_deviation(const Experiment& experiment, const HypothesisFit& fit) {
+  const auto place = static_cast<Eigen::Index>(place_joint_share);
+  return std::min(experiment.nominal.joint_share_deviation,
+                  std::sqrt(fit.covariance(place, place)));
+}
+
 /// Scores of the first few answers; answers that share a fit share its score.
 void score_answers(Diagnosis& out, const SearchResult& result, const Experiment& experiment,
                    const Experiment& held_out, const DiagnoseOptions& options) {
@@ -57,11 +64,11 @@ void score_answers(Diagnosis& out, const SearchResult& result, const Experiment&
   }
 }
 
-void set_gap(Diagnosis& out, const NominalModel& nominal, const signals::Dataset& real,
+void set_gap(Diagnosis& out, const MendedModel& simulation, const signals::Dataset& real,
              const SearchResult& result, const Experiment& experiment) {
   if (!out.ranking.front().held_out) {
     const Experiment fit_records =
-        prepare_experiment(nominal, real, signals::Split::fit, InputNoise::as_measured);
+        prepare_experiment(simulation, real, signals::Split::fit, InputNoise::as_measured);
     const HypothesisFit& best = result.fits[result.candidates.front().fit];
     const ErrorScore score =
         score_held_out(experiment, fit_records, best, {.n_resamples = 0}).overall;
@@ -111,6 +118,22 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
   return out;
 }
 
+MendedModel mended_model(const Experiment& experiment, const HypothesisFit& fit) {
+  MendedModel model(experiment.nominal, experiment.known);
+  model.nominal.joint_share = fit.x(static_cast<Eigen::Index>(place_joint_share));
+  model.nominal.joint_share_deviation = joint_share_deviation(experiment, fit);
+  model.nominal.joint_loss_factor = fit.x(static_cast<Eigen::Index>(place_joint_loss));
+  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
+    const FreeFigure& figure = fit.figures[i];
+    if (figure.effect == nullptr) continue;
+    if (figure.parameter == 0)
+      model.effects.push_back({.id = figure.effect->id, .values = {}, .scales = experiment.scales});
+    model.effects.back().values.push_back(
+        figure.description.value(fit.x(static_cast<Eigen::Index>(i))));
+  }
+  return model;
+}
+
 std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates,
                                         const double level) {
   std::vector<std::string> names;
@@ -123,15 +146,16 @@ std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates
   return names;
 }
 
-Diagnosis diagnose(const NominalModel& nominal, const signals::Dataset& real,
+Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
                    const DiagnoseOptions& options) {
+  const NominalModel& nominal = simulation.nominal;
   Diagnosis out;
   out.guesses = real.guesses;
   out.findings = check_data(nominal, real, options.simulated_rate_hz);
   refuse_spoilt_data(out.findings);
   refuse_poor_data(nominal, real, out.findings);
   const Experiment experiment =
-      prepare_experiment(nominal, real, signals::Split::fit, InputNoise::reduced);
+      prepare_experiment(simulation, real, signals::Split::fit, InputNoise::reduced);
   out.location = locate_gap(experiment);
   const SearchResult result = search(experiment, options.search);
   const Candidate& best = result.candidates.front();
@@ -140,13 +164,14 @@ Diagnosis diagnose(const NominalModel& nominal, const signals::Dataset& real,
   rank(out, result, options);
   out.confidence_set = confidence_set(result.candidates, 0.95);
   const Experiment held_out =
-      prepare_experiment(nominal, real, signals::Split::held_out, InputNoise::as_measured);
+      prepare_experiment(simulation, real, signals::Split::held_out, InputNoise::as_measured);
   if (has_moving(held_out)) {
     score_answers(out, result, experiment, held_out, options);
     out.ranking.front().shares = effect_shares(experiment, held_out, result, result.fits[best.fit]);
   }
-  set_gap(out, nominal, real, result, experiment);
+  set_gap(out, simulation, real, result, experiment);
   out.response = compare_response(experiment, result.fits[best.fit]);
+  out.mended = mended_model(experiment, result.fits[best.fit]);
   out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);
   out.indistinguishable = indistinguishable_sets(experiment, result);
   out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable);

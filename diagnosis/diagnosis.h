@@ -60,6 +60,8 @@ struct Diagnosis {
   /// Nominal model and best answer beside the records.
   ResponseComparison response{};
   TraceComparison trace{};
+  /// The simulation with the best answer's effects and every retune as fitted.
+  MendedModel mended{};
 };
 
 struct DiagnoseOptions {
@@ -73,13 +75,16 @@ struct DiagnoseOptions {
 /// Compares a simulation with records: noise, where, what, how far, how sure and what next. Throws
 /// UserError for exchanged columns and wrong units, TooPoorData when no fit record can be compared.
 /// Proven by tests/diagnosis/diagnosis_test.cc.
-Diagnosis diagnose(const NominalModel& nominal, const signals::Dataset& real,
+Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
                    const DiagnoseOptions& options = {});
 
 /// Value and 95 % interval of each parameter that an answer names, back from the coordinates of the
 /// fit and within the parameter's bounds.
 std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
                                                    const std::string& name);
+
+/// The experiment's simulation with what a fit has added to it: its chain as a model to keep.
+MendedModel mended_model(const Experiment& experiment, const HypothesisFit& fit);
 
 /// Shortest list of candidates, most probable first, whose probabilities reach the level.
 std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates, double level);

@@ -288,10 +288,12 @@ ChannelNoise channel_noise(const signals::Dataset& dataset) {
   return noise;
 }
 
-Experiment prepare_experiment(const NominalModel& nominal, const signals::Dataset& dataset,
+Experiment prepare_experiment(const MendedModel& simulation, const signals::Dataset& dataset,
                               const signals::Split split, const InputNoise treatment) {
   Experiment experiment;
+  const NominalModel& nominal = simulation.nominal;
   experiment.nominal = nominal;
+  experiment.known = simulation.effects;
   const ChannelNoise noise = channel_noise(dataset);
   experiment.moment_noise = noise.moment_n_m;
   experiment.acceleration_noise = noise.acceleration_m_s2;

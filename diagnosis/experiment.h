@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "diagnosis/effect.h"
-#include "diagnosis/nominal_model.h"
+#include "diagnosis/mended_model.h"
 #include "signals/dataset.h"
 
 namespace vibrissa::diagnosis {
@@ -46,11 +46,15 @@ enum class InputNoise { reduced, as_measured };
 /// The fit records of one sensor with the nominal model, ready for hypotheses.
 struct Experiment {
   NominalModel nominal;
+  std::vector<KnownEffect> known;  // effects that are part of the simulation
   std::vector<PreparedRecord> records;
   Scales scales;
   double moment_noise = 0.;        // guess, a sample [N m]
   double acceleration_noise = 0.;  // guess, a sample [m/s^2]
   bool has_base = false, has_wind = false, has_cross = false;
+
+  /// The simulation as it is.
+  Chain nominal_chain() const { return MendedModel(nominal, known).chain(); }
 };
 
 /// Are all excitations of a record measured, and known to the simulation?
@@ -61,7 +65,7 @@ bool shows(const Experiment& experiment, const Effect& effect);
 
 /// Only records of the given split. Throws UserError when there is none that the nominal model can
 /// be compared with.
-Experiment prepare_experiment(const NominalModel& nominal, const signals::Dataset& dataset,
+Experiment prepare_experiment(const MendedModel& simulation, const signals::Dataset& dataset,
                               signals::Split split, InputNoise noise);
 
 /// Standard deviations a sample of both channels, from records at rest, else from what periods do

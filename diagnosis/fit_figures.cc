@@ -54,7 +54,8 @@ std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothe
       normal("joint_share", "1", experiment.nominal.joint_share,
              experiment.nominal.joint_share_deviation, 0.3, 1., 1.);
   figures[place_joint_loss].description =
-      normal("joint_loss_factor", "1", 1., 0.05, 0.7, most_joint_loss(experiment.nominal), 1.);
+      normal("joint_loss_factor", "1", experiment.nominal.joint_loss_factor, 0.05, 0.7,
+             most_joint_loss(experiment.nominal), 1.);
   const auto add = [&](const Effect& effect, bool nuisance) {
     for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
       figures.push_back({&effect, i, effect.parameters[i], nuisance});
@@ -78,8 +79,7 @@ std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothe
 
 Chain make_chain(const Experiment& experiment, const std::vector<FreeFigure>& figures,
                  const Eigen::VectorXd& x, const Effect* left_out) {
-  Chain chain;
-  chain.structure = experiment.nominal;
+  Chain chain = experiment.nominal_chain();
   chain.joint_share = x(place_joint_share);
   chain.joint_loss_factor = x(place_joint_loss);
   for (std::size_t i = n_own_figures; i < figures.size();) {

@@ -262,7 +262,7 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
     throw signals::UserError(
         "no held_out record can be compared with the simulation: give one "
         "record \"split\": \"held_out\"");
-  const Chain nominal{.structure = fitted_on.nominal};
+  const Chain nominal = fitted_on.nominal_chain();
   const Chain chain = fit.chain(fitted_on);
   const Levels levels = noise_levels(fitted_on, fit, chain);
   HeldOutScore out;

@@ -99,7 +99,7 @@ RestNoise rest_noise(const Experiment& experiment) {
 
 RecordGap gap_of(const Experiment& experiment, const PreparedRecord& record,
                  const RestNoise& rest) {
-  const Prediction prediction = simulate({.structure = experiment.nominal}, record);
+  const Prediction prediction = simulate(experiment.nominal_chain(), record);
   RecordGap gap{
       .record = &record, .predicted = prediction.mean, .error = record.moment, .variance = {}};
   const double misfit =

@@ -33,6 +33,8 @@ struct NominalModel {
   /// known. Records do not tell it: 0.71 (paper.md) and 0.56 (our finite-element model) for
   /// flow sensors, 1 for a rigid whisker.
   double joint_share = 0.7, joint_share_deviation = 0.15;
+  /// Factor on the joint's part of that mode's damping that the rates tell.
+  double joint_loss_factor = 1.;
   /// rms of (simulated - model) over rms of simulated, on the simulation's own records: what this
   /// form cannot follow.
   double base_misfit = 0., wind_misfit = 0.;

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "signals/error.h"
+#include "signals/json_entry.h"
 #include "signals/json_input.h"
 #include "signals/output_file.h"
 #include "signals/reduced_model.h"
@@ -20,79 +21,6 @@ const std::string moment_convention =
     "parts together, about e_z x axial_direction; positive for wind along axial_direction, hence "
     "negative quasi-static moment per base acceleration.";
 
-/// One value of the file, which knows where it stands.
-class Entry {
- public:
-  Entry(const json& value, std::string file, json::json_pointer place)
-      : value_(value), file_(std::move(file)), place_(std::move(place)) {}
-
-  Entry operator[](const std::string& key) const {
-    require(value_.is_object(), "must be an object with entries by name");
-    const auto found = value_.find(key);
-    if (found == value_.end()) Entry(value_, file_, place_ / key).fail("is missing");
-    return Entry(*found, file_, place_ / key);
-  }
-
-  double number() const {
-    require(value_.is_number(), "must be a finite number");
-    return value_.get<double>();
-  }
-  std::string text() const {
-    require(value_.is_string(), "must be text");
-    return value_.get<std::string>();
-  }
-  /// Each element of an array through a function of its entry.
-  template <typename Read>
-  auto list(Read read) const {
-    require(value_.is_array(), "must be an array");
-    std::vector<decltype(read(*this))> result;
-    result.reserve(value_.size());
-    for (std::size_t i = 0; i < value_.size(); ++i)
-      result.push_back(read(Entry(value_[i], file_, place_ / i)));
-    return result;
-  }
-  template <typename Read>
-  auto triple(Read read) const {
-    require(value_.is_array() && value_.size() == 3, "must be an array of 3");
-    const auto values = list(read);
-    return std::array{values[0], values[1], values[2]};
-  }
-  std::vector<double> numbers() const {
-    return list([](const Entry& entry) { return entry.number(); });
-  }
-  std::array<double, 3> vector() const {
-    return triple([](const Entry& entry) { return entry.number(); });
-  }
-  std::array<std::array<double, 3>, 3> matrix() const {
-    return triple([](const Entry& entry) { return entry.vector(); });
-  }
-  std::map<std::string, std::string> texts() const {
-    require(value_.is_object(), "must be an object with entries by name");
-    std::map<std::string, std::string> result;
-    for (const auto& item : value_.items()) result[item.key()] = (*this)[item.key()].text();
-    return result;
-  }
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw UserError(file_ + ": " + (place_.empty() ? "the document" : place_.to_string()) + " " +
-                    what);
-  }
-  void require(bool fine, const std::string& rule) const {
-    if (!fine) fail(rule + ", but is " + excerpt());
-  }
-
- private:
-  std::string excerpt() const {
-    constexpr std::size_t longest = 60;
-    const std::string whole = value_.dump(-1, ' ', false, json::error_handler_t::replace);
-    return whole.size() <= longest ? whole : whole.substr(0, longest) + "...";
-  }
-
-  const json& value_;
-  std::string file_;
-  json::json_pointer place_;
-};
-
 json to_json(const ReducedMode& mode) {
   return {{"frequency_hz", mode.frequency_hz},
           {"damping_ratio", mode.damping_ratio},
@@ -100,7 +28,7 @@ json to_json(const ReducedMode& mode) {
           {"moment_participation_sqrt_kg_m", mode.moment_participation}};
 }
 
-ReducedMode read_mode(const Entry& entry) {
+ReducedMode read_mode(const JsonEntry& entry) {
   return {.frequency_hz = entry["frequency_hz"].number(),
           .damping_ratio = entry["damping_ratio"].number(),
           .participation = entry["participation_sqrt_kg"].vector(),
@@ -113,12 +41,12 @@ json to_json(const WindLoad& wind) {
           {"moment_coefficient_N_s2_per_m", wind.moment_coefficient}};
 }
 
-WindLoad read_wind(const Entry& entry) {
+WindLoad read_wind(const JsonEntry& entry) {
   return {.speed_m_s = entry["speed_m_s"].numbers(),
           .modal_coefficient = entry["modal_coefficient_sqrt_kg_per_m"].list(
-              [](const Entry& row) { return row.numbers(); }),
+              [](const JsonEntry& row) { return row.numbers(); }),
           .moment_coefficient = entry["moment_coefficient_N_s2_per_m"].list(
-              [](const Entry& row) { return row.vector(); })};
+              [](const JsonEntry& row) { return row.vector(); })};
 }
 
 json to_json(const Sensitivity& sensitivity) {
@@ -133,8 +61,8 @@ json to_json(const Sensitivity& sensitivity) {
             {"static_wind_moment", sensitivity.static_wind_moment}}}};
 }
 
-Sensitivity read_sensitivity(const Entry& entry) {
-  const Entry change = entry["relative_change"];
+Sensitivity read_sensitivity(const JsonEntry& entry) {
+  const JsonEntry change = entry["relative_change"];
   return {.parameter = entry["parameter"].text(),
           .nominal_value = entry["nominal_value"].number(),
           .unit = entry["unit"].text(),
@@ -168,7 +96,7 @@ json to_json(const ReducedModel& model) {
 
 ReducedModel read_reduced_model(const std::filesystem::path& file) {
   const json document = read_json(file);
-  const Entry root(document, file.string(), json::json_pointer());
+  const JsonEntry root(document, file.string(), json::json_pointer());
   root["schema"].require(root["schema"].text() == schema, "must be \"" + schema + "\"");
   ReducedModel model{.name = root["name"].text(),
                      .axial_direction = root["axial_direction"].vector(),

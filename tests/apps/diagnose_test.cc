@@ -39,5 +39,40 @@ TEST(DiagnoseCommand, LeavesVerdictRankingAndFigures) {
     EXPECT_TRUE(fs::exists(folder.file(std::string("out/") + name))) << name;
 }
 
+TEST(DiagnoseCommand, LeavesAModelThatTheOtherCommandsTake) {
+  const fs::path practice = fs::path(VIBRISSA_SOURCE_DIR) / ".." / "shared" / "practice";
+  if (!fs::exists(practice)) GTEST_SKIP() << practice << " is missing";
+  const Folder folder;
+  const std::string real = (practice / "case019" / "real").string();
+  ASSERT_EQ(vibrissa("diagnose --quiet --max-effects 1 --sim '" + (practice / "sim").string() +
+                     "' --real '" + real + "' -o '" + folder.file("out") + "'")
+                .status,
+            0);
+  const std::string model = folder.file("out/mended_model.json");
+  const auto dataset = nlohmann::json::parse(content(real + "/dataset.json"));
+  std::string held_out;
+  for (const auto& record : dataset["records"])
+    if (record["split"] == "held_out") held_out = real + "/" + record["file"].get<std::string>();
+  const auto simulated = vibrissa("simulate '" + model + "' --inputs '" + held_out +
+                                  "' --record '" + folder.file("simulated.csv") + "'");
+  ASSERT_EQ(simulated.status, 0) << simulated.errors;
+  const auto separated =
+      vibrissa("separate --json --model '" + model + "' '" + folder.file("simulated.csv") + "'");
+  ASSERT_EQ(separated.status, 0) << separated.errors;
+  EXPECT_THAT(separated.output, HasSubstr("mended_model"));
+  const auto again =
+      vibrissa("diagnose --json --max-effects 1 --model '" + model + "' --real '" + real + "'");
+  ASSERT_EQ(again.status, 0) << again.errors;
+  EXPECT_EQ(nlohmann::json::parse(again.output)["verdict"], "none");
+}
+
+TEST(SimulateCommand, AsksForTheInputsOfAMendedModel) {
+  const Folder folder;
+  std::ofstream(folder.file("mended.json")) << R"({"schema": "vibrissa-mended-model-1"})";
+  const auto result = vibrissa("simulate '" + folder.file("mended.json") + "'");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("--inputs"));
+}
+
 }  // namespace
 }  // namespace vibrissa::apps

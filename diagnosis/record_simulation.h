@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/mended_model.h"
+#include "signals/record.h"
+
+namespace vibrissa::diagnosis {
+
+/// How a simulated record begins.
+enum class Start {
+  settled,  // under inputs that were at their first values for long
+  periodic  // the inputs are whole periods in steady state
+};
+
+/// Base moment [N m] (frame and sign of records.md) that the model reads under a record's base
+/// acceleration, cross acceleration and wind speed, in free simulation without noise, one value a
+/// sample. Channels that are absent are zero. Throws UserError when the record holds no input that
+/// the model knows. Proven by tests/diagnosis/mended_model_test.cc.
+std::vector<double> simulate_moment(const MendedModel& model, const signals::Record& inputs,
+                                    Start start = Start::settled);
+
+}  // namespace vibrissa::diagnosis
