@@ -61,6 +61,8 @@ using NoiseSource = std::function<void(const RecordView&, std::span<double> vari
 /// moment sensor reads: reference -> mount -> structure <- wind; structure -> sensor -> clock.
 /// Effects extend it; without effects it is the nominal simulator.
 struct Chain {
+  /// Share of what the accelerometer's source gave, at its own rate, in place of what was polled.
+  double renewed_share = 0.;
   std::vector<Filter> reference{};  // reading -> true acceleration at the accelerometer
   std::vector<Filter> mount{};      // there -> base
   NominalModel structure{};

@@ -17,24 +17,10 @@ std::vector<Complex> wind_force_spectrum(const Chain& chain, const PreparedRecor
   return spectrum_of(u);
 }
 
-/// Reading at t (1 + e) of a series given on a four times finer grid, by cubic interpolation.
-std::vector<double> reclocked(std::span<const Complex> spectrum, std::size_t n, double rate_error) {
-  constexpr std::size_t factor = 4;
-  const std::vector<double> fine = upsampled(spectrum, n, factor);
-  std::vector<double> out(n);
-  const auto size = static_cast<std::ptrdiff_t>(fine.size());
-  for (std::size_t i = 0; i < n; ++i) {
-    const double place = static_cast<double>(i * factor) * (1. + rate_error);
-    const double floor = std::floor(place), x = place - floor;
-    const auto at = [&](std::ptrdiff_t d) {
-      return fine[static_cast<std::size_t>(
-          ((static_cast<std::ptrdiff_t>(floor) + d) % size + size) % size)];
-    };
-    const double a = at(-1), b = at(0), c = at(1), e = at(2);
-    out[i] = b + x * (c - a / 3. - b / 2. - e / 6. +
-                      x * ((a + c) / 2. - b + x * ((e - a) / 6. + (b - c) / 2.)));
-  }
-  return out;
+Complex reading_of_source(const Chain& chain, const PreparedRecord& record, std::size_t k) {
+  const Complex polled = record.acceleration[k];
+  if (record.renewed.empty()) return polled;
+  return polled + chain.renewed_share * (record.renewed[k] - polled);
 }
 
 std::vector<Complex> judged_bins(const PreparedRecord& record, std::vector<Complex> whole) {
@@ -56,7 +42,7 @@ ChainSimulator::Spectra ChainSimulator::linear_moments(std::span<const PreparedR
     const std::vector<LinearPart>& lines = response_.lines(record);
     if (!record.acceleration.empty())
       for (std::size_t k = 0; k < lines.size(); ++k)
-        moment[k] = lines[k].base * record.acceleration[k];
+        moment[k] = lines[k].base * reading_of_source(chain_, record, k);
     const std::vector<Complex> force = wind_force_spectrum(chain_, record);
     if (!force.empty())
       for (std::size_t k = 0; k < lines.size(); ++k) moment[k] += lines[k].wind * force[k];
@@ -94,7 +80,8 @@ std::vector<Complex> ChainSimulator::reading(const PreparedRecord& record,
   const std::vector<LinearPart>& lines = response_.lines(record);
   for (std::size_t k = 0; k < moment.size(); ++k) moment[k] *= lines[k].sensor;
   if (chain_.clock_rate_error == 0.) return moment;
-  return spectrum_of(reclocked(moment, record.n_samples, chain_.clock_rate_error));
+  const std::size_t n = record.n_samples;
+  return spectrum_of(resampled(moment, n, n, 0., 1. + chain_.clock_rate_error));
 }
 
 ChainSimulator::Spectra ChainSimulator::readings(std::span<const PreparedRecord> records) {

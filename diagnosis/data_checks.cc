@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "diagnosis/repeated_samples.h"
 #include "diagnosis/spectrum.h"
 #include "diagnosis/words.h"
 
@@ -153,20 +154,12 @@ void check_units(const NominalModel& nominal, const DatasetRecord& entry,
 }
 
 void check_repeats(const DatasetRecord& entry, std::vector<Finding>& findings) {
-  constexpr double many = 0.08;
   const auto check = [&](const std::string& name, bool moves) {
-    if (!moves || !entry.record.has(name)) return;
-    const auto x = entry.record.channel(name);
-    std::map<double, std::size_t> counts;
-    std::size_t repeats = 0;
-    for (std::size_t i = 1; i < x.size(); ++i) repeats += x[i] == x[i - 1];
-    for (const double v : x) ++counts[v];
-    const double share = static_cast<double>(repeats) / static_cast<double>(x.size());
-    // Few values: the steps of a converter repeat by themselves.
-    if (share > many && counts.size() > x.size() / 4)
-      findings.push_back({FindingKind::repeated_samples, entry.name,
-                          three_digits(100. * share) + " % of the samples of " + name +
-                              " equal the one before: it is polled faster than it is renewed"});
+    if (!moves || !entry.record.has(name) || !is_polled(entry.record.channel(name))) return;
+    findings.push_back({FindingKind::repeated_samples, entry.name,
+                        three_digits(100. * repeat_share(entry.record.channel(name))) +
+                            " % of the samples of " + name +
+                            " equal the one before: it is polled faster than it is renewed"});
   };
   check(channel::base_acceleration, entry.excitation.base);
   check(channel::base_moment, entry.excitation.base || entry.excitation.wind);

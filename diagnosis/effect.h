@@ -62,6 +62,7 @@ struct Scales {
 /// What the data must hold for an effect to be told.
 struct Needs {
   bool base = false, wind = false, cross = false;
+  bool repeats = false;  // an accelerometer that is polled faster than it is renewed
 };
 
 /// One entry of the catalogue of effects.md: how the nominal simulator is extended.

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "diagnosis/repeated_samples.h"
 #include "diagnosis/spectrum.h"
 #include "signals/error.h"
 
@@ -117,7 +118,10 @@ std::vector<std::size_t> driven_lines(const PreparedRecord& record, const Datase
 
 void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry, const double noise,
                           const ExcitedHarmonics& excited, const InputNoise treatment) {
-  out.acceleration = spectrum_of(entry.record.channel(channel::base_acceleration));
+  const std::span<const double> reading = entry.record.channel(channel::base_acceleration);
+  out.acceleration = spectrum_of(reading);
+  if (entry.excitation.base && is_polled(reading))
+    out.renewed = spectrum_of(renewed_series(reading));
   const double n = static_cast<double>(out.n_samples);
   if (treatment == InputNoise::as_measured) {
     out.noise_share.assign(out.acceleration.size(), 1.);
@@ -139,6 +143,7 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry, const
         ++out.n_acceleration_noise;
       }
     average_periods(out.acceleration, n_periods);
+    average_periods(out.renewed, n_periods);
   }
   out.noise_share =
       signal_share(out.acceleration, n * noise * noise, driven_lines(out, entry, excited));
@@ -150,6 +155,7 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry, const
     const double lost = std::max(0., std::norm(out.acceleration[k]) / noise_power - 3.);
     out.noise_share[k] = std::max(share, share * share + (1. - share) * (1. - share) * lost);
     out.acceleration[k] *= share;
+    if (!out.renewed.empty()) out.renewed[k] *= share;
   }
 }
 
@@ -206,8 +212,8 @@ bool acts_without_modes(const Effect& effect) {
   return !(chain.reference.empty() && chain.mount.empty() && chain.parallel.empty() &&
            chain.wind.empty() && chain.drag_factor == 1. && chain.feedthrough.empty() &&
            chain.cross.empty() && chain.readout.empty() && chain.sensor.empty() &&
-           chain.clock_rate_error == 0. && chain.reference_variance == 0. && chain.noise.empty() &&
-           chain.ramp_variance_rate == 0.);
+           chain.clock_rate_error == 0. && chain.renewed_share == 0. &&
+           chain.reference_variance == 0. && chain.noise.empty() && chain.ramp_variance_rate == 0.);
 }
 
 Scales scales_of(const Experiment& experiment) {
@@ -245,6 +251,7 @@ bool shows(const Experiment& experiment, const Effect& effect) {
   return (!effect.needs.base || experiment.has_base) &&
          (!effect.needs.wind || experiment.has_wind) &&
          (!effect.needs.cross || experiment.has_cross) &&
+         (!effect.needs.repeats || experiment.has_repeats) &&
          (!experiment.nominal.modes.empty() || acts_without_modes(effect));
 }
 
@@ -306,6 +313,7 @@ Experiment prepare_experiment(const MendedModel& simulation, const signals::Data
     experiment.has_base |= entry.excitation.base;
     experiment.has_wind |= entry.excitation.wind;
     experiment.has_cross |= !record.cross_acceleration.empty();
+    experiment.has_repeats |= !record.renewed.empty();
   }
   if (!experiment.has_base && !experiment.has_wind && split == signals::Split::fit)
     throw signals::UserError(

@@ -21,6 +21,7 @@ struct PreparedRecord {
   std::size_t first = 0, n_judged = 0;  // samples that are judged: the start may hold transients
 
   std::vector<Complex> acceleration;        // k = 0 .. n/2, noise reduced; empty: not measured
+  std::vector<Complex> renewed;             // its source's; empty: not polled
   std::vector<Complex> cross_acceleration;  // empty: not measured
   std::vector<double> wind;                 // at the samples; empty: not measured
   /// Share of the accelerometer noise that is left at line k of the whole record.
@@ -51,7 +52,7 @@ struct Experiment {
   Scales scales;
   double moment_noise = 0.;        // guess, a sample [N m]
   double acceleration_noise = 0.;  // guess, a sample [m/s^2]
-  bool has_base = false, has_wind = false, has_cross = false;
+  bool has_base = false, has_wind = false, has_cross = false, has_repeats = false;
 
   /// The simulation as it is.
   Chain nominal_chain() const { return MendedModel(nominal, known).chain(); }

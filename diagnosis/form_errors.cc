@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "diagnosis/frequency_block.h"
 #include "diagnosis/spectrum.h"
 
 namespace vibrissa::diagnosis {
 namespace {
-
-/// A form error hardly changes over a tenth of the first mode's frequency.
-std::size_t block_of(const Experiment& experiment, const PreparedRecord& record, std::size_t bin) {
-  const double block_hz = 0.1 * experiment.scales.first_mode_rad_s / (2. * std::numbers::pi);
-  return static_cast<std::size_t>(static_cast<double>(bin + 1) * record.bin_hz() / block_hz);
-}
 
 /// Power by which two fits foretell a record differently, around each bin.
 std::vector<double> change(const FittedRecord& a, const FittedRecord& b) {
@@ -58,7 +52,7 @@ Hidden hidden_by_forms(const Experiment& experiment, const HypothesisFit& fit,
     const std::vector<double> gained = change(fit.records[r], fewer.records[r]);
     const FormErrors& errors = fewer.records[r].form_errors;
     for (std::size_t b = 0; b < gained.size(); ++b) {
-      const std::size_t place = block_of(experiment, experiment.records[r], b);
+      const std::size_t place = frequency_block(experiment, experiment.records[r], b);
       if (place >= all.size()) {
         nonlinear.resize(place + 1);
         all.resize(place + 1);

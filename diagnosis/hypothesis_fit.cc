@@ -225,20 +225,6 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
   return records;
 }
 
-double excess_of(const Experiment& experiment, const HypothesisFit& fit) {
-  // What the line of a drift leaves is judged with the drift.
-  constexpr std::size_t n_lines_of_ramp = 10;
-  const std::size_t first =
-      fit.chain(experiment).ramp_variance_rate > 0. ? n_lines_of_ramp : std::size_t{0};
-  double power = 0., count = 0.;
-  for (const WhitenedRecord& record : whitened_residual(experiment, fit))
-    for (std::size_t b = first; b < record.error.size(); ++b) {
-      power += std::norm(record.error[b]);
-      count += 1.;
-    }
-  return count > 0. ? power / count - 1. : 0.;
-}
-
 }  // namespace
 
 std::optional<std::size_t> HypothesisFit::place(const std::string& effect,
@@ -296,7 +282,8 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   if (!std::isfinite(fit.log_evidence)) fit.log_evidence = -std::numeric_limits<double>::infinity();
   fit.choices = retune_choices(fit);
   fit.records = fitted_records(experiment, posterior, fit, climb.predictions, actions);
-  fit.excess = excess_of(experiment, fit);
+  fit.goodness = goodness_of_fit(experiment, whitened_residual(experiment, fit),
+                                 fit.chain(experiment).ramp_variance_rate > 0.);
   return fit;
 }
 

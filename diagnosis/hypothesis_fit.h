@@ -9,6 +9,7 @@
 #include "diagnosis/experiment.h"
 #include "diagnosis/fit_figures.h"
 #include "diagnosis/fit_posterior.h"
+#include "diagnosis/goodness_of_fit.h"
 #include "diagnosis/hypothesis.h"
 
 namespace vibrissa::diagnosis {
@@ -32,12 +33,6 @@ struct FittedRecord {
   FormErrors form_errors;
 };
 
-/// A record under a fit: whitened bins.
-struct WhitenedRecord {
-  std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
-  std::vector<double> deviation;  // sqrt(variance) [N m]
-};
-
 /// A hypothesis at its most probable parameters. Figures in their coordinates x.
 struct HypothesisFit {
   Hypothesis hypothesis;
@@ -53,9 +48,7 @@ struct HypothesisFit {
   /// Whitened energy of what each effect or retune does, sum |mean - mean without it|^2 / S.
   std::vector<std::pair<const Effect*, double>> effect_energy;
   std::vector<FittedRecord> records;
-  /// Mean of the whitened residual's power less one: what neither the effects nor the bounds of
-  /// their form errors explain.
-  double excess = 0.;
+  GoodnessOfFit goodness;
 
   /// Form errors of all effects and retunes but one, in whitened energy: what gains less than this
   /// is not told from them.

@@ -120,10 +120,12 @@ bool tells_noise(const Effect& effect) {
 }
 
 /// An answer whose residual stands out of the noise, the bounds of its form errors included, names
-/// the wrong cause or not all: something unknown is there.
+/// the wrong cause or not all: something unknown is there. So does one whose noise has the wrong
+/// spectrum by more than chance and forms that are right to a few percent bring.
 bool leaves_too_much(const HypothesisFit& fit) {
-  constexpr double most_excess = 0.05;
-  return !fit.hypothesis.effects().empty() && fit.excess > most_excess;
+  constexpr double most_excess = 0.05, most_misshape_nats = 100.;
+  return !fit.hypothesis.effects().empty() &&
+         (fit.goodness.excess > most_excess || fit.goodness.misshape_nats > most_misshape_nats);
 }
 
 class Searcher {

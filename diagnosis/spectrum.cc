@@ -47,6 +47,26 @@ std::vector<double> upsampled(std::span<const Complex> spectrum, const std::size
   return {fft.time().begin(), fft.time().end()};
 }
 
+std::vector<double> resampled(const std::span<const Complex> spectrum, const std::size_t n,
+                              const std::size_t n_out, const double start, const double step) {
+  constexpr std::size_t factor = 4;
+  const std::vector<double> fine = upsampled(spectrum, n, factor);
+  std::vector<double> out(n_out);
+  const auto size = static_cast<std::ptrdiff_t>(fine.size());
+  for (std::size_t i = 0; i < n_out; ++i) {
+    const double place = factor * (start + static_cast<double>(i) * step);
+    const double floor = std::floor(place), x = place - floor;
+    const auto at = [&](std::ptrdiff_t d) {
+      return fine[static_cast<std::size_t>(
+          ((static_cast<std::ptrdiff_t>(floor) + d) % size + size) % size)];
+    };
+    const double a = at(-1), b = at(0), c = at(1), e = at(2);
+    out[i] = b + x * (c - a / 3. - b / 2. - e / 6. +
+                      x * ((a + c) / 2. - b + x * ((e - a) / 6. + (b - c) / 2.)));
+  }
+  return out;
+}
+
 std::vector<Complex> difference(std::span<const Complex> a, std::span<const Complex> b) {
   std::vector<Complex> out(a.begin(), a.end());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] -= b[i];

@@ -17,6 +17,11 @@ std::vector<double> samples_of(std::span<const Complex> spectrum, std::size_t n)
 /// them.
 std::vector<double> upsampled(std::span<const Complex> spectrum, std::size_t n, std::size_t factor);
 
+/// n_out samples of the circular series of a spectrum, at places start + i step of its n samples:
+/// by cubic interpolation on a four times finer grid.
+std::vector<double> resampled(std::span<const Complex> spectrum, std::size_t n, std::size_t n_out,
+                              double start, double step);
+
 /// a - b, entry by entry.
 std::vector<Complex> difference(std::span<const Complex> a, std::span<const Complex> b);
 

@@ -40,9 +40,11 @@ const std::set<std::string> ids_of_effects_md{"stiffness",
                                               "hum",
                                               "delay",
                                               "sensor_lowpass",
-                                              "clock_drift"};
+                                              "clock_drift",
+                                              "sample_repeat"};
 
-/// A base record, one under wind and one with both, all with a transverse acceleration.
+/// A base record, one under wind and one with both, all with a transverse acceleration and an
+/// accelerometer that is polled too fast.
 Experiment experiment_of_all_kinds() {
   const test::OneModeRig rig = test::noisy_rig();
   signals::Dataset dataset = test::rig_dataset(rig, {.wind = true});
@@ -50,7 +52,10 @@ Experiment experiment_of_all_kinds() {
   for (signals::DatasetRecord& entry : dataset.records) {
     const auto a = entry.record.channel(signals::channel::base_acceleration);
     std::vector<double> transverse(a.rbegin(), a.rend());
+    std::vector<double> polled(a.begin(), a.end());
+    for (std::size_t i = 5; i < polled.size(); i += 5) polled[i] = polled[i - 1];
     entry.record.set_channel(signals::channel::cross_acceleration, std::move(transverse));
+    entry.record.set_channel(signals::channel::base_acceleration, std::move(polled));
   }
   NominalModel nominal = test::nominal_of(rig, true);
   nominal.modes.push_back({.frequency_rad_s = 1200.,

@@ -1,0 +1,22 @@
+#include "diagnosis/effect.h"
+
+namespace vibrissa::diagnosis::effects {
+
+Effect sample_repeat() {
+  return Effect{
+      .id = "sample_repeat",
+      .link = Link::clock,
+      .equation = "a_read(k T) = a(age + floor(k T / Ts) Ts): the source's own samples are taken",
+      .source = "effects.md; an ADXL345 renews at 400 or 800 Hz",
+      .confused_with = "reference_noise; equal neighbours",
+      .form_error = 0.01,
+      .needs = {.base = true, .repeats = true},
+      .parameters = {uniform("share", "1", 0., 1., 0.), uniform("age", "s", -2e-3, 4e-3, 0.)},
+      .starts = {{1., 0.}},
+      .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+        chain.renewed_share += v[0];
+        chain.reference.push_back([age = v[1]](Complex s) { return std::exp(s * age); });
+      }};
+}
+
+}  // namespace vibrissa::diagnosis::effects

@@ -1,0 +1,53 @@
+#include "diagnosis/goodness_of_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "diagnosis/frequency_block.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+struct Block {
+  double power = 0., count = 0.;
+  double gain() const {
+    constexpr double fewest = 10.;
+    if (count < fewest) return 0.;
+    const double mean = power / count;
+    return std::max(0., count * (mean - 1. - std::log(mean)) - 0.5 * std::log(count));
+  }
+};
+
+int kind_of(const PreparedRecord& record) {
+  return (record.excitation.base ? 1 : 0) + (record.excitation.wind ? 2 : 0);
+}
+
+}  // namespace
+
+GoodnessOfFit goodness_of_fit(const Experiment& experiment,
+                              const std::span<const WhitenedRecord> records, const bool has_ramp) {
+  // What the line of a drift leaves is judged with the drift.
+  constexpr std::size_t n_lines_of_ramp = 10;
+  std::map<std::pair<int, std::size_t>, Block> blocks;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (std::size_t b = has_ramp ? n_lines_of_ramp : 0; b < records[r].error.size(); ++b) {
+      const PreparedRecord& record = experiment.records[r];
+      Block& block = blocks[{kind_of(record), frequency_block(experiment, record, b)}];
+      block.power += std::norm(records[r].error[b]);
+      block.count += 1.;
+    }
+  GoodnessOfFit out;
+  double power = 0., count = 0.;
+  for (const auto& [place, block] : blocks) {
+    power += block.power;
+    count += block.count;
+    out.misshape_nats += block.gain();
+  }
+  if (count > 0.) out.excess = power / count - 1.;
+  return out;
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "diagnosis/experiment.h"
+
+namespace vibrissa::diagnosis {
+
+/// A record under a fit: whitened bins.
+struct WhitenedRecord {
+  std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
+  std::vector<double> deviation;  // sqrt(variance) [N m]
+};
+
+/// How well a fit's variance describes its residual.
+struct GoodnessOfFit {
+  /// Mean of the whitened residual's power less one: what neither the effects nor the bounds of
+  /// their form errors explain.
+  double excess = 0.;
+  /// Log likelihood that a free factor on the variance of each block of bins, of records that are
+  /// moved alike, would gain:
+  ///   sum over blocks of max(0, n (m - 1 - ln m) - ln(n) / 2),  m mean power of n bins;
+  /// noise of the right power with the wrong spectrum has much of it. Some 20 nats by chance.
+  double misshape_nats = 0.;
+};
+
+/// records: residual of the experiment's records under a fit. has_ramp: the first lines are judged
+/// with a drift. Proven by tests/diagnosis/goodness_of_fit_test.cc.
+GoodnessOfFit goodness_of_fit(const Experiment& experiment, std::span<const WhitenedRecord> records,
+                              bool has_ramp);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace vibrissa::diagnosis {
+
+/// Does a channel hold so many samples equal to the one before that it is polled faster than it is
+/// renewed? Steps of a coarse converter repeat by themselves and do not count.
+bool is_polled(std::span<const double> x);
+/// Share of the samples that equal the one before.
+double repeat_share(std::span<const double> x);
+
+/// What the source gave, band-limited, at the times of x: the first of each run of equal samples,
+/// at the steady rate at which runs begin. Late by the age of a fresh sample, less than one period
+/// of the source. Proven by tests/diagnosis/repeated_samples_test.cc.
+std::vector<double> renewed_series(std::span<const double> x);
+
+}  // namespace vibrissa::diagnosis
