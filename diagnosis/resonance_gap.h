@@ -65,11 +65,12 @@ struct ResonanceDiagnosis {
 /// integrated along the line of solutions (the last figure solved for, the density divided by
 /// |dg/dx|) and over the deviation of y, 2 sqrt(s^2 + s0^2). P: the priors of the search
 /// (log_prior_of_number, Effect::log_prior). pi_c: the damper that is left, usual 0.3 .. 3
-/// (effects.md). `none` and, for what no effect reaches, outside_catalogue compete. Where the
-/// frequencies agree but not the damping ratios, the first of them is `damping`. Throws UserError
-/// for figures that are not positive, deviations outside (0, 0.5), damping ratios or shares outside
-/// (0, 1]. Proven by tests/diagnosis/resonance_gap_test.cc against closed forms, the finite-element
-/// model and sampled priors.
+/// (effects.md). The silicone's share is taken as given. `none` and, for what no effect reaches,
+/// outside_catalogue compete. Where the frequencies agree but not the damping ratios, the first of
+/// them is `damping`. Throws UserError for figures that are not positive, deviations outside (0,
+/// 0.5), damping ratios outside (0, 1) or shares outside (0, 1]. Proven by
+/// tests/diagnosis/resonance_gap_test.cc against closed forms, the finite-element model and sampled
+/// priors.
 ResonanceDiagnosis explain_resonance_gap(const ResonanceFigures& simulated,
                                          const ResonanceFigures& measured,
                                          const ResonanceModel& model = {});

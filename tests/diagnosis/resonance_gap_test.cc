@@ -67,6 +67,16 @@ TEST(ResonanceGap, FirstNamesASofterSiliconeAndAnExperiment) {
   EXPECT_NEAR(sum, 1., 1e-12);
 }
 
+TEST(ResonanceGap, NoMountOfAUsualFrequencyReachesTheReferenceStudysGap) {
+  const ResonanceDiagnosis gap = paper();
+  const ResonanceExplanation& mount = find(gap, "mount_compliance");
+  // b^2 = q (1 + m / (1 - q)) at the heaviest first mode, m = 0.4.
+  const double q = std::pow(31.47 / 37.32, 2);
+  EXPECT_NEAR(value(mount, "frequency"), 37.32 * std::sqrt(q * (1. + 0.4 / (1. - q))), 1e-6);
+  EXPECT_LT(value(mount, "frequency"), 60.);
+  EXPECT_THAT(mount.note, HasSubstr("frequency outside its usual 60 .. 200"));
+}
+
 TEST(ResonanceGap, SaysWhichDamperIsLeft) {
   const ResonanceDiagnosis gap = paper();
   const double change = 0.027 / 0.05, r = gap.modal_ratio;
