@@ -1,6 +1,7 @@
 #include "diagnosis/hypothesis.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "diagnosis/words.h"
@@ -54,6 +55,14 @@ Hypothesis Hypothesis::with(const Effect& effect) const {
   std::vector<const Effect*> effects = effects_;
   effects.push_back(&effect);
   return Hypothesis(std::move(effects));
+}
+
+double log_prior_of_number(const std::size_t n, const std::size_t n_known) {
+  constexpr double of_size[] = {-1.2, -0.7, -2.3, -4.6};
+  double sum = n < 4 ? of_size[n] : of_size[3] - 2.3 * static_cast<double>(n - 3);
+  for (std::size_t i = 0; i < n; ++i)
+    sum -= std::log(static_cast<double>(n_known - i) / static_cast<double>(i + 1));
+  return sum;
 }
 
 Hypothesis Hypothesis::without(const Effect& effect) const {

@@ -34,6 +34,11 @@ class Hypothesis {
 };
 
 inline const std::string outside_catalogue = "outside_catalogue";
+/// An unknown effect is as likely as one of the known ones.
+constexpr double log_prior_of_outside_catalogue = -4.;
+/// Of naming these n of n_known effects: how many there are, and that it is just these. Each
+/// beyond three costs as much again.
+double log_prior_of_number(std::size_t n, std::size_t n_known);
 
 /// Ids in alphabetical order joined by '+'; "none" for none.
 std::string joined_name(std::vector<std::string> ids);

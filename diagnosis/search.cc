@@ -15,12 +15,6 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Log prior of the number of things that are named: none, one, two, three; each further one costs
-/// as much again.
-double log_prior_of_number(std::size_t n) {
-  constexpr double known[] = {-1.2, -0.7, -2.3, -4.6};
-  return n < 4 ? known[n] : known[3] - 2.3 * static_cast<double>(n - 3);
-}
 /// How many of each size are extended, and by how many partners.
 constexpr std::size_t n_extended = 4, n_partners = 5;
 
@@ -54,22 +48,12 @@ void keep_first(std::vector<std::size_t>& list, std::size_t n) {
   if (list.size() > n) list.erase(list.begin() + static_cast<std::ptrdiff_t>(n), list.end());
 }
 
-/// An unknown effect is as likely as one of the known ones.
-constexpr double log_prior_of_discrepancy = -4.;
-
-double log_choose(std::size_t n, std::size_t k) {
-  double sum = 0.;
-  for (std::size_t i = 0; i < k; ++i)
-    sum += std::log(static_cast<double>(n - i) / static_cast<double>(i + 1));
-  return sum;
-}
-
 double log_prior(const Hypothesis& hypothesis, std::size_t n_retunes, std::size_t n_testable) {
-  if (hypothesis.is_discrepancy()) return log_prior_of_discrepancy;
+  if (hypothesis.is_discrepancy()) return log_prior_of_outside_catalogue;
   double own = 0.;
   for (const Effect* effect : hypothesis.effects()) own += effect->log_prior;
   const std::size_t n = hypothesis.effects().size() + n_retunes;
-  return own + log_prior_of_number(n) - log_choose(n_testable, n);
+  return own + log_prior_of_number(n, n_testable);
 }
 
 double choice_posterior(const HypothesisFit& fit, const RetuneChoice& choice,

@@ -23,6 +23,43 @@ TEST(DiagnoseCommand, NamesTheFolderThatIsMissing) {
   EXPECT_THAT(result.errors, HasSubstr("nowhere"));
 }
 
+TEST(DiagnoseCommand, ExplainsThePapersGapWithoutRecords) {
+  const auto result = vibrissa("diagnose --example paper-gap --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(result.json()["schema"], "vibrissa-resonance-gap-1");
+  EXPECT_EQ(result.json()["verdict"], "stiffness");
+  const auto figures = vibrissa("diagnose --resonance 37.32:31.47 --damping 0.05:0.027");
+  ASSERT_EQ(figures.status, 0) << figures.errors;
+  EXPECT_THAT(figures.output, HasSubstr("stiffness: ratio 0.711"));
+  EXPECT_THAT(figures.output, HasSubstr("mass: ratio 1.41"));
+}
+
+TEST(DiagnoseCommand, LeavesTheExplanationInAFolder) {
+  const Folder folder;
+  const auto result = vibrissa("diagnose --example paper-gap -o '" + folder.file("out") + "'");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(content(folder.file("out/verdict.txt")), result.output);
+  EXPECT_TRUE(fs::exists(folder.file("out/resonance_gap.json")));
+}
+
+TEST(DiagnoseCommand, RefusesFiguresThatContradict) {
+  const std::vector<std::array<std::string, 2>> cases{
+      {"--resonance 37.32:31.47 --real x", "either figures or records"},
+      {"--example paper-gap --sim x", "either figures or records"},
+      {"--example paper-gap --resonance 1:2", "has its own figures"},
+      {"--damping 0.05:0.027", "needs --resonance"},
+      {"--example paper_gap", "did you mean 'paper-gap'"},
+      {"--resonance 37.32", "SIMULATED:MEASURED"},
+      {"--resonance 37.32:x", "SIMULATED:MEASURED"},
+      {"--resonance 37.32:-1", "give a positive number"},
+      {"--model nowhere.json", "--real DATASET"}};
+  for (const auto& [options, message] : cases) {
+    const auto result = vibrissa("diagnose " + options);
+    EXPECT_EQ(result.status, 2) << options;
+    EXPECT_THAT(result.errors, HasSubstr(message)) << options;
+  }
+}
+
 TEST(DiagnoseCommand, LeavesVerdictRankingAndFigures) {
   const fs::path practice = fs::path(VIBRISSA_SOURCE_DIR) / ".." / "shared" / "practice";
   if (!fs::exists(practice)) GTEST_SKIP() << practice << " is missing";
