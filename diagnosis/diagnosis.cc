@@ -132,6 +132,7 @@ Diagnosis diagnose(const NominalModel& nominal, const signals::Dataset& real,
   refuse_poor_data(nominal, real, out.findings);
   const Experiment experiment =
       prepare_experiment(nominal, real, signals::Split::fit, InputNoise::reduced);
+  out.untested = untested_effects(experiment);
   out.location = locate_gap(experiment);
   const SearchResult result = search(experiment, options.search);
   const Candidate& best = result.candidates.front();
