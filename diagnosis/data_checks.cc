@@ -9,6 +9,7 @@
 #include "diagnosis/level.h"
 #include "diagnosis/response_checks.h"
 #include "diagnosis/words.h"
+#include "signals/number_text.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -104,7 +105,7 @@ Holdings holdings_of(const NominalModel& nominal, const signals::Dataset& real) 
     out.base |= entry.excitation.base;
     out.wind |= entry.excitation.wind;
     if (entry.excitation.base)
-      out.levels.push_back(rms_without_mean(entry.record.channel(channel::base_acceleration)));
+      out.levels.push_back(rms_about_mean(entry.record.channel(channel::base_acceleration)));
   }
   return out;
 }
@@ -154,8 +155,8 @@ std::vector<Finding> check_data(const NominalModel& nominal, const signals::Data
     const double rate_hz = entry.record.sampling_rate_hz();
     if (simulated_rate_hz > 0. && std::abs(rate_hz / simulated_rate_hz - 1.) > 1e-3)
       findings.push_back({FindingKind::different_rate, entry.name,
-                          "sampled at " + three_digits(rate_hz) + " Hz, the simulation at " +
-                              three_digits(simulated_rate_hz) +
+                          "sampled at " + signals::to_text(rate_hz) + " Hz, the simulation at " +
+                              signals::to_text(simulated_rate_hz) +
                               " Hz: compared in continuous frequency, which is sound below both "
                               "halves"});
   }

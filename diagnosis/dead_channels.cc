@@ -1,8 +1,11 @@
 #include "diagnosis/dead_channels.h"
 
 #include <algorithm>
+#include <limits>
+#include <numbers>
 
 #include "diagnosis/level.h"
+#include "diagnosis/spectrum.h"
 #include "diagnosis/words.h"
 
 namespace vibrissa::diagnosis {
@@ -94,24 +97,45 @@ void check_dead_channels(const DatasetRecord& entry, std::vector<Finding>& findi
     check_constant(entry, channel::base_moment, findings);
 }
 
-void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings) {
-  constexpr double much = 0.5;
-  double acceleration = 0., moment = 0.;
+namespace {
+
+/// Mean over median power of the lines, 1 for white noise: tones and bands stand far above.
+double colour(std::span<const double> x) {
+  std::vector<double> power = powers(spectrum_of(x));
+  power.erase(power.begin());
+  double sum = 0.;
+  for (const double p : power) sum += p;
+  const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
+  std::nth_element(power.begin(), middle, power.end());
+  return *middle > 0. ? sum / static_cast<double>(power.size()) * std::numbers::ln2 / *middle : 1.;
+}
+
+bool is_driven(const DatasetRecord& entry) {
+  return entry.excitation.base && entry.record.has(channel::base_acceleration);
+}
+
+double least_level(const signals::Dataset& dataset, const std::string& name) {
+  double least = std::numeric_limits<double>::infinity();
   for (const DatasetRecord& entry : dataset.records)
-    if (entry.excitation.base && entry.record.has(channel::base_acceleration)) {
-      acceleration = std::max(acceleration,
-                              rms_without_mean(entry.record.channel(channel::base_acceleration)));
-      moment = std::max(moment, rms_without_mean(entry.record.channel(channel::base_moment)));
-    }
-  if (acceleration == 0. || moment == 0.) return;
+    if (is_driven(entry)) least = std::min(least, rms_about_mean(entry.record.channel(name)));
+  return least;
+}
+
+}  // namespace
+
+void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings) {
+  constexpr double much = 0.5, coloured = 5.;
+  const double acceleration = least_level(dataset, channel::base_acceleration),
+               moment = least_level(dataset, channel::base_moment);
   for (const DatasetRecord& entry : dataset.records) {
     if (entry.excitation != signals::Excitation{} || !entry.record.has(channel::base_acceleration))
       continue;
-    const double a = rms_without_mean(entry.record.channel(channel::base_acceleration));
-    if (a > much * acceleration &&
-        rms_without_mean(entry.record.channel(channel::base_moment)) > much * moment)
+    const auto a = entry.record.channel(channel::base_acceleration);
+    if (rms_about_mean(a) > much * acceleration && colour(a) > coloured &&
+        rms_about_mean(entry.record.channel(channel::base_moment)) > much * moment)
       findings.push_back({FindingKind::moves_at_rest, entry.name,
-                          "excitation is none but the base moves at " + three_digits(a) +
+                          "excitation is none but the base moves at " +
+                              three_digits(rms_about_mean(a)) +
                               " m/s^2 rms and the moment with it: noise cannot be taken from it; "
                               "correct its excitation in dataset.json"});
   }

@@ -12,7 +12,8 @@ namespace vibrissa::diagnosis {
 /// tests/diagnosis/dead_channels_test.cc.
 void check_dead_channels(const signals::DatasetRecord& entry, std::vector<Finding>& findings);
 
-/// Records at rest in which base and moment move half as much as where the base is driven.
+/// Records at rest in which base and moment move, not as white noise does, half as much as where
+/// the base is driven least.
 void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings);
 
 }  // namespace vibrissa::diagnosis

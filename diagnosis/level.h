@@ -6,7 +6,7 @@
 namespace vibrissa::diagnosis {
 
 /// Root mean square about the mean.
-inline double rms_without_mean(std::span<const double> x) {
+inline double rms_about_mean(std::span<const double> x) {
   double sum = 0., square = 0.;
   for (const double v : x) sum += v;
   const double mean = sum / static_cast<double>(x.size());

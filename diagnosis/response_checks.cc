@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "diagnosis/experiment.h"
 #include "diagnosis/spectrum.h"
 #include "diagnosis/words.h"
+#include "signals/number_text.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -17,13 +19,11 @@ namespace {
 using signals::DatasetRecord;
 namespace channel = signals::channel;
 
-/// Measured over nominal response to input at the lines where the nominal one is strong.
+/// Measured over nominal response at lines where the nominal one is not faint.
 struct Ratio {
   double median = 1.;
-  double spread = 0.;  // between quartiles of its logarithm
-  /// Normalized product of measured and nominal response well below the first mode, where no effect
-  /// turns the phase far: -1 for an opposite sign. Nothing: too few lines there.
-  std::optional<double> slow_likeness{};
+  double spread = 0.;    // between quartiles of its logarithm
+  double likeness = 0.;  // normalized product of both: -1 for an opposite sign
 };
 
 double first_mode_hz(const NominalModel& nominal) {
@@ -63,52 +63,47 @@ class ResponseRatio {
                 const std::string& output = channel::base_moment)
       : measured_(spectrum_of(entry.record.channel(output))),
         predicted_(std::move(predicted)),
-        line_hz_(entry.record.sampling_rate_hz() / static_cast<double>(entry.record.n_samples())) {
-    for (std::size_t k = 1; k + 1 < predicted_.size(); ++k)
-      largest_ = std::max(largest_, std::abs(predicted_[k]));
-  }
+        line_hz_(entry.record.sampling_rate_hz() / static_cast<double>(entry.record.n_samples())) {}
 
-  std::optional<Ratio> strong_lines() const {
-    std::vector<double> logs;
-    for (std::size_t k = 1; k + 1 < predicted_.size(); ++k)
-      if (std::abs(predicted_[k]) > 0.1 * largest_ && std::abs(measured_[k]) > 0.)
-        logs.push_back(std::log(std::abs(measured_[k] / predicted_[k])));
-    if (logs.empty()) return std::nullopt;
-    std::sort(logs.begin(), logs.end());
-    const std::size_t n = logs.size();
-    return Ratio{std::exp(logs[n / 2]), logs[3 * n / 4] - logs[n / 4], {}};
-  }
-
-  /// Of the lines below a frequency that are not faint among themselves.
-  std::optional<double> likeness_below(double highest_hz) const {
-    constexpr std::size_t fewest_lines = 6;
-    const std::size_t end =
-        std::min(measured_.size() - 1, static_cast<std::size_t>(highest_hz / line_hz_) + 1);
+  /// Nothing: fewer lines than these up to a frequency.
+  std::optional<Ratio> up_to(double highest_hz, std::size_t fewest_lines) const {
+    const double last = std::min(highest_hz / line_hz_, static_cast<double>(measured_.size() - 2));
     double largest = 0., product = 0., measured = 0., predicted = 0.;
-    std::size_t n = 0;
-    for (std::size_t k = 1; k < end; ++k) largest = std::max(largest, std::abs(predicted_[k]));
-    for (std::size_t k = 1; k < end; ++k) {
-      if (!(std::abs(predicted_[k]) > 0.1 * largest)) continue;
+    for (std::size_t k = 1; static_cast<double>(k) <= last; ++k)
+      largest = std::max(largest, std::abs(predicted_[k]));
+    std::vector<double> logs;
+    for (std::size_t k = 1; static_cast<double>(k) <= last; ++k) {
+      if (!(std::abs(predicted_[k]) > 0.1 * largest && std::abs(measured_[k]) > 0.)) continue;
+      logs.push_back(std::log(std::abs(measured_[k] / predicted_[k])));
       product += (measured_[k] * std::conj(predicted_[k])).real();
       measured += std::norm(measured_[k]);
       predicted += std::norm(predicted_[k]);
-      ++n;
     }
-    if (n < fewest_lines || measured == 0.) return std::nullopt;
-    return product / std::sqrt(measured * predicted);
+    if (logs.size() < fewest_lines) return std::nullopt;
+    std::sort(logs.begin(), logs.end());
+    const std::size_t n = logs.size();
+    return Ratio{std::exp(logs[n / 2]), logs[3 * n / 4] - logs[n / 4],
+                 product / std::sqrt(measured * predicted)};
   }
 
  private:
   std::vector<Complex> measured_, predicted_;
-  double line_hz_ = 1., largest_ = 0.;
+  double line_hz_ = 1.;
 };
 
-std::optional<Ratio> ratio_of(const NominalModel& nominal, const ResponseRatio& lines) {
-  std::optional<Ratio> ratio = lines.strong_lines();
+/// Both as far as the records tell them.
+struct Ratios {
+  std::optional<Ratio> all, slow;
+  /// A mode that has moved changes the response about it tenfold, but not well below it.
+  double factor() const { return slow ? slow->median : all->median; }
+};
+
+Ratios ratios_of(const NominalModel& nominal, const ResponseRatio& lines) {
   // A silicone of a third of its stiffness still has its mode above this.
   constexpr double slow = 0.4;
-  if (ratio) ratio->slow_likeness = lines.likeness_below(slow * first_mode_hz(nominal));
-  return ratio;
+  constexpr std::size_t fewest_slow_lines = 4;
+  return {lines.up_to(std::numeric_limits<double>::infinity(), 1),
+          lines.up_to(slow * first_mode_hz(nominal), fewest_slow_lines)};
 }
 
 /// A factor of the response that a wrong unit gives.
@@ -140,10 +135,10 @@ void check_factor(double factor, const std::string& record, const std::string& c
                             " and that every channel was connected"});
 }
 
-void check_sign(const Ratio& ratio, const std::string& record, const std::string& message,
+void check_sign(const Ratios& ratios, const std::string& record, const std::string& message,
                 std::vector<Finding>& findings) {
-  constexpr double opposite = -0.8;
-  if (ratio.slow_likeness && *ratio.slow_likeness < opposite)
+  constexpr double opposite = -0.9;
+  if (ratios.slow && ratios.slow->likeness < opposite)
     findings.push_back({FindingKind::reversed_sign, record, message});
 }
 
@@ -180,24 +175,26 @@ bool is_driven(const DatasetRecord& entry, double acceleration_noise_m_s2) {
 
 void check_base(const NominalModel& nominal, const DatasetRecord& entry,
                 std::vector<Finding>& findings) {
-  const auto ratio =
-      ratio_of(nominal, {base_driven(nominal, entry, channel::base_acceleration), entry});
-  if (!ratio) return;
-  const auto exchanged = ratio_of(nominal, {base_driven(nominal, entry, channel::base_moment),
-                                            entry, channel::base_acceleration});
-  const bool implausible = std::abs(std::log10(ratio->median)) > 4.;
+  const Ratios ratios =
+      ratios_of(nominal, {base_driven(nominal, entry, channel::base_acceleration), entry});
+  if (!ratios.all) return;
+  const auto exchanged = ratios_of(nominal, {base_driven(nominal, entry, channel::base_moment),
+                                             entry, channel::base_acceleration})
+                             .all;
+  const bool implausible = std::abs(std::log10(ratios.all->median)) > 4.;
   if (implausible && exchanged && exchanged->median > 0.05 && exchanged->median < 20. &&
-      exchanged->spread < ratio->spread) {
+      exchanged->spread < ratios.all->spread) {
     findings.push_back({FindingKind::swapped_columns, entry.name,
                         "base_acceleration_m_s2 and base_moment_N_m seem to be exchanged: as "
                         "they stand the response is " +
-                            three_digits(ratio->median) + " times the simulated one, exchanged " +
+                            three_digits(ratios.all->median) +
+                            " times the simulated one, exchanged " +
                             three_digits(exchanged->median) + " times"});
     return;
   }
-  check_factor(ratio->median, entry.name, "base_acceleration_m_s2 and base_moment_N_m",
+  check_factor(ratios.factor(), entry.name, "base_acceleration_m_s2 and base_moment_N_m",
                mistakes_of_base(), findings);
-  check_sign(*ratio, entry.name,
+  check_sign(ratios, entry.name,
              "well below the first mode base_moment_N_m has the sign of base_acceleration_m_s2 "
              "that the simulation says it has not: multiply one of them by -1 (the moment is "
              "positive for wind in +x, hence negative for a steady acceleration in +x)",
@@ -206,11 +203,11 @@ void check_base(const NominalModel& nominal, const DatasetRecord& entry,
 
 void check_wind(const NominalModel& nominal, const DatasetRecord& entry,
                 std::vector<Finding>& findings) {
-  const auto ratio = ratio_of(nominal, {wind_driven(nominal, entry), entry});
-  if (!ratio) return;
-  check_factor(ratio->median, entry.name, "wind_speed_m_s and base_moment_N_m", mistakes_of_wind(),
-               findings);
-  check_sign(*ratio, entry.name,
+  const Ratios ratios = ratios_of(nominal, {wind_driven(nominal, entry), entry});
+  if (!ratios.all) return;
+  check_factor(ratios.factor(), entry.name, "wind_speed_m_s and base_moment_N_m",
+               mistakes_of_wind(), findings);
+  check_sign(ratios, entry.name,
              "base_moment_N_m falls when wind_speed_m_s rises, against the simulation: multiply "
              "one of them by -1 (the moment is positive for wind in +x)",
              findings);
@@ -221,8 +218,9 @@ void check_both(const NominalModel& nominal, const DatasetRecord& entry,
   std::vector<Complex> predicted = base_driven(nominal, entry, channel::base_acceleration);
   const std::vector<Complex> of_wind = wind_driven(nominal, entry);
   for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k] += of_wind[k];
-  if (const auto ratio = ratio_of(nominal, {std::move(predicted), entry}))
-    check_factor(ratio->median, entry.name,
+  const Ratios ratios = ratios_of(nominal, {std::move(predicted), entry});
+  if (ratios.all)
+    check_factor(ratios.factor(), entry.name,
                  "base_acceleration_m_s2, wind_speed_m_s and base_moment_N_m", mistakes_of_base(),
                  findings);
 }
@@ -231,7 +229,7 @@ void check_rate(const NominalModel& nominal, const DatasetRecord& entry,
                 std::vector<Finding>& findings) {
   const double mode_hz = first_mode_hz(nominal), rate_hz = entry.record.sampling_rate_hz();
   if (0.5 * rate_hz > mode_hz) return;
-  const std::string where = "sampled at " + three_digits(rate_hz) +
+  const std::string where = "sampled at " + signals::to_text(rate_hz) +
                             " Hz, while the first mode is "
                             "at " +
                             three_digits(mode_hz) + " Hz: ";

@@ -104,7 +104,16 @@ TEST(CheckRest, NamesARecordThatIsSaidToRestAndMoves) {
   EXPECT_THAT(out, IsEmpty());
   dataset.records[2].excitation = {};
   check_rest(dataset, out);
-  EXPECT_THAT(out, IsEmpty()) << "base_high is louder than what is left to compare it with";
+  EXPECT_THAT(out, ElementsAre(is(FindingKind::moves_at_rest, "correct its excitation")));
+}
+
+TEST(CheckRest, TakesNoiseAsStrongAsTheDriveForNoise) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.acceleration_noise = 1.;
+  rig.moment_noise = 1e-4;
+  std::vector<Finding> out;
+  check_rest(test::rig_dataset(rig), out);
+  EXPECT_THAT(out, IsEmpty());
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ signals::Dataset one_second(double stiffness, unsigned seed) {
 TEST(Diagnose, NamesNothingWrongWithCertaintyFromOneSecond) {
   const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
   for (const auto& [stiffness, truth] : {std::pair{1., "none"}, std::pair{0.9, "stiffness"}})
-    for (unsigned seed = 100; seed < 400; seed += 100) {
+    for (unsigned seed = 100; seed < 1100; seed += 100) {
       const Diagnosis diagnosis =
           diagnose(nominal, one_second(stiffness, seed), {.search = {.max_effects = 1}});
       const double wrong = diagnosis.verdict == truth ? 0. : diagnosis.ranking.front().probability;
@@ -212,9 +212,9 @@ TEST(Diagnose, DoesNotSayWhichGainIsOffWithoutWind) {
   }
   const Diagnosis diagnosis = diagnose(test::nominal_of(test::OneModeRig{}, false), dataset,
                                        {.search = {.max_effects = 1}});
-  EXPECT_THAT(diagnosis.confidence_set, Contains("sensor_gain"));
-  EXPECT_THAT(diagnosis.confidence_set, Contains("reference_gain"));
-  EXPECT_LT(diagnosis.ranking.front().probability, 0.8);
+  ASSERT_TRUE(diagnosis.verdict == "sensor_gain" || diagnosis.verdict == "reference_gain");
+  EXPECT_THAT(diagnosis.indistinguishable,
+              Contains(testing::UnorderedElementsAre("sensor_gain", "reference_gain")));
 }
 
 TEST(Diagnose, DiagnosesWindAlone) {
