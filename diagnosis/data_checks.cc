@@ -7,6 +7,7 @@
 #include "diagnosis/dead_channels.h"
 #include "diagnosis/experiment.h"
 #include "diagnosis/level.h"
+#include "diagnosis/period_check.h"
 #include "diagnosis/response_checks.h"
 #include "diagnosis/words.h"
 #include "signals/number_text.h"
@@ -74,6 +75,20 @@ void check_channels(const DatasetRecord& entry, std::vector<Finding>& findings) 
                         "be used"});
 }
 
+void check_axes(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  if (!entry.excitation.base || !entry.record.has(channel::base_acceleration) ||
+      !entry.record.has(channel::cross_acceleration))
+    return;
+  const double axial = rms_about_mean(entry.record.channel(channel::base_acceleration)),
+               cross = rms_about_mean(entry.record.channel(channel::cross_acceleration));
+  // A stage that is meant to move along one axis does not move thrice as much across it.
+  constexpr double too_much = 3.;
+  if (cross > too_much * axial && axial > 0.)
+    findings.push_back({FindingKind::swapped_columns, entry.name,
+                        "cross_acceleration_m_s2 is " + three_digits(cross / axial) +
+                            " times base_acceleration_m_s2 (rms): the columns seem exchanged"});
+}
+
 void check_length(const NominalModel& nominal, const DatasetRecord& entry,
                   std::vector<Finding>& findings) {
   const std::size_t n = entry.record.n_samples(), fewest = fewest_samples(nominal, entry);
@@ -85,6 +100,22 @@ void check_length(const NominalModel& nominal, const DatasetRecord& entry,
                             std::to_string(fewest) +
                             " are needed, or whole periods in steady "
                             "state (period_samples). It is left out"});
+}
+
+/// One finding a rate.
+void check_rates(const signals::Dataset& real, double simulated_rate_hz,
+                 std::vector<Finding>& findings) {
+  std::map<double, std::vector<std::string>> by_rate;
+  for (const DatasetRecord& entry : real.records)
+    by_rate[entry.record.sampling_rate_hz()].push_back(entry.name);
+  for (const auto& [rate_hz, names] : by_rate)
+    if (simulated_rate_hz > 0. && std::abs(rate_hz / simulated_rate_hz - 1.) > 1e-3)
+      findings.push_back({FindingKind::different_rate,
+                          by_rate.size() > 1 ? joined(names, ", ") : "",
+                          "sampled at " + signals::to_text(rate_hz) + " Hz, the simulation at " +
+                              signals::to_text(simulated_rate_hz) +
+                              " Hz: compared in continuous frequency, which is sound below both "
+                              "halves"});
 }
 
 /// What the fit records hold that can be compared with the simulation.
@@ -148,18 +179,14 @@ std::vector<Finding> check_data(const NominalModel& nominal, const signals::Data
   for (const DatasetRecord& entry : real.records) {
     check_channels(entry, findings);
     check_dead_channels(entry, findings);
+    check_axes(entry, findings);
+    check_period(entry, findings);
     check_length(nominal, entry, findings);
     check_clipping(entry, findings);
     check_repeats(entry, findings);
     check_response(nominal, entry, acceleration_noise, findings);
-    const double rate_hz = entry.record.sampling_rate_hz();
-    if (simulated_rate_hz > 0. && std::abs(rate_hz / simulated_rate_hz - 1.) > 1e-3)
-      findings.push_back({FindingKind::different_rate, entry.name,
-                          "sampled at " + signals::to_text(rate_hz) + " Hz, the simulation at " +
-                              signals::to_text(simulated_rate_hz) +
-                              " Hz: compared in continuous frequency, which is sound below both "
-                              "halves"});
   }
+  check_rates(real, simulated_rate_hz, findings);
   check_rest(real, findings);
   check_what_is_there(nominal, real, findings);
   return findings;

@@ -1,8 +1,8 @@
 #include "diagnosis/dead_channels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "diagnosis/level.h"
 #include "diagnosis/spectrum.h"
@@ -84,6 +84,27 @@ void check_stuck(const DatasetRecord& entry, const std::string& name, const std:
                           " moves: samples were lost; use the part before or after"});
 }
 
+/// A moment rings on after a blow: one sample far above both of its neighbours is none of it.
+void check_spikes(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  const auto x = entry.record.channel(channel::base_moment);
+  std::vector<double> sizes(x.begin(), x.end());
+  for (double& v : sizes) v = std::abs(v);
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  constexpr double above_all = 30., above_neighbours = 10.;
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+    const double size = std::abs(x[i]);
+    if (!(size > above_all * *middle) || *middle == 0.) continue;
+    if (size < above_neighbours * std::max(std::abs(x[i - 1]), std::abs(x[i + 1]))) continue;
+    findings.push_back({FindingKind::spike, entry.name,
+                        "base_moment_N_m jumps to " + three_digits(x[i]) + " for one sample at " +
+                            three_digits(entry.record.time_s(i)) +
+                            " s, far above its neighbours: a fault of the recording; use the part "
+                            "before or after"});
+    return;
+  }
+}
+
 }  // namespace
 
 void check_dead_channels(const DatasetRecord& entry, std::vector<Finding>& findings) {
@@ -95,19 +116,15 @@ void check_dead_channels(const DatasetRecord& entry, std::vector<Finding>& findi
   if (entry.excitation.wind) check_constant(entry, channel::wind_speed, findings);
   if (entry.excitation.base || entry.excitation.wind)
     check_constant(entry, channel::base_moment, findings);
+  check_spikes(entry, findings);
 }
 
 namespace {
 
-/// Mean over median power of the lines, 1 for white noise: tones and bands stand far above.
-double colour(std::span<const double> x) {
-  std::vector<double> power = powers(spectrum_of(x));
-  power.erase(power.begin());
-  double sum = 0.;
-  for (const double p : power) sum += p;
-  const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
-  std::nth_element(power.begin(), middle, power.end());
-  return *middle > 0. ? sum / static_cast<double>(power.size()) * std::numbers::ln2 / *middle : 1.;
+bool is_coloured(std::span<const double> x) {
+  constexpr double coloured = 5.;
+  const std::vector<Complex> lines = spectrum_of(x);
+  return colour(powers({lines.begin() + 1, lines.end()})) > coloured;
 }
 
 bool is_driven(const DatasetRecord& entry) {
@@ -124,14 +141,14 @@ double least_level(const signals::Dataset& dataset, const std::string& name) {
 }  // namespace
 
 void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings) {
-  constexpr double much = 0.5, coloured = 5.;
+  constexpr double much = 0.5;
   const double acceleration = least_level(dataset, channel::base_acceleration),
                moment = least_level(dataset, channel::base_moment);
   for (const DatasetRecord& entry : dataset.records) {
     if (entry.excitation != signals::Excitation{} || !entry.record.has(channel::base_acceleration))
       continue;
     const auto a = entry.record.channel(channel::base_acceleration);
-    if (rms_about_mean(a) > much * acceleration && colour(a) > coloured &&
+    if (rms_about_mean(a) > much * acceleration && is_coloured(a) &&
         rms_about_mean(entry.record.channel(channel::base_moment)) > much * moment)
       findings.push_back({FindingKind::moves_at_rest, entry.name,
                           "excitation is none but the base moves at " +

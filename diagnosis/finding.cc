@@ -10,6 +10,8 @@ std::string to_string(const FindingKind kind) {
       return "constant_channel";
     case FindingKind::stuck_channel:
       return "stuck_channel";
+    case FindingKind::spike:
+      return "spike";
     case FindingKind::swapped_columns:
       return "swapped_columns";
     case FindingKind::wrong_unit:
@@ -18,6 +20,10 @@ std::string to_string(const FindingKind kind) {
       return "reversed_sign";
     case FindingKind::moves_at_rest:
       return "moves_at_rest";
+    case FindingKind::broken_period:
+      return "broken_period";
+    case FindingKind::partial_period:
+      return "partial_period";
     case FindingKind::repeated_samples:
       return "repeated_samples";
     case FindingKind::steady_wind:
@@ -54,6 +60,8 @@ bool spoils_everything(const FindingKind kind) {
     case FindingKind::wrong_unit:
     case FindingKind::reversed_sign:
     case FindingKind::moves_at_rest:
+    case FindingKind::spike:
+    case FindingKind::broken_period:
       return true;
     default:
       return false;

@@ -89,6 +89,25 @@ TEST(DeadChannels, NamesWhereAChannelStandsStill) {
   }
 }
 
+TEST(DeadChannels, NamesAJumpOfOneSample) {
+  signals::DatasetRecord entry = record("base_high");
+  change(entry, channel::base_moment, [](Samples& x) { x[500] = 1.; });
+  EXPECT_THAT(findings(entry),
+              ElementsAre(is(FindingKind::spike, "jumps to 1 for one sample at 1 s")));
+}
+
+TEST(DeadChannels, TakesABlowThatRingsOnForNoJump) {
+  const test::OneModeRig rig = test::noisy_rig();
+  const auto blow = [](double t) { return t > 0.5 && t < 0.502 ? 400. : 0.; };
+  const signals::DatasetRecord entry{"blow",
+                                     rig.record(1024, 0., blow, test::no_signal, 3, false),
+                                     {true, false},
+                                     0,
+                                     signals::Split::fit,
+                                     signals::Readout::moment};
+  EXPECT_THAT(findings(entry), IsEmpty());
+}
+
 TEST(DeadChannels, TakeTheStepsOfAConverterForNoStandstill) {
   signals::DatasetRecord entry = record("base_low");
   change(entry, channel::base_acceleration, [](Samples& x) {
