@@ -37,7 +37,7 @@ void check_constant(const DatasetRecord& entry, const std::string& name,
     return;
   }
   findings.push_back({FindingKind::constant_channel, entry.name,
-                      name + " is " + three_digits(x.front()) +
+                      name + " is " + three_digits(x.front() + 0.) +  // no minus zero
                           " throughout though excitation is " + to_string(entry.excitation) +
                           hint(entry, name) + "; mend the record or take it out of dataset.json"});
 }

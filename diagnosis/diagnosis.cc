@@ -30,7 +30,8 @@ void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
                   [&](const auto& entry) { return tells_something(nominal, entry); }))
     return;
   std::string text =
-      "too little data to say anything: no fit record is long enough and has an excitation that was "
+      "too little data to say anything: no fit record is long enough and has an excitation that "
+      "was "
       "measured and that the simulation knows";
   for (const Finding& finding : findings) {
     text += '\n';

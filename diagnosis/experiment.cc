@@ -236,6 +236,18 @@ bool acts_without_modes(const Effect& effect) {
            chain.ramp_variance_rate == 0.);
 }
 
+/// Is the sensor moved for long enough? Silicone warms over minutes; what seems to drift within a
+/// few seconds is the accelerometer's noise that the mode carries on.
+bool lasts_long_enough(const Experiment& experiment, const Effect& effect) {
+  constexpr double shortest_drift_s = 3.;
+  if (effect.id != "temperature_drift") return true;
+  double moved_s = 0.;
+  for (const PreparedRecord& record : experiment.records)
+    if (record.excitation.base || record.excitation.wind)
+      moved_s += static_cast<double>(record.n_samples) / record.sampling_rate_hz;
+  return moved_s > shortest_drift_s;
+}
+
 Scales scales_of(const Experiment& experiment) {
   Scales scales;
   const NominalModel& nominal = experiment.nominal;
@@ -278,7 +290,8 @@ bool shows(const Experiment& experiment, const Effect& effect) {
   return (!effect.needs.base || experiment.has_base) &&
          (!effect.needs.wind || experiment.has_wind) &&
          (!effect.needs.cross || experiment.has_cross) &&
-         (!experiment.nominal.modes.empty() || acts_without_modes(effect));
+         (!experiment.nominal.modes.empty() || acts_without_modes(effect)) &&
+         lasts_long_enough(experiment, effect);
 }
 
 std::size_t PreparedRecord::whole_line(const std::size_t b) const {

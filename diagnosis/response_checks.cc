@@ -63,17 +63,22 @@ class ResponseRatio {
                 const std::string& output = channel::base_moment)
       : measured_(spectrum_of(entry.record.channel(output))),
         predicted_(std::move(predicted)),
-        line_hz_(entry.record.sampling_rate_hz() / static_cast<double>(entry.record.n_samples())) {}
+        line_hz_(entry.record.sampling_rate_hz() / static_cast<double>(entry.record.n_samples())) {
+    for (std::size_t k = 1; k + 1 < predicted_.size(); ++k)
+      largest_ = std::max(largest_, std::abs(predicted_[k]));
+  }
 
-  /// Nothing: fewer lines than these up to a frequency.
+  /// Of the lines up to a frequency that are not faint among themselves, nor beside all lines, for
+  /// then they are what noise predicts. Nothing: fewer lines than these.
   std::optional<Ratio> up_to(double highest_hz, std::size_t fewest_lines) const {
     const double last = std::min(highest_hz / line_hz_, static_cast<double>(measured_.size() - 2));
     double largest = 0., product = 0., measured = 0., predicted = 0.;
     for (std::size_t k = 1; static_cast<double>(k) <= last; ++k)
       largest = std::max(largest, std::abs(predicted_[k]));
+    const double least = std::max(0.1 * largest, 0.02 * largest_);
     std::vector<double> logs;
     for (std::size_t k = 1; static_cast<double>(k) <= last; ++k) {
-      if (!(std::abs(predicted_[k]) > 0.1 * largest && std::abs(measured_[k]) > 0.)) continue;
+      if (!(std::abs(predicted_[k]) > least && std::abs(measured_[k]) > 0.)) continue;
       logs.push_back(std::log(std::abs(measured_[k] / predicted_[k])));
       product += (measured_[k] * std::conj(predicted_[k])).real();
       measured += std::norm(measured_[k]);
@@ -88,7 +93,7 @@ class ResponseRatio {
 
  private:
   std::vector<Complex> measured_, predicted_;
-  double line_hz_ = 1.;
+  double line_hz_ = 1., largest_ = 0.;
 };
 
 /// Both as far as the records tell them.

@@ -11,7 +11,8 @@ std::string reason_of(const Experiment& experiment, const Effect& effect) {
   if (effect.needs.wind && !experiment.has_wind) return "no usable fit record with wind";
   if (effect.needs.base && !experiment.has_base) return "no usable fit record with base motion";
   if (effect.needs.cross && !experiment.has_cross) return "no cross_acceleration_m_s2";
-  return "the simulation has no mode";
+  if (experiment.nominal.modes.empty()) return "the simulation has no mode";
+  return "too few seconds of motion";
 }
 
 }  // namespace

@@ -144,6 +144,21 @@ TEST(DataChecks, TakesAMuchSofterOrLaterSensorForNoOppositeSign) {
   EXPECT_THAT(check_data(test::nominal_of(test::OneModeRig{}, true), dataset), IsEmpty());
 }
 
+TEST(DataChecks, TakesNoiseBelowANarrowBandForNoWrongUnit) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.moment_noise = 1e-8;  // a hundredth of what the accelerometer's noise would be as motion
+  signals::Dataset dataset = test::rig_dataset(rig);
+  dataset.records.push_back(
+      {"narrow",
+       rig.record(1024, 1., test::sines(test::odd_lines_hz(500. / 512., 25., 45.), 2., 5),
+                  test::no_signal, 6, false),
+       {true, false},
+       512,
+       signals::Split::fit,
+       signals::Readout::moment});
+  EXPECT_THAT(check_data(test::nominal_of(test::OneModeRig{}, false), dataset), IsEmpty());
+}
+
 TEST(DataChecks, NoticesTimeInMilliseconds) {
   EXPECT_THAT(kinds([](signals::DatasetRecord& entry) {
                 signals::Record slow(1e-3 * entry.record.sampling_rate_hz(),

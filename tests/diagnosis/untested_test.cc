@@ -46,6 +46,14 @@ TEST(Untested, AreNoEffectsOfWindWhereItBlows) {
   EXPECT_THAT(ids, testing::ElementsAre("cross_axis"));
 }
 
+TEST(Untested, IsADriftOfTemperatureWithinAFewSeconds) {
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
+  const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
+  EXPECT_THAT(untested_ids(nominal, dataset), Not(Contains("temperature_drift")));
+  dataset.records.erase(dataset.records.begin() + 2);  // two of four seconds
+  EXPECT_THAT(untested_ids(nominal, dataset), Contains("temperature_drift"));
+}
+
 TEST(UntestedSentence, JoinsEffectsByTheirReason) {
   EXPECT_EQ(untested_sentence({{"a", "no x"}, {"b", "no y"}, {"c", "no x"}}),
             "no x: a, c; no y: b");
