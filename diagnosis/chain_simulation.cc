@@ -147,6 +147,7 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
     }
   }
   prediction.own_noise = record.start_power;
+  prediction.own_noise.resize(n_bins, 0.);
   prediction.ramp_variance = chain_.ramp_variance_rate * n / record.sampling_rate_hz;
   if (!chain_.noise.empty()) {
     const RecordView view{
