@@ -146,8 +146,7 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
       if (cross) prediction.acceleration_noise[b] += n * std::norm(line.cross * line.sensor);
     }
   }
-  prediction.own_noise = record.start_power;
-  prediction.own_noise.resize(n_bins, 0.);
+  prediction.own_noise.assign(n_bins, 0.);
   prediction.ramp_variance = chain_.ramp_variance_rate * n / record.sampling_rate_hz;
   if (!chain_.noise.empty()) {
     const RecordView view{

@@ -12,8 +12,7 @@ namespace vibrissa::diagnosis {
 /// What a chain foretells of one prepared record, bins as PreparedRecord::moment.
 struct Prediction {
   std::vector<Complex> mean;
-  /// Of white noise of unit standard deviation a sample at both channels, and of the effects' own
-  /// with what an unknown start leaves.
+  /// Of white noise of unit standard deviation a sample at both channels, and of the effects' own.
   std::vector<double> moment_noise;        // times the moment's variance
   std::vector<double> acceleration_noise;  // times the accelerometer's variance
   std::vector<double> own_noise;           // as it is

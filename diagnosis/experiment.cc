@@ -160,28 +160,6 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry, const
   }
 }
 
-/// DFT of e^(p t) from the first judged sample on, p the first mode's pole; both of its
-/// frequencies.
-std::vector<double> start_power(const NominalModel& nominal, const PreparedRecord& record) {
-  std::vector<double> out(record.n_bins(), 0.);
-  const bool moved = record.excitation.base || record.excitation.wind;
-  if (record.periodic || !moved || nominal.modes.empty()) return out;
-  const StructuralMode& mode = nominal.modes.front();
-  const double dt = 1. / record.sampling_rate_hz, n = static_cast<double>(record.n_judged);
-  const Complex pole(-mode.damping_ratio * mode.frequency_rad_s, mode.frequency_rad_s);
-  double square = 0.;
-  for (const Complex& m : record.moment) square += 2. * std::norm(m) / (n * n);
-  // Of the true start and of the circular one, each the peak of a sine of the record's rms.
-  const double peaks =
-      4. * square * std::exp(2. * pole.real() * dt * static_cast<double>(record.first));
-  for (std::size_t b = 0; b < out.size(); ++b) {
-    const Complex line(0., 2. * std::numbers::pi * record.bin_hz() * static_cast<double>(b + 1));
-    for (const Complex& p : {pole, std::conj(pole)})
-      out[b] += 0.25 * peaks / std::norm(1. - std::exp((p - line) * dt));
-  }
-  return out;
-}
-
 PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& entry,
                               std::size_t number, double acceleration_noise,
                               const ExcitedHarmonics& excited, const InputNoise treatment) {
@@ -215,7 +193,6 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   const auto moment = entry.record.channel(channel::base_moment);
   const std::vector<Complex> judged = spectrum_of(moment.subspan(out.first, out.n_judged));
   out.moment.assign(judged.begin() + 1, judged.end() - 1);
-  out.start_power = start_power(nominal, out);
   return out;
 }
 

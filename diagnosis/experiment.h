@@ -29,9 +29,6 @@ struct PreparedRecord {
   std::size_t n_acceleration_noise = 0;  // lines in it
 
   std::vector<Complex> moment;  // bins 1 .. of the judged part
-  /// What the unknown start has left in these bins, expected square [(N m)^2]: the first mode's
-  /// free decay from a moment of the record's own size.
-  std::vector<double> start_power;
   std::size_t n_bins() const { return moment.size(); }
   double bin_hz() const { return sampling_rate_hz / static_cast<double>(n_judged); }
   /// Line of the whole record nearest to judged bin b (0 is the DFT's 1).

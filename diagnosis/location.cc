@@ -116,7 +116,7 @@ RecordGap gap_of(const Experiment& experiment, const PreparedRecord& record,
       own *= std::max(1., rest.excess[std::clamp<std::size_t>(bin, 1, rest.excess.size()) - 1]);
     }
     gap.variance.push_back(own + acceleration * prediction.acceleration_noise[b] +
-                           misfit * misfit * level[b] + prediction.own_noise[b]);
+                           misfit * misfit * level[b]);
   }
   return gap;
 }
