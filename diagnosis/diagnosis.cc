@@ -30,8 +30,9 @@ void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
                   [&](const auto& entry) { return tells_something(nominal, entry); }))
     return;
   std::string text =
-      "too little data to say anything: no fit record has an excitation that was measured and that "
-      "the simulation knows";
+      "too little data to say anything: no fit record is long enough and has an excitation that "
+      "was "
+      "measured and that the simulation knows";
   for (const Finding& finding : findings) {
     text += '\n';
     if (!finding.record.empty()) text.append(finding.record).append(": ");
@@ -156,6 +157,7 @@ Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
   refuse_poor_data(nominal, real, out.findings);
   const Experiment experiment =
       prepare_experiment(simulation, real, signals::Split::fit, InputNoise::reduced);
+  out.untested = untested_effects(experiment);
   out.location = locate_gap(experiment);
   const SearchResult result = search(experiment, options.search);
   const Candidate& best = result.candidates.front();

@@ -14,6 +14,7 @@
 #include "diagnosis/next_experiment.h"
 #include "diagnosis/search.h"
 #include "diagnosis/shares.h"
+#include "diagnosis/untested.h"
 
 namespace vibrissa::diagnosis {
 
@@ -54,6 +55,7 @@ struct Diagnosis {
   /// Fewest answers that together have 95 %.
   std::vector<std::string> confidence_set{};
   std::vector<std::vector<std::string>> indistinguishable{};
+  std::vector<UntestedEffect> untested{};
   NextExperiment next{};
   std::vector<Finding> findings{};
   std::vector<std::string> guesses{};  // of the dataset
@@ -73,7 +75,8 @@ struct DiagnoseOptions {
 };
 
 /// Compares a simulation with records: noise, where, what, how far, how sure and what next. Throws
-/// UserError for exchanged columns and wrong units, TooPoorData when no fit record can be compared.
+/// UserError for data that spoil everything (finding.h), TooPoorData when no fit record can be
+/// compared.
 /// Proven by tests/diagnosis/diagnosis_test.cc.
 Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
                    const DiagnoseOptions& options = {});

@@ -36,7 +36,8 @@ json location_json(const Location& location) {
           {"mode", location.mode ? json(*location.mode) : json(nullptr)},
           {"level_exponent",
            location.level_exponent ? number(*location.level_exponent) : json(nullptr)},
-          {"level_exponent_deviation", number(location.level_exponent_deviation)},
+          {"level_exponent_deviation",
+           location.level_exponent ? number(location.level_exponent_deviation) : json(nullptr)},
           {"channels", location.channels},
           {"harmonics", to_string(location.harmonics)},
           {"varies_in_time", location.varies_in_time},
@@ -104,6 +105,20 @@ std::string verdict_line(const Diagnosis& diagnosis) {
   return "Verdict: " + joined(ids, " + ") + odds + (retune ? ": recalibrate" : ": missing physics");
 }
 
+std::string placed(const Finding& finding) {
+  return (finding.record.empty() ? "" : finding.record + ": ") + finding.message;
+}
+
+/// The first finding that makes the answer doubtful, and how many more there are.
+std::string doubt_line(const Diagnosis& diagnosis) {
+  std::string first;
+  std::size_t n = 0;
+  for (const Finding& finding : diagnosis.findings)
+    if (casts_doubt(finding.kind) && n++ == 0) first = placed(finding);
+  if (n == 0) return "";
+  return "Doubtful: " + first + (n > 1 ? " (and " + std::to_string(n - 1) + " more)" : "");
+}
+
 std::string parameters_line(const RankedAnswer& answer) {
   std::string text;
   for (const ParameterEstimate& p : answer.parameters) {
@@ -157,12 +172,14 @@ std::string others_line(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& diagnosis) {
-  json ranking = json::array(), findings = json::array();
+  json ranking = json::array(), findings = json::array(), untested = json::array();
   for (const RankedAnswer& answer : diagnosis.ranking) ranking.push_back(answer_json(answer));
   for (const Finding& finding : diagnosis.findings)
     findings.push_back({{"kind", to_string(finding.kind)},
                         {"record", finding.record},
                         {"message", finding.message}});
+  for (const UntestedEffect& entry : diagnosis.untested)
+    untested.push_back({{"effect", entry.effect}, {"reason", entry.reason}});
   const json document{{"schema", "vibrissa-diagnosis-1"},
                       {"gap",
                        {{"nrmse", number(diagnosis.gap.nrmse)},
@@ -174,6 +191,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
                       {"probability_of_unlisted", number(diagnosis.probability_of_unlisted)},
                       {"confidence_set", diagnosis.confidence_set},
                       {"indistinguishable", diagnosis.indistinguishable},
+                      {"untested", untested},
                       {"next_experiment",
                        {{"name", diagnosis.next.name},
                         {"why", diagnosis.next.why},
@@ -193,6 +211,7 @@ std::string verdict_text(const Diagnosis& diagnosis) {
       if (lines.size() < most_lines) lines.push_back(std::move(part));
   };
   add(verdict_line(diagnosis));
+  add(doubt_line(diagnosis));
   if (!diagnosis.ranking.empty()) {
     add(parameters_line(diagnosis.ranking.front()));
     add("Gap: error " + percent(diagnosis.gap.nrmse) + " of the signal, noise alone " +
@@ -205,13 +224,13 @@ std::string verdict_text(const Diagnosis& diagnosis) {
   }
   add("Where: " + location_sentence(diagnosis.location));
   add(others_line(diagnosis));
+  if (!diagnosis.untested.empty()) add("Not tested: " + untested_sentence(diagnosis.untested));
   for (std::size_t i = 0; i < std::min<std::size_t>(2, diagnosis.indistinguishable.size()); ++i)
     add("Not told apart here: " + joined(diagnosis.indistinguishable[i], ", "));
   if (diagnosis.next.name != "none")
     add("Measure next: " + diagnosis.next.name + " - " + diagnosis.next.why);
-  for (const Finding& finding : diagnosis.findings) {
-    add("Note: " + (finding.record.empty() ? "" : finding.record + ": ") + finding.message);
-  }
+  for (const Finding& finding : diagnosis.findings)
+    if (!casts_doubt(finding.kind)) add("Note: " + placed(finding));
   return joined(lines, "\n") + "\n";
 }
 

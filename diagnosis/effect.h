@@ -63,6 +63,7 @@ struct Scales {
 struct Needs {
   bool base = false, wind = false, cross = false;
   bool repeats = false;  // an accelerometer that is polled faster than it is renewed
+  double moved_s = 0.;   // longer than this, all records together
 };
 
 /// One entry of the catalogue of effects.md: how the nominal simulator is extended.

@@ -1,7 +1,9 @@
 #include "diagnosis/experiment.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -21,6 +23,11 @@ namespace channel = signals::channel;
 constexpr double n_time_constants = 7.;
 /// Samples at the end of an aperiodic record where its circular continuation rings.
 constexpr std::size_t end_margin = 24;
+constexpr std::size_t fewest_judged = 128;
+
+bool is_periodic(const DatasetRecord& entry) {
+  return entry.period_samples > 0 && entry.record.n_samples() % entry.period_samples == 0;
+}
 
 std::size_t transient_samples(const NominalModel& nominal, double rate_hz) {
   if (nominal.modes.empty()) return 0;
@@ -160,7 +167,7 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry, const
 }
 
 PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& entry,
-                              std::size_t number, const ChannelNoise& noise,
+                              std::size_t number, double acceleration_noise,
                               const ExcitedHarmonics& excited, const InputNoise treatment) {
   PreparedRecord out;
   out.name = entry.name;
@@ -168,22 +175,18 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   out.number = number;
   out.sampling_rate_hz = entry.record.sampling_rate_hz();
   out.n_samples = entry.record.n_samples();
-  out.periodic = entry.period_samples > 0 && out.n_samples % entry.period_samples == 0;
+  out.periodic = is_periodic(entry);
   const bool moved = entry.excitation.base || entry.excitation.wind;
   if (out.periodic || !moved) {
     out.n_judged = out.n_samples - out.n_samples % 2;
   } else {
     const std::size_t skip = transient_samples(nominal, out.sampling_rate_hz) + end_margin;
-    if (out.n_samples < skip + 128)
-      throw signals::UserError(entry.name + ": " + std::to_string(out.n_samples) +
-                               " samples are too few: the first " + std::to_string(skip) +
-                               " hold the decay of its unknown start");
+    assert(out.n_samples >= skip + fewest_judged);
     out.first = skip - end_margin;
-    out.n_judged =
-        judged_length(out.n_samples - skip, period_of_drive(entry, noise.acceleration_m_s2));
+    out.n_judged = judged_length(out.n_samples - skip, period_of_drive(entry, acceleration_noise));
   }
   if (entry.record.has(channel::base_acceleration))
-    prepare_acceleration(out, entry, noise.acceleration_m_s2, excited, treatment);
+    prepare_acceleration(out, entry, acceleration_noise, excited, treatment);
   if (entry.record.has(channel::cross_acceleration))
     out.cross_acceleration = spectrum_of(entry.record.channel(channel::cross_acceleration));
   if (entry.excitation.wind) {
@@ -216,6 +219,14 @@ bool acts_without_modes(const Effect& effect) {
            chain.reference_variance == 0. && chain.noise.empty() && chain.ramp_variance_rate == 0.);
 }
 
+double moved_seconds(const Experiment& experiment) {
+  double sum = 0.;
+  for (const PreparedRecord& record : experiment.records)
+    if (record.excitation.base || record.excitation.wind)
+      sum += static_cast<double>(record.n_samples) / record.sampling_rate_hz;
+  return sum;
+}
+
 Scales scales_of(const Experiment& experiment) {
   Scales scales;
   const NominalModel& nominal = experiment.nominal;
@@ -241,7 +252,14 @@ Scales scales_of(const Experiment& experiment) {
 
 }  // namespace
 
+std::size_t fewest_samples(const NominalModel& nominal, const DatasetRecord& entry) {
+  const bool moved = entry.excitation.base || entry.excitation.wind;
+  if (!moved || is_periodic(entry)) return 0;
+  return transient_samples(nominal, entry.record.sampling_rate_hz()) + end_margin + fewest_judged;
+}
+
 bool is_comparable(const NominalModel& nominal, const DatasetRecord& entry) {
+  if (entry.record.n_samples() < fewest_samples(nominal, entry)) return false;
   const bool base_known = nominal.has_base && entry.record.has(channel::base_acceleration);
   const bool wind_known = nominal.has_wind && entry.record.has(channel::wind_speed);
   return (!entry.excitation.base || base_known) && (!entry.excitation.wind || wind_known);
@@ -252,7 +270,8 @@ bool shows(const Experiment& experiment, const Effect& effect) {
          (!effect.needs.wind || experiment.has_wind) &&
          (!effect.needs.cross || experiment.has_cross) &&
          (!effect.needs.repeats || experiment.has_repeats) &&
-         (!experiment.nominal.modes.empty() || acts_without_modes(effect));
+         (!experiment.nominal.modes.empty() || acts_without_modes(effect)) &&
+         (effect.needs.moved_s == 0. || moved_seconds(experiment) > effect.needs.moved_s);
 }
 
 std::size_t PreparedRecord::whole_line(const std::size_t b) const {
@@ -265,6 +284,36 @@ Complex PreparedRecord::line_s(const std::size_t k) const {
   return {0., 2. * std::numbers::pi * sampling_rate_hz * static_cast<double>(k) /
                   static_cast<double>(n_samples)};
 }
+
+namespace {
+
+/// Least power a line of any eighth of the spectrum, by its median: noise, and what signal there
+/// is.
+double quietest_power(const std::vector<Complex>& spectrum) {
+  constexpr std::size_t n_parts = 8;
+  double least = std::numeric_limits<double>::infinity();
+  const std::size_t n = (spectrum.size() - 2) / n_parts;
+  for (std::size_t part = 0; part < n_parts; ++part) {
+    const auto first = spectrum.begin() + static_cast<std::ptrdiff_t>(1 + part * n);
+    std::vector<double> power = powers({first, first + static_cast<std::ptrdiff_t>(n)});
+    const auto middle = power.begin() + static_cast<std::ptrdiff_t>(n / 2);
+    std::nth_element(power.begin(), middle, power.end());
+    least = std::min(least, *middle / std::numbers::ln2);
+  }
+  return least;
+}
+
+/// Of all fit records the least.
+double quietest_deviation(const signals::Dataset& dataset, const std::string& name) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const DatasetRecord& entry : dataset.records)
+    if (entry.split == signals::Split::fit && entry.record.has(name))
+      least = std::min(least, quietest_power(spectrum_of(entry.record.channel(name))) /
+                                  static_cast<double>(entry.record.n_samples()));
+  return std::isfinite(least) ? std::sqrt(least) : 0.;
+}
+
+}  // namespace
 
 ChannelNoise channel_noise(const signals::Dataset& dataset) {
   double moment = 0., acceleration = 0., n_moment = 0., n_acceleration = 0.;
@@ -290,8 +339,12 @@ ChannelNoise channel_noise(const signals::Dataset& dataset) {
     add(channel::base_acceleration, acceleration, n_acceleration, !entry.excitation.base);
   }
   ChannelNoise noise;
-  if (n_moment > 0.) noise.moment_n_m = std::sqrt(moment / n_moment);
-  if (n_acceleration > 0.) noise.acceleration_m_s2 = std::sqrt(acceleration / n_acceleration);
+  noise.moment_n_m = n_moment > 0. ? std::sqrt(moment / n_moment)
+                                   : quietest_deviation(dataset, channel::base_moment);
+  noise.acceleration_m_s2 = n_acceleration > 0.
+                                ? std::sqrt(acceleration / n_acceleration)
+                                : std::min(usual_acceleration_noise,
+                                           quietest_deviation(dataset, channel::base_acceleration));
   return noise;
 }
 
@@ -308,7 +361,8 @@ Experiment prepare_experiment(const MendedModel& simulation, const signals::Data
   for (std::size_t i = 0; i < dataset.records.size(); ++i) {
     const DatasetRecord& entry = dataset.records[i];
     if (entry.split != split || !is_comparable(nominal, entry)) continue;
-    experiment.records.push_back(prepare_record(nominal, entry, i, noise, excited, treatment));
+    experiment.records.push_back(
+        prepare_record(nominal, entry, i, noise.acceleration_m_s2, excited, treatment));
     const PreparedRecord& record = experiment.records.back();
     experiment.has_base |= entry.excitation.base;
     experiment.has_wind |= entry.excitation.wind;
@@ -317,8 +371,8 @@ Experiment prepare_experiment(const MendedModel& simulation, const signals::Data
   }
   if (!experiment.has_base && !experiment.has_wind && split == signals::Split::fit)
     throw signals::UserError(
-        "no record of the real dataset can be compared with the simulation: it needs a fit record "
-        "whose excitation is measured and simulated");
+        "no record can be compared with the simulation: it needs a fit record that is long enough "
+        "and whose excitation is measured and simulated");
   experiment.scales = scales_of(experiment);
   if (experiment.moment_noise <= 0.)
     experiment.moment_noise = 1e-3 * experiment.scales.moment_rms_n_m;

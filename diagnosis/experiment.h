@@ -58,19 +58,27 @@ struct Experiment {
   Chain nominal_chain() const { return MendedModel(nominal, known).chain(); }
 };
 
-/// Are all excitations of a record measured, and known to the simulation?
+/// An ADXL345 or its like at rest, a sample [m/s^2]: paper.md gives 0.008 g as its bound.
+inline constexpr double usual_acceleration_noise = 0.05;
+
+/// Fewest samples of which something is left to judge once the unknown start has decayed.
+std::size_t fewest_samples(const NominalModel& nominal, const signals::DatasetRecord& entry);
+
+/// Are all excitations of a record measured, and known to the simulation, and is it long enough?
+/// Proven by tests/diagnosis/experiment_test.cc.
 bool is_comparable(const NominalModel& nominal, const signals::DatasetRecord& entry);
 
 /// Does the experiment hold what the effect needs?
 bool shows(const Experiment& experiment, const Effect& effect);
 
-/// Only records of the given split. Throws UserError when there is none that the nominal model can
-/// be compared with.
+/// Only comparable records of the given split. Throws UserError when fit records are asked for and
+/// none of them is moved.
 Experiment prepare_experiment(const MendedModel& simulation, const signals::Dataset& dataset,
                               signals::Split split, InputNoise noise);
 
-/// Standard deviations a sample of both channels, from records at rest, else from what periods do
-/// not share, else from the upper end of the spectrum.
+/// Standard deviations a sample of both channels, from records at rest and from what periods do not
+/// share; else from the quietest part of the spectrum, which is an upper bound, and which for the
+/// acceleration is no more than usual. Proven by tests/diagnosis/experiment_test.cc.
 struct ChannelNoise {
   double moment_n_m = 0., acceleration_m_s2 = 0.;
 };

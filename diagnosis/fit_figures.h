@@ -23,9 +23,6 @@ inline constexpr std::size_t place_moment_noise = 0, place_acceleration_noise = 
                              place_joint_share = 2, place_joint_loss = 3, n_noise_figures = 2,
                              n_own_figures = 4;
 
-/// An ADXL345 or its like at rest, a sample [m/s^2]: paper.md gives 0.008 g as its bound.
-inline constexpr double usual_acceleration_noise = 0.05;
-
 /// Number of bands of a discrepancy, and the one a frequency lies in; in frequencies of the first
 /// mode.
 std::size_t n_discrepancy_bands();

@@ -12,11 +12,12 @@ namespace vibrissa::diagnosis {
 namespace {
 
 struct Block {
-  double power = 0., count = 0.;
+  double power = 0., count = 0., own_share = 0.;
   double gain() const {
-    constexpr double fewest = 10.;
-    if (count < fewest) return 0.;
-    const double mean = power / count;
+    constexpr double fewest = 10., least_share = 0.1;
+    if (count < fewest || own_share < least_share * count) return 0.;
+    // Less power than foretold is no fault of bounds: forms are often better than theirs.
+    const double mean = std::max(1., power / count);
     return std::max(0., count * (mean - 1. - std::log(mean)) - 0.5 * std::log(count));
   }
 };
@@ -38,6 +39,7 @@ GoodnessOfFit goodness_of_fit(const Experiment& experiment,
       Block& block = blocks[{kind_of(record), frequency_block(experiment, record, b)}];
       block.power += std::norm(records[r].error[b]);
       block.count += 1.;
+      block.own_share += records[r].own_share[b];
     }
   GoodnessOfFit out;
   double power = 0., count = 0.;

@@ -11,6 +11,7 @@ namespace vibrissa::diagnosis {
 struct WhitenedRecord {
   std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
   std::vector<double> deviation;  // sqrt(variance) [N m]
+  std::vector<double> own_share;  // of the variance, of the effects' own noise
 };
 
 /// How well a fit's variance describes its residual.
@@ -18,10 +19,10 @@ struct GoodnessOfFit {
   /// Mean of the whitened residual's power less one: what neither the effects nor the bounds of
   /// their form errors explain.
   double excess = 0.;
-  /// Log likelihood that a free factor on the variance of each block of bins, of records that are
-  /// moved alike, would gain:
-  ///   sum over blocks of max(0, n (m - 1 - ln m) - ln(n) / 2),  m mean power of n bins;
-  /// noise of the right power with the wrong spectrum has much of it. Some 20 nats by chance.
+  /// Log likelihood that a larger variance would gain in blocks of bins, of records that are moved
+  /// alike, in which the effects' own noise is a tenth or more of the variance:
+  ///   sum over blocks with m > 1 of max(0, n (m - 1 - ln m) - ln(n) / 2),  m mean power of n bins;
+  /// noise of the right power with the wrong spectrum has much of it. Some 10 nats by chance.
   double misshape_nats = 0.;
 };
 

@@ -296,6 +296,7 @@ std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
       const Complex error = experiment.records[r].moment[b] - fit.records[r].mean[b];
       records[r].deviation.push_back(deviation);
       records[r].error.push_back(error / deviation);
+      records[r].own_share.push_back(fit.records[r].own_noise[b] / fit.records[r].variance[b]);
     }
   return records;
 }

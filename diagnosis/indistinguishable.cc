@@ -279,6 +279,30 @@ void add_refitted(const SearchResult& result, const HypothesisFit& best, const E
   }
 }
 
+/// Retunes that do in a fit of their own, where they may lie anywhere, what the named one does:
+/// that is back within its tolerance there.
+void add_refitted_retunes(const SearchResult& result, const HypothesisFit& best,
+                          const std::string& named, std::vector<std::vector<std::string>>& sets) {
+  for (const std::string& rival : nuisance_ids()) {
+    if (rival == named || best.hypothesis.contains(rival)) continue;
+    const std::string name = best.hypothesis.with(find_effect(rival)).name();
+    for (const HypothesisFit& fit : result.fits) {
+      const auto place = fit.place(named, 0);
+      if (fit.hypothesis.name() != name || !place) continue;
+      const Prior& tolerance = fit.figures[*place].description.prior;
+      const bool is_back = std::abs(fit.x(static_cast<Eigen::Index>(*place)) - tolerance.centre) <
+                           2. * tolerance.scale;
+      if (is_back && best.log_likelihood - fit.log_likelihood < enough_nats)
+        sets.push_back({named, rival});
+    }
+  }
+}
+
+/// Each once, whatever way it was found.
+void add_new(std::vector<std::vector<std::string>>& sets, std::vector<std::string> set) {
+  if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
+}
+
 }  // namespace
 
 std::vector<std::vector<std::string>> indistinguishable_sets(const Experiment& experiment,
@@ -290,11 +314,12 @@ std::vector<std::vector<std::string>> indistinguishable_sets(const Experiment& e
   for (const Effect* effect : best.hypothesis.effects()) add_refitted(result, best, *effect, sets);
   if (candidate.retunes.empty()) return sets;
   const Directions directions(experiment, best);
+  for (const std::string& id : candidate.retunes) add_refitted_retunes(result, best, id, sets);
   for (const std::string& id : candidate.retunes) {
     const Effect& effect = find_effect(id);
     Eigen::VectorXd change = directions.change_of(effect, experiment, best);
     for (std::vector<std::string>& set : Sets(directions, effect, std::move(change)).run())
-      if (set.size() > 1) sets.push_back(std::move(set));
+      if (set.size() > 1) add_new(sets, std::move(set));
   }
   return sets;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numbers>
 #include <numeric>
 #include <unordered_map>
 
@@ -87,6 +88,15 @@ std::vector<double> neighbour_mean(std::span<const double> x, const std::size_t 
     out[k] = (running[high] - running[low]) / static_cast<double>(high - low);
   }
   return out;
+}
+
+double colour(std::vector<double> power) {
+  if (power.empty()) return 1.;
+  const double mean =
+      std::accumulate(power.begin(), power.end(), 0.) / static_cast<double>(power.size());
+  const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
+  std::nth_element(power.begin(), middle, power.end());
+  return *middle > 0. ? mean * std::numbers::ln2 / *middle : 1.;
 }
 
 std::size_t fast_length(std::size_t n) {

@@ -34,4 +34,7 @@ std::vector<double> neighbour_mean(std::span<const double> x, std::size_t reach)
 /// Largest even length up to n whose transform is fast (factors 2, 3, 5, 7).
 std::size_t fast_length(std::size_t n);
 
+/// Mean over median power, scaled to 1 for white noise; tones and bands stand far above.
+double colour(std::vector<double> power);
+
 }  // namespace vibrissa::diagnosis

@@ -214,6 +214,13 @@ Samples read_samples(const CsvFile& file, const Sources& sources, const std::siz
   return samples;
 }
 
+// A column of time in thousandths or millionths of a second, called seconds.
+std::string time_unit_hint(const double ratio) {
+  const auto near = [&](const double factor) { return std::abs(ratio / factor - 1.) < 1e-2; };
+  if (near(1e3)) return "; the column seems to be in ms";
+  return near(1e6) ? "; the column seems to be in us" : "";
+}
+
 TimeAxis time_axis_of(const CsvFile& file, const std::string& path, const Sources& sources,
                       const Samples& samples, const ReadOptions& options) {
   const std::optional<double> given = options.sampling_rate_hz;
@@ -222,13 +229,15 @@ TimeAxis time_axis_of(const CsvFile& file, const std::string& path, const Source
                                   .digits = samples.time_digits,
                                   .unit_s = sources.time->scale,
                                   .file = path,
-                                  .first_line = options.first_row + 1});
+                                  .first_line = options.first_row + 1,
+                                  .column = file.columns()[sources.time->column]});
   if (!given) return axis;
   if (std::abs(*given - axis.sampling_rate_hz) > 1e-3 * axis.sampling_rate_hz)
-    throw UserError(path + ": the rate " + to_text(*given) +
-                    " Hz that was given contradicts column '" +
-                    file.columns()[sources.time->column] + "', which says " +
-                    to_text(axis.sampling_rate_hz) + " Hz; leave --rate out or correct it");
+    throw UserError(
+        path + ": the rate " + to_text(*given) + " Hz that was given contradicts column '" +
+        file.columns()[sources.time->column] + "', which says " + to_text(axis.sampling_rate_hz) +
+        " Hz; correct it (--rate, or " + "sampling_rate_hz in dataset.json) or the column" +
+        time_unit_hint(*given / axis.sampling_rate_hz));
   axis.sampling_rate_hz = *given;
   return axis;
 }

@@ -30,12 +30,18 @@ std::string between(const PrintedTimes& times, const std::size_t i) {
   return " between " + moment(times, i - 1) + " and " + moment(times, i);
 }
 
+// Of lost or doubled samples: what stands in their place is for the user to say.
+std::string never_filled(const PrintedTimes& times) {
+  return "; column '" + times.column +
+         "': samples are never filled in or left out, use the rows before or those after";
+}
+
 void check_runs_forward(const PrintedTimes& times) {
   for (std::size_t i = 1; i < times.times_s.size(); ++i) {
     const double step = times.times_s[i] - times.times_s[i - 1];
     if (step > 0.) continue;
     throw UserError(times.file + ": time " + (step < 0. ? "runs backward" : "stands still") +
-                    between(times, i));
+                    between(times, i) + never_filled(times));
   }
 }
 
@@ -101,7 +107,7 @@ void refuse_gap(const PrintedTimes& times, const double usual_step) {
       n_gaps == 1 ? "" : " (" + std::to_string(n_gaps - 1) + " more further on)";
   throw UserError(times.file + ": gap in time" + between(times, first) + ": " +
                   to_text(std::round(step / usual_step)) + " samples where 1 was expected" + more +
-                  digits_advice(times, first, step - usual_step));
+                  digits_advice(times, first, step - usual_step) + never_filled(times));
 }
 
 void refuse_crowding(const PrintedTimes& times, const double usual_step) {

@@ -27,6 +27,7 @@ struct PrintedTimes {
   double unit_s = 1.;  // unit of the column in seconds
   std::string file;
   std::size_t first_line = 2;
+  std::string column = "time_s";
 };
 
 struct TimeAxis {

@@ -29,7 +29,9 @@ Effect temperature_drift() {
       .source = "effects.md",
       .confused_with = "sensor_drift; frequency moves here, offset there",
       .form_error = 0.05,
-      .needs = {.base = true},
+      // Silicone warms over minutes: what seems to drift within a few seconds is the
+      // accelerometer's noise that the mode carries on.
+      .needs = {.base = true, .moved_s = 3.},
       .parameters = {uniform("within_record", "1", -0.4, 0.4, 0.),
                      normal("between_records", "1", 0., 0.005, -0.1, 0.1, 0.),
                      normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.)},

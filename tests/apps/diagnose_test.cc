@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <sstream>
+
 #include "tests/apps/program.h"
 
 namespace vibrissa::apps {
@@ -58,6 +61,34 @@ TEST(DiagnoseCommand, RefusesFiguresThatContradict) {
     EXPECT_EQ(result.status, 2) << options;
     EXPECT_THAT(result.errors, HasSubstr(message)) << options;
   }
+}
+
+/// 128 samples at 500 Hz, base moved or not.
+std::string record_csv(bool moved) {
+  std::ostringstream text;
+  text << "time_s,base_acceleration_m_s2,base_moment_N_m\n";
+  for (int i = 0; i < 128; ++i) {
+    const double x = std::sin(0.7 * i) + std::sin(1.9 * i);
+    text << 0.002 * i << "," << (moved ? x : 1e-3 * x) << "," << -6e-5 * (moved ? x : 1e-3 * x)
+         << "\n";
+  }
+  return text.str();
+}
+
+TEST(DiagnoseCommand, EndsWithStatus3WhereTheDataAreTooPoorAndSaysWhatIsMissing) {
+  const Folder simulated, real;
+  simulated.write("base.csv", record_csv(true));
+  simulated.write("dataset.json", R"({"schema": "vibrissa-dataset-1", "records": [
+    {"file": "base.csv", "excitation": "base", "period_samples": 128}]})");
+  real.write("quiet.csv", record_csv(false));
+  real.write("dataset.json", R"({"schema": "vibrissa-dataset-1", "records": [
+    {"file": "quiet.csv", "excitation": "none"}]})");
+  const auto result =
+      vibrissa("diagnose --sim '" + simulated.file("") + "' --real '" + real.file("") + "'");
+  EXPECT_EQ(result.status, 3) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("too little data"));
+  EXPECT_THAT(result.errors, HasSubstr("no usable fit record with base motion"));
+  EXPECT_THAT(result.output, testing::IsEmpty());
 }
 
 TEST(DiagnoseCommand, LeavesVerdictRankingAndFigures) {

@@ -88,6 +88,15 @@ TEST(DataChecks, NoticesSwappedColumns) {
   EXPECT_THAT(found, Not(Contains("wrong_unit")));
 }
 
+TEST(DataChecks, NoticesExchangedAxes) {
+  const auto found = kinds([](signals::DatasetRecord& entry) {
+    const auto a = entry.record.channel(channel::base_acceleration);
+    entry.record.set_channel(channel::cross_acceleration, {a.begin(), a.end()});
+    if (entry.excitation.base) scaled(channel::base_acceleration, 0.05)(entry);
+  });
+  EXPECT_THAT(found, Contains("swapped_columns"));
+}
+
 TEST(DataChecks, NoticesAccelerationInG) {
   EXPECT_THAT(kinds(scaled(channel::base_acceleration, 1. / 9.80665)), Contains("wrong_unit"));
 }
@@ -100,6 +109,85 @@ TEST(DataChecks, NoticesMomentInMillinewtonMillimetres) {
 
 TEST(DataChecks, NoticesWindInKilometresPerHour) {
   EXPECT_THAT(kinds(scaled(channel::wind_speed, 3.6), {.wind = true}), Contains("wrong_unit"));
+}
+
+TEST(DataChecks, NoticesWindInCentimetresPerSecond) {
+  EXPECT_THAT(kinds(scaled(channel::wind_speed, 100.), {.wind = true}), Contains("wrong_unit"));
+}
+
+TEST(DataChecks, NoticesAFactorThatNoUnitGives) {
+  EXPECT_THAT(kinds(scaled(channel::base_moment, 1e-3)), Contains("wrong_unit"));
+  EXPECT_THAT(kinds(scaled(channel::base_moment, 100.)), Contains("wrong_unit"));
+}
+
+TEST(DataChecks, NoticesAWrongUnitInOneRecordOfBaseAndWind) {
+  const auto found = kinds(
+      [](signals::DatasetRecord& entry) {
+        if (entry.name == "held_out") scaled(channel::base_moment, 1e3)(entry);
+      },
+      {.wind = true});
+  EXPECT_THAT(found, testing::ElementsAre("wrong_unit"));
+}
+
+TEST(DataChecks, NoticesAMomentOrAnAccelerationOfTheOppositeSign) {
+  const auto moment = kinds(scaled(channel::base_moment, -1.), {.wind = true});
+  EXPECT_EQ(std::count(moment.begin(), moment.end(), "reversed_sign"), 3);  // two base, one wind
+  const auto base = kinds(scaled(channel::base_acceleration, -1.), {.wind = true});
+  EXPECT_EQ(std::count(base.begin(), base.end(), "reversed_sign"), 2);
+}
+
+TEST(DataChecks, TakesAMuchSofterOrLaterSensorForNoOppositeSign) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.stiffness = 0.3;
+  rig.delay_s = 4e-3;
+  const signals::Dataset dataset = test::rig_dataset(rig, {.wind = true});
+  EXPECT_THAT(check_data(test::nominal_of(test::OneModeRig{}, true), dataset), IsEmpty());
+}
+
+TEST(DataChecks, TakesNoiseBelowANarrowBandForNoWrongUnit) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.moment_noise = 1e-8;  // a hundredth of what the accelerometer's noise would be as motion
+  signals::Dataset dataset = test::rig_dataset(rig);
+  dataset.records.push_back(
+      {"narrow",
+       rig.record(1024, 1., test::sines(test::odd_lines_hz(500. / 512., 25., 45.), 2., 5),
+                  test::no_signal, 6, false),
+       {true, false},
+       512,
+       signals::Split::fit,
+       signals::Readout::moment});
+  EXPECT_THAT(check_data(test::nominal_of(test::OneModeRig{}, false), dataset), IsEmpty());
+}
+
+TEST(DataChecks, NoticesTimeInMilliseconds) {
+  EXPECT_THAT(kinds([](signals::DatasetRecord& entry) {
+                signals::Record slow(1e-3 * entry.record.sampling_rate_hz(),
+                                     entry.record.n_samples());
+                for (const std::string& name : entry.record.channel_names()) {
+                  const auto x = entry.record.channel(name);
+                  slow.set_channel(name, {x.begin(), x.end()});
+                }
+                entry.record = std::move(slow);
+              }),
+              Contains("wrong_unit"));
+}
+
+TEST(DataChecks, SaysWhichRecordsAreTooShort) {
+  const auto found = kinds([](signals::DatasetRecord& entry) {
+    if (entry.name == "held_out") entry.record = entry.record.slice(0, 200);
+  });
+  EXPECT_THAT(found, testing::ElementsAre("too_short", "no_held_out"));
+}
+
+TEST(DataChecks, SaysWhatCannotBeToldWithoutWindOrBaseMotion) {
+  const auto without_wind =
+      kinds([](signals::DatasetRecord& entry) { entry = without(entry, channel::wind_speed); },
+            {.wind = true});
+  EXPECT_THAT(without_wind, Contains("no_wind"));
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig(), {.wind = true});
+  std::erase_if(dataset.records, [](const auto& entry) { return entry.excitation.base; });
+  const auto findings = check_data(test::nominal_of(test::OneModeRig{}, true), dataset);
+  EXPECT_THAT(findings, Contains(testing::Field(&Finding::kind, FindingKind::no_base_motion)));
 }
 
 TEST(DataChecks, TakesAGainOffByAThirdForNoWrongUnit) {
@@ -132,7 +220,7 @@ TEST(DataChecks, NoticesWhatIsMissing) {
 }
 
 TEST(DataChecks, NamesADifferentSamplingRate) {
-  EXPECT_THAT(kinds(nothing, {}, 1000.), Contains("different_rate"));
+  EXPECT_THAT(kinds(nothing, {}, 1000.), testing::ElementsAre("different_rate"));
   EXPECT_THAT(kinds(nothing, {}, 500.), IsEmpty());
 }
 

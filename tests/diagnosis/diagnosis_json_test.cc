@@ -94,6 +94,33 @@ TEST(DiagnosisJson, SaysNullWhereThereIsNoNumber) {
   EXPECT_TRUE(json["location"]["mode"].is_null());
 }
 
+TEST(DiagnosisJson, SaysNullWhereTheDataTellNoLevelExponent) {
+  Diagnosis diagnosis = example();
+  diagnosis.location.level_exponent.reset();
+  const auto json = nlohmann::json::parse(diagnosis_json(diagnosis));
+  EXPECT_TRUE(json["location"]["level_exponent"].is_null());
+  EXPECT_TRUE(json["location"]["level_exponent_deviation"].is_null());
+}
+
+TEST(DiagnosisJson, ListsWhatWasNotTestedAndWhy) {
+  Diagnosis diagnosis = example();
+  EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["untested"], nlohmann::json::array());
+  diagnosis.untested = {{"flow_lag", "no wind"}, {"turbulence", "no wind"}};
+  const auto json = nlohmann::json::parse(diagnosis_json(diagnosis));
+  EXPECT_EQ(json["untested"][1],
+            nlohmann::json::parse(R"({"effect": "turbulence", "reason": "no wind"})"));
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("Not tested: no wind: flow_lag, turbulence"));
+}
+
+TEST(VerdictText, SaysFirstWhatMakesTheAnswerDoubtful) {
+  Diagnosis diagnosis = example();
+  diagnosis.findings.push_back({FindingKind::clipped_channel, "high", "is clipped"});
+  diagnosis.findings.push_back({FindingKind::clipped_channel, "higher", "is clipped"});
+  const std::string text = verdict_text(diagnosis);
+  EXPECT_THAT(text.substr(text.find('\n') + 1),
+              testing::StartsWith("Doubtful: high: is clipped (and 1 more)\n"));
+}
+
 TEST(DiagnosisJson, ProbabilitiesSumToOne) {
   const auto json = nlohmann::json::parse(diagnosis_json(example()));
   double sum = json["probability_of_unlisted"];

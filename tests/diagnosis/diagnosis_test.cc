@@ -91,6 +91,147 @@ TEST(Diagnose, SaysWhatIsMissingWhenNothingCanBeSaid) {
   }
 }
 
+/// Diagnosis of a rig at another rate than that of the records from which the nominal model comes.
+Diagnosis diagnosed_at(double rate_hz, double stiffness) {
+  static const NominalModel nominal = identify_nominal(test::rig_dataset(test::OneModeRig{}));
+  test::OneModeRig rig = test::noisy_rig();
+  rig.rate_hz = rate_hz;
+  rig.stiffness = stiffness;
+  return diagnose(nominal, test::rig_dataset(rig),
+                  {.search = {.max_effects = 1}, .simulated_rate_hz = 500.});
+}
+
+TEST(Diagnose, IsRightWhereSimulationAndRecordsDifferInTheirRates) {
+  for (const double rate_hz : {320., 800.}) {
+    const Diagnosis nominal = diagnosed_at(rate_hz, 1.);
+    EXPECT_EQ(nominal.verdict, "none") << rate_hz;
+    EXPECT_THAT(nominal.findings,
+                Contains(testing::Field(&Finding::kind, FindingKind::different_rate)));
+    const Diagnosis softer = diagnosed_at(rate_hz, 0.9);
+    EXPECT_EQ(softer.verdict, "stiffness") << rate_hz;
+    const ParameterEstimate& ratio = softer.ranking.front().parameters.front();
+    EXPECT_LT(ratio.ci95[0], 0.9) << rate_hz;
+    EXPECT_GT(ratio.ci95[1], 0.9) << rate_hz;
+    EXPECT_GT(softer.ranking.front().held_out->overall.gap_closed.value_or(0.), 0.97) << rate_hz;
+  }
+}
+
+TEST(Diagnose, IsRightWhereRecordsDifferInTheirRates) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.stiffness = 0.9;
+  signals::Dataset dataset = test::rig_dataset(rig);
+  rig.rate_hz = 800.;
+  // Of the same length: only the rate tells them apart.
+  for (const signals::DatasetRecord& entry : test::rig_dataset(rig, {.seed = 70}).records)
+    dataset.records.push_back(entry);
+  const Diagnosis diagnosis = diagnose(test::nominal_of(test::OneModeRig{}, false), dataset,
+                                       {.search = {.max_effects = 1}});
+  EXPECT_EQ(diagnosis.verdict, "stiffness");
+  EXPECT_GT(diagnosis.ranking.front().held_out->overall.gap_closed.value_or(0.), 0.97);
+}
+
+/// One record of a second that does not repeat, and nothing else.
+signals::Dataset one_second(double stiffness, unsigned seed) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.stiffness = stiffness;
+  signals::Dataset dataset =
+      test::rig_dataset(rig, {.quiet = false, .held_out = false, .seed = seed});
+  dataset.records.erase(dataset.records.begin());
+  signals::DatasetRecord& entry = dataset.records.front();
+  entry.record = entry.record.slice(0, 500);
+  entry.period_samples = 0;
+  return dataset;
+}
+
+TEST(Diagnose, NamesNothingWrongWithCertaintyFromOneSecond) {
+  const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
+  for (const auto& [stiffness, truth] : {std::pair{1., "none"}, std::pair{0.9, "stiffness"}})
+    for (unsigned seed = 100; seed < 1100; seed += 100) {
+      const Diagnosis diagnosis =
+          diagnose(nominal, one_second(stiffness, seed), {.search = {.max_effects = 1}});
+      const double wrong = diagnosis.verdict == truth ? 0. : diagnosis.ranking.front().probability;
+      EXPECT_LT(wrong, 0.8) << diagnosis.verdict << " " << seed;
+      EXPECT_THAT(diagnosis.findings,
+                  Contains(testing::Field(&Finding::kind, FindingKind::no_quiet_record)));
+      EXPECT_FALSE(diagnosis.location.level_exponent);
+      EXPECT_FALSE(diagnosis.ranking.front().held_out);
+    }
+}
+
+TEST(Diagnose, IsTooPoorFromRecordsThatAreAllTooShort) {
+  signals::Dataset dataset = one_second(1., 1);
+  dataset.records.front().record = dataset.records.front().record.slice(0, 300);
+  try {
+    diagnose(test::nominal_of(test::OneModeRig{}, false), dataset);
+    FAIL();
+  } catch (const TooPoorData& error) {
+    EXPECT_THAT(error.what(), HasSubstr("base_high: 300 samples are too few"));
+  }
+}
+
+TEST(Diagnose, LeavesOutAHeldOutRecordThatIsTooShort) {
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
+  dataset.records.back().record = dataset.records.back().record.slice(0, 300);
+  const Diagnosis diagnosis = diagnose(test::nominal_of(test::OneModeRig{}, false), dataset,
+                                       {.search = {.max_effects = 1}});
+  EXPECT_EQ(diagnosis.verdict, "none");
+  EXPECT_THAT(diagnosis.findings, Contains(testing::Field(&Finding::kind, FindingKind::too_short)));
+}
+
+TEST(Diagnose, SaysWhatItCouldNotTestWithoutTheWindColumn) {
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig(), {.wind = true});
+  for (signals::DatasetRecord& entry : dataset.records) {
+    signals::Record record(entry.record.sampling_rate_hz(), entry.record.n_samples());
+    for (const std::string& name :
+         {signals::channel::base_acceleration, signals::channel::base_moment}) {
+      const auto x = entry.record.channel(name);
+      record.set_channel(name, {x.begin(), x.end()});
+    }
+    entry.record = std::move(record);
+  }
+  const Diagnosis diagnosis =
+      diagnose(test::nominal_of(test::OneModeRig{}, true), dataset, {.search = {.max_effects = 1}});
+  for (const char* id : {"drag_error", "flow_lag", "relative_drag", "turbulence"}) {
+    EXPECT_THAT(
+        diagnosis.untested,
+        Contains(testing::AllOf(testing::Field(&UntestedEffect::effect, id),
+                                testing::Field(&UntestedEffect::reason, HasSubstr("wind")))));
+    for (const RankedAnswer& answer : diagnosis.ranking)
+      EXPECT_THAT(effect_ids(answer.name), testing::Not(Contains(id)));
+  }
+  EXPECT_THAT(diagnosis.findings, Contains(testing::Field(&Finding::kind, FindingKind::no_wind)));
+}
+
+TEST(Diagnose, DoesNotSayWhichGainIsOffWithoutWind) {
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
+  for (signals::DatasetRecord& entry : dataset.records) {
+    const auto m = entry.record.channel(signals::channel::base_moment);
+    std::vector<double> larger(m.begin(), m.end());
+    for (double& v : larger) v *= 1.2;
+    entry.record.set_channel(signals::channel::base_moment, std::move(larger));
+  }
+  const Diagnosis diagnosis = diagnose(test::nominal_of(test::OneModeRig{}, false), dataset,
+                                       {.search = {.max_effects = 1}});
+  ASSERT_TRUE(diagnosis.verdict == "sensor_gain" || diagnosis.verdict == "reference_gain");
+  EXPECT_THAT(diagnosis.indistinguishable,
+              Contains(testing::UnorderedElementsAre("sensor_gain", "reference_gain")));
+}
+
+TEST(Diagnose, DiagnosesWindAlone) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.drag *= 1.3;
+  signals::Dataset dataset = test::rig_dataset(rig, {.wind = true});
+  std::erase_if(dataset.records, [](const auto& entry) { return entry.excitation.base; });
+  const Diagnosis diagnosis =
+      diagnose(test::nominal_of(test::OneModeRig{}, true), dataset, {.search = {.max_effects = 1}});
+  EXPECT_EQ(diagnosis.verdict, "drag_error");
+  // Without base motion the sensor's gain does the same.
+  EXPECT_THAT(diagnosis.indistinguishable,
+              Contains(testing::UnorderedElementsAre("drag_error", "sensor_gain")));
+  EXPECT_THAT(diagnosis.untested,
+              Contains(testing::Field(&UntestedEffect::effect, "reference_gain")));
+}
+
 TEST(ConfidenceSet, IsTheShortestThatReachesTheLevel) {
   const std::vector<Candidate> candidates{
       {.name = "a", .fit = 0, .retunes = {}, .probability = 0.7},

@@ -54,5 +54,59 @@ TEST(PrepareExperiment, LeavesToNoiseWhatNoDriveStandsBehind) {
   EXPECT_NEAR(record.noise_share[120], 1., 1e-2);
 }
 
+/// One record without period, and nothing at rest.
+signals::Dataset lonely(const test::OneModeRig& rig) {
+  signals::Dataset dataset = test::rig_dataset(rig, {.quiet = false, .held_out = false});
+  dataset.records.pop_back();
+  dataset.records.front().period_samples = 0;
+  return dataset;
+}
+
+TEST(ChannelNoise, IsBoundedByTheQuietestPartOfTheSpectrumWhereNothingRests) {
+  for (const double noise : {2e-7, 2e-6, 2e-5}) {
+    test::OneModeRig rig = test::noisy_rig();
+    rig.moment_noise = noise;
+    const ChannelNoise found = channel_noise(lonely(rig));
+    EXPECT_GT(found.moment_n_m, 0.8 * noise);
+    EXPECT_LT(found.moment_n_m, 2.5 * noise);
+    EXPECT_NEAR(found.acceleration_m_s2, 0.05, 0.02);
+  }
+}
+
+TEST(ChannelNoise, OfADriveThatLeavesNoPartQuietIsTheUsual) {
+  signals::Dataset dataset = lonely(test::noisy_rig());
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::vector<double> white(dataset.records.front().record.n_samples());
+  for (double& v : white) v = normal(random);
+  dataset.records.front().record.set_channel(signals::channel::base_acceleration, white);
+  EXPECT_EQ(channel_noise(dataset).acceleration_m_s2, usual_acceleration_noise);
+}
+
+TEST(ChannelNoise, IsTakenFromRestWhereThereIsSome) {
+  const ChannelNoise found = channel_noise(test::rig_dataset(test::noisy_rig()));
+  EXPECT_NEAR(found.moment_n_m, 6e-7, 6e-8);
+  EXPECT_NEAR(found.acceleration_m_s2, 0.05, 0.005);
+}
+
+TEST(PrepareExperiment, LeavesOutRecordsThatAreTooShort) {
+  const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
+  signals::DatasetRecord shortened = dataset.records.back();
+  const std::size_t fewest = fewest_samples(nominal, shortened);
+  shortened.split = Split::fit;
+  shortened.record = shortened.record.slice(0, fewest - 1);
+  EXPECT_FALSE(is_comparable(nominal, shortened));
+  dataset.records.push_back(shortened);
+  const auto n_records = [&] {
+    return prepare_experiment(nominal, dataset, Split::fit, InputNoise::reduced).records.size();
+  };
+  EXPECT_EQ(n_records(), 3u);
+  dataset.records.back().record = dataset.records[3].record.slice(0, fewest);
+  EXPECT_EQ(n_records(), 4u);
+  // Whole periods in steady state have no start to forget.
+  EXPECT_EQ(fewest_samples(nominal, dataset.records[1]), 0u);
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis

@@ -11,7 +11,8 @@ namespace {
 
 /// Whitened residuals of complex normal bins, their power times a factor of the frequency.
 std::vector<WhitenedRecord> residuals(const Experiment& experiment, unsigned seed,
-                                      const std::function<double(double hz)>& factor) {
+                                      const std::function<double(double hz)>& factor,
+                                      double own_share = 0.5) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0., std::sqrt(0.5));
   std::vector<WhitenedRecord> out;
@@ -21,6 +22,7 @@ std::vector<WhitenedRecord> residuals(const Experiment& experiment, unsigned see
       const double scale = std::sqrt(factor(static_cast<double>(b + 1) * record.bin_hz()));
       one.error.push_back(scale * Complex(normal(random), normal(random)));
       one.deviation.push_back(1.);
+      one.own_share.push_back(own_share);
     }
   }
   return out;
@@ -49,16 +51,19 @@ TEST_F(GoodnessOfFitTest, SeesPowerThatIsLeft) {
 }
 
 TEST_F(GoodnessOfFitTest, SeesTheRightPowerWithTheWrongSpectrum) {
-  const auto half = [](double hz) { return hz < 125. ? 1.6 : 0.4; };
+  const auto half = [](double hz) { return hz < 125. ? 1.9 : 0.1; };
   const GoodnessOfFit found = goodness_of_fit(experiment_, residuals(experiment_, 1, half), false);
   EXPECT_NEAR(found.excess, 0., 0.15);
-  // Each bin of a factor f gains f - 1 - ln f; the blocks' factors cost some of it.
+  // Each bin of a factor f > 1 gains f - 1 - ln f; the blocks' factors cost some of it.
   double n_bins = 0.;
   for (const PreparedRecord& record : experiment_.records)
     n_bins += static_cast<double>(record.n_bins());
-  const double all = 0.5 * n_bins * (0.6 - std::log(1.6) - 0.6 - std::log(0.4));
+  const double all = 0.5 * n_bins * (0.9 - std::log(1.9));
   EXPECT_LT(found.misshape_nats, 1.1 * all);
   EXPECT_GT(found.misshape_nats, 0.3 * all);
+  EXPECT_EQ(goodness_of_fit(experiment_, residuals(experiment_, 1, half, 0.05), false).misshape_nats,
+            0.)
+      << "no noise of an effect is there";
 }
 
 }  // namespace

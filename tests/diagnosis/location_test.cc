@@ -57,6 +57,17 @@ TEST(Location, FindsOddDistortionThatGrowsWithTheSquareOfTheLevel) {
   EXPECT_GT(*location.level_exponent, 1.);
 }
 
+TEST(Location, TellsNoLevelExponentFromOneLevelOrWithoutAGap) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.stiffness = 0.9;
+  EXPECT_FALSE(located(rig, {.low_level = 4., .high_level = 4.}).level_exponent);
+  EXPECT_FALSE(located(test::noisy_rig()).level_exponent);
+}
+
+TEST(Location, TellsNoModeWithoutAGap) {
+  EXPECT_FALSE(located(test::noisy_rig()).mode);
+}
+
 TEST(Location, FindsAWeakHumOnlyAtRest) {
   test::OneModeRig rig = test::noisy_rig();
   rig.hum = 3e-6;

@@ -185,6 +185,15 @@ TEST_F(ReadRecord, RefusesARateThatContradictsTime) {
                                      HasSubstr("500 Hz"))));
 }
 
+TEST_F(ReadRecord, RecognizesTimeInMilliseconds) {
+  const std::string content = csv("time_s,base_moment_N_m",
+                                  [](const std::size_t i) { return std::to_string(2 * i) + ",1"; });
+  EXPECT_THAT(reading(content, {.sampling_rate_hz = 500.}),
+              ThrowsMessage<UserError>(EndsWith("the column seems to be in ms")));
+  EXPECT_THAT(reading(content, {.sampling_rate_hz = 400.}),
+              ThrowsMessage<UserError>(EndsWith("or the column")));
+}
+
 TEST_F(ReadRecord, RefusesARateThatIsNotPositive) {
   for (const double rate : {0., -500., std::nan(""), std::numeric_limits<double>::infinity()})
     EXPECT_THAT(reading(csv(plain_header, plain), {.sampling_rate_hz = rate}),
@@ -236,9 +245,10 @@ TEST_F(ReadRecord, ReportsAGapInTimeWithItsLines) {
     return time_at_500_hz(i < 20 ? i : i + 6) + ",1";
   });
   EXPECT_THAT(reading(content),
-              ThrowsMessage<UserError>(
-                  EndsWith("r.csv: gap in time between line 21 (0.038 s) and line 22 (0.052 s): 7 "
-                           "samples where 1 was expected")));
+              ThrowsMessage<UserError>(EndsWith(
+                  "r.csv: gap in time between line 21 (0.038 s) and line 22 (0.052 s): 7 "
+                  "samples where 1 was expected; column 'time_s': samples are never filled "
+                  "in or left out, use the rows before or those after")));
   EXPECT_THAT(reading(content, {.first_row = 11}),
               ThrowsMessage<UserError>(HasSubstr("between line 21 ")));
   EXPECT_EQ(read(content, {.first_row = 21}).n_samples(), 80u);

@@ -107,7 +107,8 @@ TEST(TimeAxis, ReportsAGapWithItsPlaceAndLength) {
   EXPECT_THAT([&] { gap.axis(); },
               ThrowsMessage<UserError>(
                   EndsWith("r.csv: gap in time between line 120 (0.236 s) and line 121 (0.25 s): "
-                           "7 samples where 1 was expected")));
+                           "7 samples where 1 was expected; column 'time_s': samples are never "
+                           "filled in or left out, use the rows before or those after")));
 }
 
 TEST(TimeAxis, ReportsASingleLostSampleWhereverItIs) {

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+
+namespace vibrissa::diagnosis {
+
+enum class FindingKind {
+  clipped_channel,
+  constant_channel,
+  stuck_channel,
+  spike,
+  swapped_columns,
+  wrong_unit,
+  reversed_sign,
+  moves_at_rest,
+  broken_period,
+  partial_period,
+  repeated_samples,
+  steady_wind,
+  too_short,
+  slow_rate,
+  no_quiet_record,
+  one_level,
+  missing_wind,
+  missing_acceleration,
+  no_wind,
+  no_base_motion,
+  no_held_out,
+  different_rate
+};
+std::string to_string(FindingKind kind);
+
+/// Something about the data that a reader of the answer must know.
+struct Finding {
+  FindingKind kind = FindingKind::clipped_channel;
+  std::string record{};  // empty: of the dataset
+  std::string message{};
+};
+
+/// Is it a mistake that makes every number of the diagnosis wrong?
+bool spoils_everything(FindingKind kind);
+
+/// Does it make an answer doubtful, though not worthless?
+bool casts_doubt(FindingKind kind);
+
+}  // namespace vibrissa::diagnosis
