@@ -13,9 +13,13 @@ namespace {
 
 struct Block {
   double power = 0., count = 0., own_share = 0.;
+  bool holds_own_noise() const {
+    constexpr double least_share = 0.1;
+    return own_share >= least_share * count;
+  }
   double gain() const {
-    constexpr double fewest = 10., least_share = 0.1;
-    if (count < fewest || own_share < least_share * count) return 0.;
+    constexpr double fewest = 10.;
+    if (count < fewest) return 0.;
     // Less power than foretold is no fault of bounds: forms are often better than theirs.
     const double mean = std::max(1., power / count);
     return std::max(0., count * (mean - 1. - std::log(mean)) - 0.5 * std::log(count));
@@ -46,9 +50,12 @@ GoodnessOfFit goodness_of_fit(const Experiment& experiment,
   for (const auto& [place, block] : blocks) {
     power += block.power;
     count += block.count;
-    out.misshape_nats += block.gain();
+    if (block.holds_own_noise()) out.misshape_nats += block.gain();
+    out.surplus_nats_per_bin += block.gain();
   }
-  if (count > 0.) out.excess = power / count - 1.;
+  if (count == 0.) return out;
+  out.excess = power / count - 1.;
+  out.surplus_nats_per_bin /= count;
   return out;
 }
 

@@ -24,6 +24,8 @@ struct GoodnessOfFit {
   ///   sum over blocks with m > 1 of max(0, n (m - 1 - ln m) - ln(n) / 2),  m mean power of n bins;
   /// noise of the right power with the wrong spectrum has much of it. Some 10 nats by chance.
   double misshape_nats = 0.;
+  /// The same over all blocks, a bin.
+  double surplus_nats_per_bin = 0.;
 };
 
 /// records: residual of the experiment's records under a fit. has_ramp: the first lines are judged

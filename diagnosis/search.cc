@@ -104,8 +104,8 @@ bool tells_noise(const Effect& effect) {
 }
 
 /// An answer whose residual stands out of the noise, the bounds of its form errors included, names
-/// the wrong cause or not all: something unknown is there. So does one whose own noise has the wrong
-/// spectrum: it has taken up what it is not.
+/// the wrong cause or not all: something unknown is there. So does one whose own noise has the
+/// wrong spectrum: it has taken up what it is not.
 bool leaves_too_much(const HypothesisFit& fit) {
   constexpr double most_excess = 0.05, most_misshape_nats = 100.;
   return !fit.hypothesis.effects().empty() &&

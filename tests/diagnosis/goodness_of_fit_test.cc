@@ -61,8 +61,8 @@ TEST_F(GoodnessOfFitTest, SeesTheRightPowerWithTheWrongSpectrum) {
   const double all = 0.5 * n_bins * (0.9 - std::log(1.9));
   EXPECT_LT(found.misshape_nats, 1.1 * all);
   EXPECT_GT(found.misshape_nats, 0.3 * all);
-  EXPECT_EQ(goodness_of_fit(experiment_, residuals(experiment_, 1, half, 0.05), false).misshape_nats,
-            0.)
+  EXPECT_EQ(
+      goodness_of_fit(experiment_, residuals(experiment_, 1, half, 0.05), false).misshape_nats, 0.)
       << "no noise of an effect is there";
 }
 
