@@ -89,13 +89,6 @@ json answer_json(const RankedAnswer& answer) {
           {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)}};
 }
 
-std::string percent(double share) {
-  std::ostringstream stream;
-  stream.precision(share > 0.1 ? 0 : 1);
-  stream << std::fixed << 100. * share << " %";
-  return stream.str();
-}
-
 std::string verdict_line(const Diagnosis& diagnosis) {
   const double probability = diagnosis.ranking.empty() ? 0. : diagnosis.ranking.front().probability;
   const std::string odds = " (probability " + percent(probability) + ")";
@@ -159,17 +152,6 @@ std::string others_line(const Diagnosis& diagnosis) {
     text += (text.empty() ? "Else: " : ", ") + answer.name + " " + percent(answer.probability);
   }
   return text;
-}
-
-/// A line of at most 100 characters, or two, broken at a space; what is longer ends in dots.
-std::vector<std::string> wrapped(const std::string& line) {
-  constexpr std::size_t longest = 100;
-  if (line.size() <= longest) return {line};
-  std::size_t cut = line.rfind(' ', longest);
-  if (cut == std::string::npos || cut < longest / 2) cut = longest;
-  std::string rest = "   " + line.substr(cut);
-  if (rest.size() > longest) rest = rest.substr(0, longest - 3) + "...";
-  return {line.substr(0, cut), rest};
 }
 
 }  // namespace

@@ -1,16 +1,15 @@
 #include "diagnosis/search.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <set>
-#include <thread>
 
 #include "diagnosis/chain_simulation.h"
 #include "diagnosis/form_errors.h"
+#include "diagnosis/parallel.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -23,26 +22,6 @@ double log_prior_of_number(std::size_t n) {
 }
 /// How many of each size are extended, and by how many partners.
 constexpr std::size_t n_extended = 4, n_partners = 5;
-
-void for_each_parallel(std::size_t n, std::size_t n_threads,
-                       const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto run = [&] {
-    for (std::size_t i = next++; i < n; i = next++) try {
-        work(i);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-      }
-  };
-  std::vector<std::thread> threads;
-  for (std::size_t t = 1; t < std::min(n_threads, n); ++t) threads.emplace_back(run);
-  run();
-  for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
-}
 
 bool testable(const Experiment& experiment, const Effect& effect, const SearchOptions& options) {
   const auto& out = options.left_out;

@@ -1,0 +1,198 @@
+#include "diagnosis/follower.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/fit_posterior.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+Eigen::VectorXd nominal_x(const std::vector<FreeFigure>& figures, const ChannelNoise& noise) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(figures.size()));
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    x(static_cast<Eigen::Index>(i)) = figures[i].description.prior.centre;
+  x(place_moment_noise) = std::log(noise.moment_n_m);
+  x(place_acceleration_noise) = std::log(noise.acceleration_m_s2);
+  return x;
+}
+
+FisherChanges nominal_changes(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+                              const Eigen::VectorXd& x) {
+  FitPosterior posterior(experiment, figures, Hypothesis{});
+  const std::vector<Prediction> at = posterior.predict(x);
+  posterior.renew_slow_variance(x, at);
+  std::vector<double> deviation;
+  for (std::size_t r = 0; r < at.size(); ++r)
+    for (const double variance :
+         posterior.variance(x, at[r], r, posterior.acceleration_variance(x)))
+      deviation.push_back(std::sqrt(variance));
+  return {experiment, std::move(deviation), noisy_chain(experiment, figures, x)};
+}
+
+/// Distance of what follows from a change, with its price.
+class Pursuit {
+ public:
+  Pursuit(const NominalPoint& point, const Eigen::VectorXd& change,
+          const std::vector<std::size_t>& figures, const std::optional<Rival>& rival)
+      : point_(point), change_(change), figures_(figures), rival_(rival) {
+    const std::size_t n = figures.size() + (rival ? rival->values.size() : 0);
+    z_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
+    half_prior_ = z_;
+    low_ = high_ = centre_ = z_;
+    for (std::size_t i = 0; i < n; ++i) set_coordinate(i);
+    residual_ = residual(z_);
+    cost_ = cost(z_, residual_);
+    set_columns();
+  }
+
+  Following run() {
+    constexpr int n_steps = 8;
+    constexpr double worthwhile = 0.02;
+    for (int i = 0; i < n_steps; ++i) {
+      const double before = cost_;
+      if (!step() || before - cost_ < worthwhile * before) break;
+    }
+    if (!rival_) return {.left = cost_};
+    const Eigen::VectorXd alone = point_.change(figures_at(z_));
+    return {.left = cost_,
+            .rival_energy = point_.changes().mean_energy(change_ - residual_ - alone)};
+  }
+
+ private:
+  const Parameter& description(std::size_t i) const {
+    return i < figures_.size() ? point_.figures()[figures_[i]].description
+                               : rival_->effect->parameters[i - figures_.size()];
+  }
+
+  void set_coordinate(std::size_t i) {
+    const auto place = static_cast<Eigen::Index>(i);
+    const Parameter& parameter = description(i);
+    low_(place) = parameter.prior.low;
+    high_(place) = parameter.prior.high;
+    if (i < figures_.size()) {
+      const FreeFigure& figure = point_.figures()[figures_[i]];
+      z_(place) = centre_(place) = point_.x()(static_cast<Eigen::Index>(figures_[i]));
+      half_prior_(place) = half_prior(figure, parameter.prior.centre, 1.);
+    } else {
+      z_(place) = std::clamp(parameter.coordinate(rival_->values[i - figures_.size()]),
+                             low_(place), high_(place));
+    }
+  }
+
+  Eigen::VectorXd figures_at(const Eigen::VectorXd& z) const {
+    Eigen::VectorXd x = point_.x();
+    for (std::size_t i = 0; i < figures_.size(); ++i)
+      x(static_cast<Eigen::Index>(figures_[i])) = z(static_cast<Eigen::Index>(i));
+    return x;
+  }
+
+  Eigen::VectorXd residual(const Eigen::VectorXd& z) const {
+    const Eigen::VectorXd x = figures_at(z);
+    if (!rival_) return change_ - point_.change(x);
+    std::vector<double> values;
+    for (std::size_t i = figures_.size(); i < static_cast<std::size_t>(z.size()); ++i)
+      values.push_back(description(i).value(z(static_cast<Eigen::Index>(i))));
+    return change_ - point_.change(x, *rival_->effect, values);
+  }
+
+  double cost(const Eigen::VectorXd& z, const Eigen::VectorXd& residual) const {
+    const double sum =
+        residual.squaredNorm() + (half_prior_.array() * (z - centre_).array().square()).sum();
+    return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+  }
+
+  void set_columns() {
+    columns_.resize(residual_.size(), z_.size());
+    for (Eigen::Index i = 0; i < z_.size(); ++i) {
+      const auto place = static_cast<std::size_t>(i);
+      if (place < figures_.size()) {
+        columns_.col(i) = point_.columns()[figures_[place]];
+        continue;
+      }
+      Eigen::VectorXd z = z_;
+      double h = description(place).step;
+      if (z(i) + h > high_(i)) h = -h;
+      z(i) += h;
+      columns_.col(i) = (residual_ - residual(z)) / h;
+      if (!columns_.col(i).allFinite()) columns_.col(i).setZero();
+    }
+    information_ = columns_.transpose() * columns_;
+    information_.diagonal() += half_prior_;
+  }
+
+  Eigen::VectorXd full_step() const {
+    const Eigen::VectorXd scale =
+        information_.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+    Eigen::VectorXd right = columns_.transpose() * residual_;
+    right -= half_prior_.cwiseProduct(z_ - centre_);
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * information_ * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+    Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * right);
+    // Directions that are the same but for rounding count once.
+    constexpr double same = 1e-9;
+    for (Eigen::Index i = 0; i < along.size(); ++i)
+      along(i) = solver.eigenvalues()(i) > same ? along(i) / solver.eigenvalues()(i) : 0.;
+    return scale.asDiagonal() * (solver.eigenvectors() * along);
+  }
+
+  bool step() {
+    Eigen::VectorXd move = full_step();
+    for (int attempt = 0; attempt < 3; ++attempt, move *= 0.3) {
+      const Eigen::VectorXd z = (z_ + move).cwiseMax(low_).cwiseMin(high_);
+      Eigen::VectorXd there = residual(z);
+      const double value = cost(z, there);
+      if (!(value < cost_)) continue;
+      z_ = z;
+      residual_ = std::move(there);
+      cost_ = value;
+      return true;
+    }
+    return false;
+  }
+
+  const NominalPoint& point_;
+  const Eigen::VectorXd& change_;
+  const std::vector<std::size_t>& figures_;
+  const std::optional<Rival>& rival_;
+  Eigen::VectorXd z_, half_prior_, low_, high_, centre_, residual_;
+  Eigen::MatrixXd columns_, information_;
+  double cost_ = 0.;
+};
+
+}  // namespace
+
+NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noise)
+    : experiment_(experiment),
+      figures_(make_figures(experiment, Hypothesis{})),
+      x_(nominal_x(figures_, noise)),
+      changes_(nominal_changes(experiment, figures_, x_)) {
+  for (std::size_t i = 0; i < figures_.size(); ++i) {
+    Eigen::VectorXd x = x_;
+    const auto place = static_cast<Eigen::Index>(i);
+    double h = figures_[i].description.step;
+    if (x(place) + h > figures_[i].description.prior.high) h = -h;
+    x(place) += h;
+    columns_.push_back(change(x) / h);
+  }
+}
+
+Eigen::VectorXd NominalPoint::change(const Eigen::VectorXd& x) const {
+  return changes_.of(noisy_chain(experiment_, figures_, x));
+}
+
+Eigen::VectorXd NominalPoint::change(const Eigen::VectorXd& x, const Effect& effect,
+                                     const std::vector<double>& values) const {
+  NoisyChain moved = noisy_chain(experiment_, figures_, x);
+  effect.extend(moved.chain, values, experiment_.scales);
+  return changes_.of(moved);
+}
+
+Following follow(const NominalPoint& point, const Eigen::VectorXd& change,
+                 const std::vector<std::size_t>& figures, const std::optional<Rival>& rival) {
+  return Pursuit(point, change, figures, rival).run();
+}
+
+}  // namespace vibrissa::diagnosis
