@@ -15,6 +15,11 @@ namespace {
 /// A size at which an effect is a direction.
 constexpr double faint_share = 1e-3;
 
+/// A form error explains no more than this, in nats (form_errors.cc).
+constexpr double most_hidden = 40.;
+/// Nor more than this share of what an effect is found by.
+constexpr double most_share = 0.25;
+
 /// A small version of one start.
 struct FaintStart {
   Eigen::VectorXd change;
@@ -26,6 +31,7 @@ struct StudiedEffect {
   std::vector<EffectFamily> families{};  // one a start
   Eigen::VectorXd change{};              // at typical strength
   std::vector<FaintStart> faint{};       // one a start
+  std::size_t first_column = 0;          // of them among the directions
   EffectPower power{};
 };
 
@@ -83,12 +89,14 @@ class PowerStudy {
     for_each(effects_.size(), [&](std::size_t i) {
       if (taking_part[i]) set_faint(effects_[i]);
     });
+    set_directions();
     std::vector<char> alike(pairs.size(), 0);
     for_each(pairs.size(), [&](std::size_t i) { alike[i] = are_alike(pairs[i]) ? 1 : 0; });
     for (std::size_t i = 0; i < pairs.size(); ++i)
       if (alike[i] != 0)
-        effects_[pairs[i].effect].power.on(pairs[i].kind).alike.push_back(
-            effects_[pairs[i].rival].effect->id);
+        effects_[pairs[i].effect]
+            .power.on(pairs[i].kind)
+            .alike.push_back(effects_[pairs[i].rival].effect->id);
     std::vector<EffectPower> out;
     for (StudiedEffect& effect : effects_) out.push_back(std::move(effect.power));
     return out;
@@ -109,7 +117,8 @@ class PowerStudy {
   /// Sets what is found and, when asked for, from which size on.
   void find(StudiedEffect& effect) {
     if (effect.power.shown) {
-      effect.change = change_at(effect.families.front(), *effect.effect, 1.);
+      if (!is_settled(effect))
+        effect.change = change_at(effect.families.front(), *effect.effect, 1.);
       for (const SensorKind kind : sensor_kinds) {
         Standing& standing = effect.power.on(kind);
         const EffectPower* before = known(effect.effect->id);
@@ -122,6 +131,15 @@ class PowerStudy {
     }
     const std::lock_guard lock(mutex_);
     if (options_.on_effect) options_.on_effect();
+  }
+
+  /// Found before, and told from all.
+  bool is_settled(const StudiedEffect& effect) const {
+    const EffectPower* before = known(effect.effect->id);
+    return before != nullptr &&
+           std::all_of(sensor_kinds.begin(), sensor_kinds.end(), [&](SensorKind kind) {
+             return before->on(kind).found && before->on(kind).alike.empty();
+           });
   }
 
   Eigen::VectorXd change_at(const EffectFamily& family, const Effect& effect, double share) const {
@@ -150,7 +168,7 @@ class PowerStudy {
 
   /// Secant steps in logarithms: nats grow as some power of the size.
   void set_limit(StudiedEffect& effect, SensorKind kind) {
-    constexpr double least_exponent = 0.5, largest_exponent = 6., near = 0.03, smallest = 1e-6;
+    constexpr double least_exponent = 0.5, largest_exponent = 6., near = 0.25, smallest = 1e-6;
     constexpr int n_steps = 12;
     const EffectFamily& family = effect.families.front();
     Standing& standing = effect.power.on(kind);
@@ -163,16 +181,16 @@ class PowerStudy {
       const double move = std::isfinite(short_of) ? short_of / exponent : std::log(0.1);
       const double next =
           std::clamp(at + std::clamp(move, std::log(1e-2), std::log(30.)), low, high);
-      const double there =
-          nats_of(effect, change_at(family, *effect.effect, std::exp(next)), kind);
+      const double there = nats_of(effect, change_at(family, *effect.effect, std::exp(next)), kind);
       if (nats > 0. && std::isfinite(nats) && std::isfinite(there) && there > 0.)
         exponent =
             std::clamp(std::log(there / nats) / (next - at), least_exponent, largest_exponent);
       at = next;
       nats = there;
     }
-    if (at >= high && nats < (1. - near) * nats_to_find) return;
     standing.any_size = at <= low && nats > nats_to_find;
+    if (!standing.any_size && nats > 0.) at += std::log(nats_to_find / nats) / exponent;
+    if (at > high) return;
     standing.limit = family.values(std::exp(at))[family.parameter()];
   }
 
@@ -223,28 +241,36 @@ class PowerStudy {
     if (!begin) return false;
     const Following following = follow(point_, effect.change, free, begin);
     const double form = rival.effect->form_error;
-    return following.left < std::max(nats_to_tell_apart, form * form * following.rival_energy);
+    const double hidden = std::min({most_hidden, most_share * effect.power.on(pair.kind).nats,
+                                    form * form * following.rival_energy});
+    return following.left < std::max(nats_to_tell_apart, hidden);
+  }
+
+  /// All figures and all starts of the effects that take part, as directions.
+  void set_directions() {
+    std::vector<Eigen::VectorXd> columns = point_.columns();
+    std::vector<double> half_priors;
+    for (const FreeFigure& figure : point_.figures())
+      half_priors.push_back(half_prior(figure, figure.description.prior.centre, 1.));
+    for (StudiedEffect& effect : effects_) {
+      effect.first_column = columns.size();
+      for (const FaintStart& start : effect.faint) {
+        columns.push_back(start.change);
+        if (!start.change.allFinite()) columns.back().setZero();
+      }
+    }
+    half_priors.resize(columns.size(), 0.);
+    directions_ = FisherDirections(columns, half_priors);
   }
 
   /// Of the effect's direction at its typical energy, when all of the rival's directions follow it.
   double left_by_directions(const StudiedEffect& effect, const StudiedEffect& rival,
                             const std::vector<std::size_t>& free) const {
-    std::vector<Eigen::VectorXd> columns;
-    std::vector<double> half_priors;
-    for (const std::size_t place : free) {
-      const FreeFigure& figure = point_.figures()[place];
-      columns.push_back(point_.columns()[place]);
-      half_priors.push_back(half_prior(figure, figure.description.prior.centre, 1.));
-    }
-    for (const FaintStart& start : rival.faint)
-      if (start.change.allFinite()) {
-        columns.push_back(start.change);
-        half_priors.push_back(0.);
-      }
-    const Eigen::VectorXd& faint = effect.faint.front().change;
-    const double scale = effect.change.norm() / std::max(faint.norm(), 1e-300);
-    return FisherDirections(columns, half_priors)
-        .left(scale * faint, std::vector<bool>(columns.size(), true));
+    std::vector<bool> chosen(static_cast<std::size_t>(directions_.columns().cols()), false);
+    for (const std::size_t place : free) chosen[place] = true;
+    for (std::size_t i = 0; i < rival.faint.size(); ++i) chosen[rival.first_column + i] = true;
+    return directions_.left_of(static_cast<Eigen::Index>(effect.first_column),
+                               effect.change.squaredNorm(), chosen);
   }
 
   /// The rival at the start and size that follow a change best.
@@ -265,6 +291,7 @@ class PowerStudy {
   }
 
   NominalPoint point_;
+  FisherDirections directions_;
   const PowerOptions& options_;
   std::vector<StudiedEffect> effects_;
   std::mutex mutex_;

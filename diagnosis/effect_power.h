@@ -18,8 +18,8 @@ inline constexpr double nats_to_find = 8.;
 /// And below which two effects are alike (indistinguishable.h).
 inline constexpr double nats_to_tell_apart = 2.;
 
-/// What else may differ from the simulation: noise levels and joint alone, or, as built, the retunes
-/// too, a little (retune_choices.h: half of all sensors are either).
+/// What else may differ from the simulation: noise levels and joint alone, or, as built, the
+/// retunes too, a little (retune_choices.h: half of all sensors are either).
 enum class SensorKind { exact, as_built };
 inline constexpr std::array sensor_kinds{SensorKind::exact, SensorKind::as_built};
 

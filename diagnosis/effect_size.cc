@@ -17,9 +17,9 @@ Experiment trial_experiment() {
   signals::Record record(500., n);
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  for (const std::string& name : {signals::channel::base_acceleration,
-                                  signals::channel::cross_acceleration,
-                                  signals::channel::wind_speed, signals::channel::base_moment}) {
+  for (const std::string& name :
+       {signals::channel::base_acceleration, signals::channel::cross_acceleration,
+        signals::channel::wind_speed, signals::channel::base_moment}) {
     std::vector<double> x(n);
     for (double& value : x) value = 2. + normal(random);
     record.set_channel(name, std::move(x));

@@ -58,7 +58,8 @@ std::vector<EffectPower> by_table(const MenuEntry& entry, std::vector<EffectPowe
   };
   for (const SensorKind kind : sensor_kinds)
     for (EffectPower& effect : effects)
-      std::erase_if(effect.on(kind).alike, [&](const std::string& id) { return differs(effect.effect, id); });
+      std::erase_if(effect.on(kind).alike,
+                    [&](const std::string& id) { return differs(effect.effect, id); });
   return effects;
 }
 
@@ -75,10 +76,10 @@ class Planner {
   ExperimentPlan run() {
     ExperimentPlan plan{.noise = noise_};
     for (const PlannedInput& input : inputs_)
-      plan.records.push_back(
-          {input.name,
-           signals::to_string(signals::Excitation{!input.acceleration.empty(), !input.wind.empty()}),
-           duration_of({input})});
+      plan.records.push_back({input.name,
+                              signals::to_string(signals::Excitation{!input.acceleration.empty(),
+                                                                     !input.wind.empty()}),
+                              duration_of({input})});
     plan.effects = effect_powers(
         experiment_, noise_, {.n_threads = options_.n_threads, .on_effect = options_.on_effect});
     plan.undecided = undecided_probability(plan.effects);

@@ -18,7 +18,7 @@ struct PlannedStep {
   std::string what{};    // to do on the bench
   bool by_rule = false;  // not simulated: what the menu says of it, at best
   double duration_s = 0.;
-  std::vector<std::string> finds{};                             // effects found only with it, on either sensor
+  std::vector<std::string> finds{};  // effects found only with it, on either sensor
   std::vector<std::pair<std::string, std::string>> separates{};  // alphabetical within a pair
   /// Probability of an undecided answer that it takes away.
   double gain = 0.;

@@ -76,8 +76,8 @@ std::string records_line(const ExperimentPlan& plan) {
   }
   Words words;
   for (const auto& [kind, n] : kinds) words.push_back(std::to_string(n) + " " + kind);
-  return "Planned: " + joined(words, ", ") + ", " + three_digits(duration_s) + " s; noise a sample " +
-         three_digits(plan.noise.moment_n_m) + " N m and " +
+  return "Planned: " + joined(words, ", ") + ", " + three_digits(duration_s) +
+         " s; noise a sample " + three_digits(plan.noise.moment_n_m) + " N m and " +
          three_digits(plan.noise.acceleration_m_s2) + " m/s^2";
 }
 
@@ -146,7 +146,8 @@ Words step_lines(const ExperimentPlan& plan) {
   for (const PlannedStep& step : plan.steps)
     if (step.gain >= worth_it && lines.size() < most)
       lines.push_back(step_line(step, lines.empty()));
-  if (lines.empty()) lines.push_back("Measure first: what is planned; nothing of the menu adds to it");
+  if (lines.empty())
+    lines.push_back("Measure first: what is planned; nothing of the menu adds to it");
   return lines;
 }
 

@@ -6,8 +6,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// Schema "vibrissa-plan-1": records and noise supposed, effects with their limits and what is alike,
-/// the steps of the menu. Numbers that are not finite become null. Proven by
+/// Schema "vibrissa-plan-1": records and noise supposed, effects with their limits and what is
+/// alike, the steps of the menu. Numbers that are not finite become null. Proven by
 /// tests/diagnosis/experiment_plan_json_test.cc.
 std::string plan_json(const ExperimentPlan& plan);
 

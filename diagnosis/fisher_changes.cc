@@ -76,20 +76,32 @@ FisherDirections::FisherDirections(const std::vector<Eigen::VectorXd>& columns,
   columns_.resize(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i)
     columns_.col(static_cast<Eigen::Index>(i)) = columns[i];
-  gram_ = columns_.transpose() * columns_;
+  overlap_ = columns_.transpose() * columns_;
+  gram_ = overlap_;
   for (std::size_t i = 0; i < half_priors.size(); ++i)
     gram_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += half_priors[i];
 }
 
 double FisherDirections::left(const Eigen::VectorXd& change,
                               const std::vector<bool>& chosen) const {
+  return left(change.squaredNorm(), columns_.transpose() * change, chosen);
+}
+
+double FisherDirections::left_of(const Eigen::Index column, const double energy,
+                                 const std::vector<bool>& chosen) const {
+  const double own = overlap_(column, column);
+  if (!(own > 0.)) return 0.;
+  return left(energy, std::sqrt(energy / own) * overlap_.col(column), chosen);
+}
+
+double FisherDirections::left(const double whole, const Eigen::VectorXd& overlap,
+                              const std::vector<bool>& chosen) const {
   std::vector<Eigen::Index> places;
   for (std::size_t i = 0; i < chosen.size(); ++i)
     if (chosen[i] && gram_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) > 0.)
       places.push_back(static_cast<Eigen::Index>(i));
-  const double whole = change.squaredNorm();
   if (places.empty()) return whole;
-  const Eigen::VectorXd right = (columns_.transpose() * change)(places);
+  const Eigen::VectorXd right = overlap(places);
   const Eigen::MatrixXd matrix = gram_(places, places);
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();

@@ -59,9 +59,13 @@ class FisherDirections {
   const Eigen::MatrixXd& columns() const { return columns_; }
   /// Nats of a change that are left when the chosen directions follow it.
   double left(const Eigen::VectorXd& change, const std::vector<bool>& chosen) const;
+  /// Of one of the directions as a change, made of norm sqrt(energy).
+  double left_of(Eigen::Index column, double energy, const std::vector<bool>& chosen) const;
 
  private:
-  Eigen::MatrixXd columns_, gram_;
+  double left(double whole, const Eigen::VectorXd& overlap, const std::vector<bool>& chosen) const;
+
+  Eigen::MatrixXd columns_, overlap_, gram_;  // overlap: gram without priors
 };
 
 }  // namespace vibrissa::diagnosis

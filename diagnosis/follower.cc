@@ -32,6 +32,9 @@ FisherChanges nominal_changes(const Experiment& experiment, const std::vector<Fr
   return {experiment, std::move(deviation), noisy_chain(experiment, figures, x)};
 }
 
+/// Nats left that are as good as none.
+constexpr double surely_followed = 0.5;
+
 /// Distance of what follows from a change, with its price.
 class Pursuit {
  public:
@@ -45,16 +48,12 @@ class Pursuit {
     for (std::size_t i = 0; i < n; ++i) set_coordinate(i);
     residual_ = residual(z_);
     cost_ = cost(z_, residual_);
-    set_columns();
+    set_columns(true);
   }
 
   Following run() {
-    constexpr int n_steps = 8;
-    constexpr double worthwhile = 0.02;
-    for (int i = 0; i < n_steps; ++i) {
-      const double before = cost_;
-      if (!step() || before - cost_ < worthwhile * before) break;
-    }
+    constexpr int n_steps = 14;
+    for (int i = 0; i < n_steps && !ended_; ++i) step();
     if (!rival_) return {.left = cost_};
     const Eigen::VectorXd alone = point_.change(figures_at(z_));
     return {.left = cost_,
@@ -77,8 +76,8 @@ class Pursuit {
       z_(place) = centre_(place) = point_.x()(static_cast<Eigen::Index>(figures_[i]));
       half_prior_(place) = half_prior(figure, parameter.prior.centre, 1.);
     } else {
-      z_(place) = std::clamp(parameter.coordinate(rival_->values[i - figures_.size()]),
-                             low_(place), high_(place));
+      z_(place) = std::clamp(parameter.coordinate(rival_->values[i - figures_.size()]), low_(place),
+                             high_(place));
     }
   }
 
@@ -104,11 +103,12 @@ class Pursuit {
     return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
   }
 
-  void set_columns() {
+  /// Derivatives at z; those by the figures are known where the pursuit begins.
+  void set_columns(bool at_start) {
     columns_.resize(residual_.size(), z_.size());
     for (Eigen::Index i = 0; i < z_.size(); ++i) {
       const auto place = static_cast<std::size_t>(i);
-      if (place < figures_.size()) {
+      if (at_start && place < figures_.size()) {
         columns_.col(i) = point_.columns()[figures_[place]];
         continue;
       }
@@ -121,36 +121,79 @@ class Pursuit {
     }
     information_ = columns_.transpose() * columns_;
     information_.diagonal() += half_prior_;
+    fresh_ = true;
   }
 
-  Eigen::VectorXd full_step() const {
-    const Eigen::VectorXd scale =
-        information_.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
-    Eigen::VectorXd right = columns_.transpose() * residual_;
-    right -= half_prior_.cwiseProduct(z_ - centre_);
-    const Eigen::MatrixXd scaled = scale.asDiagonal() * information_ * scale.asDiagonal();
+  /// Coordinates that are not held at a bound.
+  std::vector<Eigen::Index> free_coordinates(const Eigen::VectorXd& uphill) const {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < z_.size(); ++i) {
+      const bool held =
+          (z_(i) <= low_(i) && uphill(i) <= 0.) || (z_(i) >= high_(i) && uphill(i) >= 0.);
+      if (!held && information_(i, i) > 0.) free.push_back(i);
+    }
+    return free;
+  }
+
+  Eigen::VectorXd damped_move() const {
+    const Eigen::VectorXd uphill =
+        columns_.transpose() * residual_ - half_prior_.cwiseProduct(z_ - centre_);
+    const std::vector<Eigen::Index> free = free_coordinates(uphill);
+    Eigen::VectorXd move = Eigen::VectorXd::Zero(z_.size());
+    if (free.empty()) return move;
+    Eigen::MatrixXd matrix = information_(free, free);
+    matrix.diagonal() *= 1. + damping_;
+    const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-    Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * right);
+    Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * uphill(free));
     // Directions that are the same but for rounding count once.
     constexpr double same = 1e-9;
     for (Eigen::Index i = 0; i < along.size(); ++i)
       along(i) = solver.eigenvalues()(i) > same ? along(i) / solver.eigenvalues()(i) : 0.;
-    return scale.asDiagonal() * (solver.eigenvectors() * along);
+    move(free) = scale.asDiagonal() * (solver.eigenvectors() * along);
+    return move;
   }
 
-  bool step() {
-    Eigen::VectorXd move = full_step();
-    for (int attempt = 0; attempt < 3; ++attempt, move *= 0.3) {
-      const Eigen::VectorXd z = (z_ + move).cwiseMax(low_).cwiseMin(high_);
-      Eigen::VectorXd there = residual(z);
-      const double value = cost(z, there);
-      if (!(value < cost_)) continue;
-      z_ = z;
-      residual_ = std::move(there);
-      cost_ = value;
-      return true;
+  /// One step of Levenberg's and Marquardt's; derivatives are renewed when they foretell badly.
+  void step() {
+    constexpr double far = 200., worthwhile_when_far = 0.3;
+    constexpr double worthwhile = 0.02, trusted = 0.9, most_damping = 1e3;
+    const Eigen::VectorXd z = (z_ + damped_move()).cwiseMax(low_).cwiseMin(high_);
+    const Eigen::VectorXd foretold_residual = residual_ - columns_ * (z - z_);
+    const double foretold = cost(z, foretold_residual);
+    const double least_gain = foretold > far ? worthwhile_when_far : worthwhile;
+    if (cost_ - foretold < least_gain * cost_) {
+      renew_or_end();
+      return;
     }
-    return false;
+    Eigen::VectorXd there = residual(z);
+    const double value = cost(z, there), gain = (cost_ - value) / (cost_ - foretold);
+    if (!(value < cost_)) {
+      if (!fresh_) {
+        set_columns(false);
+        return;
+      }
+      damping_ = std::max(1e-2, 10. * damping_);
+      ended_ = damping_ > most_damping;
+      return;
+    }
+    ended_ = value < surely_followed;
+    z_ = z;
+    residual_ = std::move(there);
+    cost_ = value;
+    damping_ *= 0.2;
+    fresh_ = false;
+    if (!ended_ && gain < trusted) set_columns(false);
+    foretold_well_ = gain >= trusted;
+  }
+
+  /// No step helps: because the place is the best, unless the derivatives are of elsewhere.
+  void renew_or_end() {
+    if (fresh_ || foretold_well_)
+      ended_ = true;
+    else
+      set_columns(false);
   }
 
   const NominalPoint& point_;
@@ -159,7 +202,8 @@ class Pursuit {
   const std::optional<Rival>& rival_;
   Eigen::VectorXd z_, half_prior_, low_, high_, centre_, residual_;
   Eigen::MatrixXd columns_, information_;
-  double cost_ = 0.;
+  double cost_ = 0., damping_ = 1e-4;
+  bool fresh_ = false, foretold_well_ = false, ended_ = false;
 };
 
 }  // namespace

@@ -51,7 +51,8 @@ constexpr double n_spreads = 2.;
 
 class Directions {
  public:
-  Directions(const Experiment& experiment, const HypothesisFit& fit) : changes_(changes_against(experiment, fit)) {
+  Directions(const Experiment& experiment, const HypothesisFit& fit)
+      : changes_(changes_against(experiment, fit)) {
     std::vector<Eigen::VectorXd> columns;
     add_figures(experiment, fit, columns);
     add_rivals(experiment, fit, columns);
@@ -76,7 +77,8 @@ class Directions {
         const double neutral = parameter.coordinate(parameter.neutral);
         if (!(neutral >= parameter.prior.low && neutral <= parameter.prior.high))
           return changes_.of(noisy_chain(experiment, fit.figures, fit.x, &effect));
-        along += (neutral - fit.x(static_cast<Eigen::Index>(i))) * directions_.columns().col(column);
+        along +=
+            (neutral - fit.x(static_cast<Eigen::Index>(i))) * directions_.columns().col(column);
       }
       ++column;
     }
