@@ -31,6 +31,7 @@ void add_excite_command(CLI::App& app);
 void add_identify_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_modes_command(CLI::App& app);
+void add_plan_command(CLI::App& app);
 void add_reproduce_command(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_separate_command(CLI::App& app);

@@ -3,17 +3,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/case_file.h"
 #include "apps/command.h"
 #include "apps/diagnosis_figures.h"
-#include "apps/sensor_model.h"
+#include "apps/nominal_input.h"
 #include "diagnosis/diagnosis_json.h"
-#include "diagnosis/nominal_from_model.h"
-#include "diagnosis/nominal_identification.h"
-#include "fem/solver_session.h"
 #include "report/pictures.h"
 #include "report/run_folder.h"
-#include "signals/error.h"
 #include "signals/progress.h"
 
 namespace vibrissa::apps {
@@ -21,34 +16,11 @@ namespace {
 
 struct DiagnoseCommand {
   CommonOptions common;
-  std::optional<std::string> model, simulation;
+  NominalInput nominal;
   std::string real;
   std::optional<std::filesystem::path> folder;
   std::size_t max_effects = 3;
 };
-
-signals::ReducedModel solve_case(const std::string& file, bool show_progress) {
-  Case parameters = CaseFile(file).read();
-  const fem::SolverSession session;
-  return make_reduced_model(fem::Sensor(parameters.sensor), parameters.sensor, show_progress);
-}
-
-/// The nominal model and the rate of the simulation's records, 0 when it is a model.
-std::pair<diagnosis::NominalModel, double> nominal_model(const DiagnoseCommand& options) {
-  if (options.model.has_value() == options.simulation.has_value())
-    throw signals::UserError(
-        "give the simulation either as --model CASE.prm|model.json or as --sim DATASET");
-  if (options.simulation) {
-    const signals::Dataset dataset = signals::read_dataset(*options.simulation);
-    return {diagnosis::identify_nominal(dataset),
-            dataset.records.front().record.sampling_rate_hz()};
-  }
-  const bool is_case = std::filesystem::path(*options.model).extension() == ".prm";
-  const bool show = !options.common.quiet && !options.common.json;
-  return {diagnosis::nominal_from(is_case ? solve_case(*options.model, show)
-                                          : signals::read_reduced_model(*options.model)),
-          0.};
-}
 
 void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& diagnosis) {
   const auto folder =
@@ -65,7 +37,8 @@ void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& d
 }
 
 void diagnose(const DiagnoseCommand& options) {
-  const auto [nominal, rate_hz] = nominal_model(options);
+  const auto [nominal, rate_hz] =
+      options.nominal.read(!options.common.quiet && !options.common.json);
   const signals::Dataset real = signals::read_dataset(options.real);
   // About forty single effects and combinations are fitted.
   constexpr std::size_t usual_fits = 75;
@@ -90,9 +63,9 @@ void add_diagnose_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "diagnose",
       "Why the records differ from the simulation: where, which effect, how far the gap closes");
-  command->add_option("--model", options->model,
+  command->add_option("--model", options->nominal.model,
                       "The simulation as a case file (.prm) or a reduced model (.json)");
-  command->add_option("--sim", options->simulation,
+  command->add_option("--sim", options->nominal.simulation,
                       "The simulation as a dataset: a folder of records with dataset.json");
   command->add_option("--real", options->real, "Dataset of the real sensor")->required();
   command->add_option("-o,--out", options->folder,
