@@ -7,6 +7,7 @@
 
 #include "diagnosis/effect_size.h"
 #include "diagnosis/follower.h"
+#include "diagnosis/form_errors.h"
 #include "diagnosis/parallel.h"
 
 namespace vibrissa::diagnosis {
@@ -15,9 +16,7 @@ namespace {
 /// A size at which an effect is a direction.
 constexpr double faint_share = 1e-3;
 
-/// A form error explains no more than this, in nats (form_errors.cc).
-constexpr double most_hidden = 40.;
-/// Nor more than this share of what an effect is found by.
+/// A form error hides no more than this share of what an effect is found by.
 constexpr double most_share = 0.25;
 
 /// A small version of one start.
@@ -133,13 +132,13 @@ class PowerStudy {
     if (options_.on_effect) options_.on_effect();
   }
 
-  /// Found before, and told from all.
+  /// Found before, and told from all that is shown now.
   bool is_settled(const StudiedEffect& effect) const {
-    const EffectPower* before = known(effect.effect->id);
-    return before != nullptr &&
-           std::all_of(sensor_kinds.begin(), sensor_kinds.end(), [&](SensorKind kind) {
-             return before->on(kind).found && before->on(kind).alike.empty();
-           });
+    return std::all_of(sensor_kinds.begin(), sensor_kinds.end(), [&](SensorKind kind) {
+      return std::all_of(effects_.begin(), effects_.end(), [&](const StudiedEffect& rival) {
+        return &rival == &effect || !rival.power.shown || known_different(effect, rival, kind);
+      });
+    });
   }
 
   Eigen::VectorXd change_at(const EffectFamily& family, const Effect& effect, double share) const {
@@ -241,8 +240,9 @@ class PowerStudy {
     if (!begin) return false;
     const Following following = follow(point_, effect.change, free, begin);
     const double form = rival.effect->form_error;
-    const double hidden = std::min({most_hidden, most_share * effect.power.on(pair.kind).nats,
-                                    form * form * following.rival_energy});
+    const double hidden =
+        std::min({most_hidden_by_form, most_share * effect.power.on(pair.kind).nats,
+                  form * form * following.rival_energy});
     return following.left < std::max(nats_to_tell_apart, hidden);
   }
 

@@ -53,11 +53,33 @@ std::string with_unit(double value, const std::string& unit) {
   return three_digits(value) + (unit == "1" ? "" : " " + unit);
 }
 
+/// "delay 6.3e-06 s", "backlash gap 0.0003".
 std::string limit_words(const EffectPower& effect) {
-  std::string text = effect.effect + " " + effect.parameter + " ";
   const Standing& standing = effect.as_built;
-  if (!standing.limit) return text + "nowhere";
-  return text + (standing.any_size ? "any" : with_unit(*standing.limit, effect.unit));
+  if (!standing.limit) return effect.effect + " at no size";
+  if (standing.any_size) return effect.effect + " at any size";
+  const std::string name =
+      effect.unit == "1" ? effect.effect + " " + effect.parameter : effect.effect;
+  return name + " " + with_unit(*standing.limit, effect.unit);
+}
+
+/// Words with commas on lines of at most 100 characters, the last one ending in dots when there are
+/// more than so many.
+Words filled(const std::string& head, const Words& words, std::size_t most_lines) {
+  constexpr std::size_t longest = 96;
+  Words lines{head};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string word = words[i] + (i + 1 < words.size() ? "," : "");
+    if (lines.back().size() + 1 + word.size() > longest) {
+      if (lines.size() == most_lines) {
+        lines.back() += " ...";
+        return lines;
+      }
+      lines.push_back("   ");
+    }
+    lines.back() += " " + word;
+  }
+  return lines;
 }
 
 Words chosen(const ExperimentPlan& plan, const std::function<bool(const EffectPower&)>& which) {
@@ -86,10 +108,10 @@ std::string found_line(const ExperimentPlan& plan) {
   const Words shown = chosen(plan, [](const EffectPower& e) { return e.shown; });
   return "Would be found at typical strength: " + std::to_string(found.size()) + " of " +
          std::to_string(plan.effects.size()) + " effects" +
-         (found.size() == shown.size() ? "" : "; not:");
+         (found.size() == shown.size() ? "" : "; else only from:");
 }
 
-/// Effects that are shown but too weak, with the size that they would need.
+/// Effects that are shown but too weak there, with the size that they would need.
 Words too_weak(const ExperimentPlan& plan) {
   Words words;
   for (const EffectPower& effect : plan.effects)
@@ -107,11 +129,13 @@ Words not_shown_lines(const ExperimentPlan& plan) {
   return lines;
 }
 
-std::string limits_line(const ExperimentPlan& plan) {
+Words limits_lines(const ExperimentPlan& plan) {
+  constexpr std::size_t most_lines = 5;
   Words words;
   for (const EffectPower& effect : plan.effects)
     if (effect.as_built.found) words.push_back(limit_words(effect));
-  return words.empty() ? "" : "Found from: " + joined(words, ", ");
+  if (words.empty()) return {};
+  return filled("Found from:", words, most_lines);
 }
 
 Words alike_lines(const ExperimentPlan& plan) {
@@ -184,7 +208,7 @@ std::string plan_text(const ExperimentPlan& plan) {
   add(records_line(plan));
   add(found_line(plan) + (too_weak(plan).empty() ? "" : " " + joined(too_weak(plan), ", ")));
   for (const std::string& line : not_shown_lines(plan)) add(line);
-  add(limits_line(plan));
+  for (const std::string& line : limits_lines(plan)) add(line);
   for (const std::string& line : alike_lines(plan)) add(line);
   Words steps;
   std::swap(steps, lines);

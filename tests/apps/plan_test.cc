@@ -16,19 +16,17 @@ TEST(PlanCommand, AsksForOneSimulation) {
 
 TEST(PlanCommand, RefusesNoiseThatIsNotPositive) {
   const Folder folder;
-  const auto result =
-      vibrissa("plan --moment-noise 0 --sim '" + folder.file("nowhere") + "'");
+  const auto result = vibrissa("plan --moment-noise 0 --sim '" + folder.file("nowhere") + "'");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.errors, HasSubstr("moment-noise"));
 }
 
 TEST(PlanCommand, LeavesPlanLimitsAndPicture) {
-  const fs::path simulation =
-      fs::path(VIBRISSA_SOURCE_DIR) / ".." / "shared" / "practice" / "sim";
+  const fs::path simulation = fs::path(VIBRISSA_SOURCE_DIR) / ".." / "shared" / "practice" / "sim";
   if (!fs::exists(simulation)) GTEST_SKIP() << simulation << " is missing";
   const Folder folder;
-  const auto result = vibrissa("plan --quiet --sim '" + simulation.string() + "' -o '" +
-                               folder.file("out") + "'");
+  const auto result =
+      vibrissa("plan --quiet --sim '" + simulation.string() + "' -o '" + folder.file("out") + "'");
   ASSERT_EQ(result.status, 0) << result.errors;
   const auto plan = nlohmann::json::parse(content(folder.file("out/plan.json")));
   EXPECT_EQ(plan["schema"], "vibrissa-plan-1");

@@ -134,28 +134,30 @@ TEST(EffectPower, AsBuiltHidesAtLeastWhatAnExactSensorHides) {
 }
 
 TEST(EffectPower, FitsGainWhatWasForetold) {
-  const ChannelNoise noise = usual_noise();
+  // So much noise that one step of the rig's integration is about the limit.
+  const double tau = 1. / (rig.rate_hz * test::OneModeRig::n_steps);
+  const ChannelNoise noise{.moment_n_m = 8e-5, .acceleration_m_s2 = 0.05};
   const Experiment clean = planned(false, noise);
-  const auto powers = effect_powers(clean, noise);
-  const Effect& delay = find_effect("delay");
-  const double tau = *power_of(powers, "delay").as_built.limit;
-  // Of twice the gain in likelihood, noncentral chi square: mean 1 + 16, variance 2 + 64.
+  const double limit = *power_of(effect_powers(clean, noise), "delay").as_built.limit;
+  const double nats = nats_to_find * tau * tau / (limit * limit);
+  ASSERT_GT(nats, 4.);
+  ASSERT_LT(nats, 20.);
+  test::OneModeRig real = rig;
+  real.delay_s = tau;
+  real.moment_noise = noise.moment_n_m;
+  real.acceleration_noise = noise.acceleration_m_s2;
   constexpr unsigned n_trials = 16;
   double gain = 0.;
   for (unsigned trial = 0; trial < n_trials; ++trial) {
-    test::OneModeRig real = rig;
-    constexpr double steps_hz = 500. * test::OneModeRig::n_steps;
-    real.delay_s = std::round(tau * steps_hz) / steps_hz;
-    real.moment_noise = noise.moment_n_m * real.delay_s / tau;
-    real.acceleration_noise = noise.acceleration_m_s2 * real.delay_s / tau;
     const Experiment data = prepare_experiment(
         nominal(), test::rig_dataset(real, {.held_out = false, .seed = 7 + 100 * trial}),
         signals::Split::fit, InputNoise::reduced);
-    gain += (fit_hypothesis(data, Hypothesis({&delay})).log_likelihood -
+    gain += (fit_hypothesis(data, Hypothesis({&find_effect("delay")})).log_likelihood -
              fit_hypothesis(data, Hypothesis{}).log_likelihood) /
             n_trials;
   }
-  EXPECT_NEAR(gain, nats_to_find + 0.5, 3. * std::sqrt(66. / 4. / n_trials));
+  // Twice the gain is noncentral chi square: mean 1 + 2 nats, variance 2 + 8 nats.
+  EXPECT_NEAR(gain, nats + 0.5, 3. * std::sqrt((0.5 + 2. * nats) / n_trials));
 }
 
 }  // namespace

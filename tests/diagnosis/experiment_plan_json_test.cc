@@ -61,7 +61,7 @@ TEST(PlanText, SaysWhatIsFoundMistakenMissingAndFirst) {
   EXPECT_THAT(text, HasSubstr("1 of 3 effects"));
   EXPECT_THAT(text, HasSubstr("sensor_gain ratio 0.947"));
   EXPECT_THAT(text, HasSubstr("Not shown without wind: drag_error"));
-  EXPECT_THAT(text, HasSubstr("delay tau 1.9e-05 s"));
+  EXPECT_THAT(text, HasSubstr("delay 1.9e-05 s"));
   EXPECT_THAT(text, HasSubstr("delay could be sensor_lowpass"));
   EXPECT_THAT(text, HasSubstr("Measure first: wide_band"));
   EXPECT_THAT(text, HasSubstr("by rule"));

@@ -82,16 +82,17 @@ TEST(PlannedMenu, AnotherRateKeepsTheMotion) {
 
 TEST(PlannedMenu, ForetellsOnlyWhatTheSimulationKnows) {
   const NominalModel still = test::nominal_of(rig, false), windy = test::nominal_of(rig, true);
+  const std::vector<PlannedInput> inputs = rig_inputs(true);
   for (const char* entry : {"wind_ladder", "steady_wind"}) {
-    EXPECT_FALSE(added_inputs(entry, still, rig_inputs(false))) << entry;
-    EXPECT_TRUE(added_inputs(entry, windy, rig_inputs(false))) << entry;
+    EXPECT_FALSE(added_inputs(entry, still, inputs)) << entry;
+    EXPECT_TRUE(added_inputs(entry, windy, inputs)) << entry;
   }
   for (const char* entry :
        {"added_mass", "tilt", "clamped_stage", "magnet_removed", "rotate_sensor"})
-    EXPECT_FALSE(added_inputs(entry, windy, rig_inputs(true))) << entry;
+    EXPECT_FALSE(added_inputs(entry, windy, inputs)) << entry;
   std::size_t n_simulated = 0;
   for (const MenuEntry& entry : experiment_menu())
-    if (added_inputs(entry.name, windy, rig_inputs(true))) ++n_simulated;
+    if (added_inputs(entry.name, windy, inputs)) ++n_simulated;
   EXPECT_EQ(n_simulated, 6u);
 }
 
