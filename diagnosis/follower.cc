@@ -124,41 +124,56 @@ class Pursuit {
     fresh_ = true;
   }
 
-  /// Coordinates that are not held at a bound.
-  std::vector<Eigen::Index> free_coordinates(const Eigen::VectorXd& uphill) const {
-    std::vector<Eigen::Index> free;
-    for (Eigen::Index i = 0; i < z_.size(); ++i) {
-      const bool held =
-          (z_(i) <= low_(i) && uphill(i) <= 0.) || (z_(i) >= high_(i) && uphill(i) >= 0.);
-      if (!held && information_(i, i) > 0.) free.push_back(i);
-    }
-    return free;
-  }
-
-  Eigen::VectorXd damped_move() const {
-    const Eigen::VectorXd uphill =
-        columns_.transpose() * residual_ - half_prior_.cwiseProduct(z_ - centre_);
-    const std::vector<Eigen::Index> free = free_coordinates(uphill);
-    Eigen::VectorXd move = Eigen::VectorXd::Zero(z_.size());
-    if (free.empty()) return move;
+  /// Best move of the chosen coordinates when the others move as given.
+  Eigen::VectorXd move_of(const std::vector<Eigen::Index>& free, const Eigen::VectorXd& moved,
+                          const Eigen::VectorXd& uphill) const {
+    const Eigen::VectorXd right = (uphill - information_ * moved)(free);
     Eigen::MatrixXd matrix = information_(free, free);
     matrix.diagonal() *= 1. + damping_;
     const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-    Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * uphill(free));
+    Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * right);
     // Directions that are the same but for rounding count once.
     constexpr double same = 1e-9;
     for (Eigen::Index i = 0; i < along.size(); ++i)
       along(i) = solver.eigenvalues()(i) > same ? along(i) / solver.eigenvalues()(i) : 0.;
-    move(free) = scale.asDiagonal() * (solver.eigenvectors() * along);
-    return move;
+    return scale.asDiagonal() * (solver.eigenvectors() * along);
+  }
+
+  /// The others move on when one is held at its bound.
+  Eigen::VectorXd damped_move() const {
+    const Eigen::VectorXd uphill =
+        columns_.transpose() * residual_ - half_prior_.cwiseProduct(z_ - centre_);
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < z_.size(); ++i)
+      if (information_(i, i) > 0.) free.push_back(i);
+    Eigen::VectorXd held = Eigen::VectorXd::Zero(z_.size());
+    while (!free.empty()) {
+      const Eigen::VectorXd part = move_of(free, held, uphill);
+      std::vector<Eigen::Index> inside;
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        const Eigen::Index place = free[i];
+        const double to = z_(place) + part(static_cast<Eigen::Index>(i));
+        const double bounded = std::clamp(to, low_(place), high_(place));
+        if (bounded == to)
+          inside.push_back(place);
+        else
+          held(place) = bounded - z_(place);
+      }
+      if (inside.size() == free.size()) {
+        held(free) = part;
+        break;
+      }
+      free = std::move(inside);
+    }
+    return held;
   }
 
   /// One step of Levenberg's and Marquardt's; derivatives are renewed when they foretell badly.
   void step() {
     constexpr double far = 200., worthwhile_when_far = 0.3;
-    constexpr double worthwhile = 0.02, trusted = 0.9, most_damping = 1e3;
+    constexpr double worthwhile = 0.02, untrusted = 0.1, negligible = 0.2, most_damping = 1e3;
     const Eigen::VectorXd z = (z_ + damped_move()).cwiseMax(low_).cwiseMin(high_);
     const Eigen::VectorXd foretold_residual = residual_ - columns_ * (z - z_);
     const double foretold = cost(z, foretold_residual);
@@ -168,7 +183,7 @@ class Pursuit {
       return;
     }
     Eigen::VectorXd there = residual(z);
-    const double value = cost(z, there), gain = (cost_ - value) / (cost_ - foretold);
+    const double value = cost(z, there);
     if (!(value < cost_)) {
       if (!fresh_) {
         set_columns(false);
@@ -184,8 +199,8 @@ class Pursuit {
     cost_ = value;
     damping_ *= 0.2;
     fresh_ = false;
-    if (!ended_ && gain < trusted) set_columns(false);
-    foretold_well_ = gain >= trusted;
+    foretold_well_ = value - foretold < std::max(negligible, untrusted * foretold);
+    if (!ended_ && !foretold_well_) set_columns(false);
   }
 
   /// No step helps: because the place is the best, unless the derivatives are of elsewhere.
