@@ -13,9 +13,6 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A size at which an effect is a direction.
-constexpr double faint_share = 1e-3;
-
 /// A form error hides no more than this share of what an effect is found by.
 constexpr double most_share = 0.25;
 

@@ -12,6 +12,9 @@ namespace vibrissa::diagnosis {
 /// small record with base motion on both axes and wind.
 std::vector<std::size_t> size_parameters(const Effect& effect);
 
+/// Share of a start at which an effect is a direction.
+inline constexpr double faint_share = 1e-3;
+
 /// A family of one effect from neutral, share 0, to one of its starts, share 1, and beyond: its
 /// size parameters go in proportion to their distance from neutral (their logarithm, where neutral
 /// lies within the range of a logarithm), the others stay. Proven by

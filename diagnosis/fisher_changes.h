@@ -21,7 +21,8 @@ NoisyChain noisy_chain(const Experiment& experiment, const std::vector<FreeFigur
 /// Changes of what an experiment measures against a reference, whitened so that half the Fisher
 /// information, a change's nats, is its square: real and imaginary part of the mean, log variance
 /// over sqrt 2 of each bin; of each record whose accelerometer is at rest, the same of all its
-/// lines at once. The experiment must outlive it.
+/// lines at once. The experiment must outlive it. Proven by tests/diagnosis/effect_power_test.cc
+/// and indistinguishable_test.cc.
 class FisherChanges {
  public:
   /// deviation: of the bins of all records in turn [N m].

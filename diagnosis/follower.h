@@ -47,9 +47,9 @@ struct Following {
   double rival_energy = 0.;  // of what the rival does to the mean there, in nats
 };
 
-/// What is left of a change when the chosen figures, within their priors, and a rival follow it:
-/// minimum of the squared distance by Gauss' and Newton's steps with the derivatives of the start.
-/// Proven by tests/diagnosis/effect_power_test.cc.
+/// What is left of a change when the chosen figures, within their priors and bounds, and a rival
+/// follow it: least squares by Levenberg's and Marquardt's steps, derivatives renewed where they
+/// foretold badly. Proven by tests/diagnosis/effect_power_test.cc.
 Following follow(const NominalPoint& point, const Eigen::VectorXd& change,
                  const std::vector<std::size_t>& figures,
                  const std::optional<Rival>& rival = std::nullopt);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/effect_size.h"
 #include "diagnosis/fisher_changes.h"
 #include "diagnosis/location.h"
 
@@ -27,24 +28,6 @@ struct Direction {
   bool rival = false;              // an effect that the fit does not hold
   double half_prior = 0.;          // nats of a unit of it
 };
-
-/// A start moved so near to neutral that its effect is a direction, its shape kept.
-std::vector<double> faint(const Effect& effect, std::vector<double> values) {
-  constexpr double share = 1e-3;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const Parameter& parameter = effect.parameters[i];
-    const double low = parameter.value(parameter.prior.low);
-    const double high = parameter.value(parameter.prior.high);
-    const bool within = parameter.neutral >= low && parameter.neutral <= high;
-    if (!parameter.logarithmic)
-      values[i] = parameter.neutral + share * (values[i] - parameter.neutral);
-    else if (!within)
-      values[i] = parameter.neutral < low ? low * share : high / share;
-    else if (parameter.neutral == 1.)
-      values[i] = std::pow(values[i], share);
-  }
-  return values;
-}
 
 /// The question is what the data say: nuisances stay within this many spreads of their priors.
 constexpr double n_spreads = 2.;
@@ -113,9 +96,11 @@ class Directions {
       const bool held = std::any_of(fit.figures.begin(), fit.figures.end(),
                                     [&](const FreeFigure& f) { return f.effect == &effect; });
       if (held || !shows(experiment, effect)) continue;
-      for (const std::vector<double>& values : effect.starts) {
+      const std::vector<std::size_t> sized = size_parameters(effect);
+      for (const std::vector<double>& start : effect.starts) {
         NoisyChain moved = state;
-        effect.extend(moved.chain, faint(effect, values), experiment.scales);
+        effect.extend(moved.chain, EffectFamily(effect, sized, start).values(faint_share),
+                      experiment.scales);
         columns.push_back(changes_.of(moved));
         list_.push_back({&effect, true, 0.});
       }
