@@ -57,7 +57,8 @@ class Pursuit {
     if (!rival_) return {.left = cost_};
     const Eigen::VectorXd alone = point_.change(figures_at(z_));
     return {.left = cost_,
-            .rival_energy = point_.changes().mean_energy(change_ - residual_ - alone)};
+            .rival_energy = std::min(point_.changes().mean_energy(change_),
+                                     point_.changes().mean_energy(change_ - residual_ - alone))};
   }
 
  private:

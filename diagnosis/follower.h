@@ -43,8 +43,10 @@ struct Rival {
 
 /// How near followers come to a change.
 struct Following {
-  double left = 0.;          // nats
-  double rival_energy = 0.;  // of what the rival does to the mean there, in nats
+  double left = 0.;  // nats
+  /// Of what the rival does to the mean there, in nats; no more than of the change: what other
+  /// followers undo explains nothing.
+  double rival_energy = 0.;
 };
 
 /// What is left of a change when the chosen figures, within their priors and bounds, and a rival
