@@ -11,6 +11,7 @@ namespace vibrissa::apps {
 struct CommonOptions {
   bool json = false;   // the result as one JSON document on standard output, nothing else there
   bool quiet = false;  // no progress bar, no remarks
+  bool is_talkative() const { return !json && !quiet; }
 };
 
 /// Adds --json and --quiet.
@@ -31,6 +32,7 @@ void add_excite_command(CLI::App& app);
 void add_identify_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_modes_command(CLI::App& app);
+void add_plan_command(CLI::App& app);
 void add_reproduce_command(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_separate_command(CLI::App& app);

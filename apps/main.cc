@@ -21,6 +21,7 @@ constexpr const char* footer =
     "Examples:\n"
     "  vibrissa run cases/flow_sensor.prm\n"
     "  vibrissa modes cases/whisker_sensor.prm --json\n"
+    "  vibrissa plan --sim simulated --out plan\n"
     "  vibrissa diagnose --sim simulated --real bench --out diagnosis\n"
     "  vibrissa identify recording.csv --column base_acceleration=z_mps2 --rate 500\n"
     "Exit status: 0 done, 2 bad input (the message says what and where), 3 too little "
@@ -40,6 +41,7 @@ int run(int argc, char** argv) {
   vibrissa::apps::add_excite_command(app);
   vibrissa::apps::add_identify_command(app);
   vibrissa::apps::add_separate_command(app);
+  vibrissa::apps::add_plan_command(app);
   vibrissa::apps::add_diagnose_command(app);
   vibrissa::apps::add_reproduce_command(app);
   vibrissa::apps::add_benchmark_command(app);

@@ -25,9 +25,6 @@ bool adds_nonlinear(const HypothesisFit& fit, const HypothesisFit& fewer) {
                      });
 }
 
-/// Of a linear effect's form little is unknown: its error explains no more than this, in nats.
-constexpr double most_hidden_by_linear = 40.;
-
 /// Of the nonlinear effects' form errors, and of all.
 struct Hidden {
   double by_nonlinear = 0., by_all = 0.;
@@ -78,7 +75,7 @@ double hidden_gain(const Experiment& experiment, const HypothesisFit& fit,
   const Hidden part = hidden_by_forms(experiment, fit, fewer);
   double hidden = part.by_nonlinear;
   if (!adds_nonlinear(fit, fewer))
-    hidden += std::clamp(part.by_all - part.by_nonlinear, 0., most_hidden_by_linear);
+    hidden += std::clamp(part.by_all - part.by_nonlinear, 0., most_hidden_by_form);
   return std::min(hidden, std::max(0., fit.log_likelihood - fewer.log_likelihood));
 }
 

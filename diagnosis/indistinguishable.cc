@@ -1,11 +1,12 @@
 #include "diagnosis/indistinguishable.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "diagnosis/chain_simulation.h"
+#include "diagnosis/effect_size.h"
+#include "diagnosis/fisher_changes.h"
 #include "diagnosis/location.h"
 
 namespace vibrissa::diagnosis {
@@ -13,76 +14,13 @@ namespace {
 
 constexpr double enough_nats = 2.;
 
-/// A chain with its noise levels.
-struct State {
-  Chain chain;
-  double moment_variance = 0., acceleration_variance = 0.;
-};
-
-/// The fit's chain at coordinates x, without one effect.
-State state_at(const Experiment& experiment, const HypothesisFit& fit, const Eigen::VectorXd& x,
-               const Effect* left_out = nullptr) {
-  HypothesisFit moved;
-  std::vector<double> kept;
-  State state;
-  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-    const FreeFigure& figure = fit.figures[i];
-    if (left_out != nullptr && figure.effect == left_out) continue;
-    const double at = x(static_cast<Eigen::Index>(i));
-    moved.figures.push_back(figure);
-    kept.push_back(at);
-    if (figure.effect != nullptr) continue;
-    if (figure.description.name == "moment_noise") state.moment_variance = std::exp(2. * at);
-    if (figure.description.name == "acceleration_noise")
-      state.acceleration_variance = std::exp(2. * at);
-  }
-  moved.x = Eigen::Map<const Eigen::VectorXd>(kept.data(), static_cast<Eigen::Index>(kept.size()));
-  state.chain = moved.chain(experiment);
-  return state;
+/// Against a fit.
+FisherChanges changes_against(const Experiment& experiment, const HypothesisFit& fit) {
+  std::vector<double> deviation;
+  for (const WhitenedRecord& record : whitened_residual(experiment, fit))
+    deviation.insert(deviation.end(), record.deviation.begin(), record.deviation.end());
+  return {experiment, std::move(deviation), noisy_chain(experiment, fit.figures, fit.x)};
 }
-
-/// Changes of mean and variance against a fit, whitened so that half the Fisher information, a
-/// change's nats, is its square: real and imaginary part of the mean, log variance over sqrt 2.
-class Changes {
- public:
-  Changes(const Experiment& experiment, const HypothesisFit& fit) : experiment_(experiment) {
-    for (const WhitenedRecord& record : whitened_residual(experiment, fit))
-      deviation_.insert(deviation_.end(), record.deviation.begin(), record.deviation.end());
-    const State state = state_at(experiment, fit, fit.x);
-    mean_.resize(2 * static_cast<Eigen::Index>(deviation_.size()));
-    noise_.resize(static_cast<Eigen::Index>(deviation_.size()));
-    evaluate(state, mean_, noise_);
-  }
-
-  Eigen::VectorXd of(const State& state) const {
-    Eigen::VectorXd mean(mean_.size()), noise(noise_.size()), out(mean_.size() + noise_.size());
-    evaluate(state, mean, noise);
-    out.head(mean.size()) = mean - mean_;
-    // The rest of the variance (misfit, form error) is the fit's.
-    out.tail(noise.size()) = ((noise - noise_).array().max(-0.999) + 1.).log() * std::sqrt(0.5);
-    return out;
-  }
-
- private:
-  void evaluate(const State& state, Eigen::VectorXd& mean, Eigen::VectorXd& noise) const {
-    const double acceleration = state.acceleration_variance + state.chain.reference_variance;
-    Eigen::Index row = 0;
-    for (const Prediction& there : ChainSimulator(state.chain).predict(experiment_.records)) {
-      for (std::size_t b = 0; b < there.mean.size(); ++b, ++row) {
-        const double deviation = deviation_[static_cast<std::size_t>(row)];
-        mean(2 * row) = there.mean[b].real() / deviation;
-        mean(2 * row + 1) = there.mean[b].imag() / deviation;
-        noise(row) = (state.moment_variance * there.moment_noise[b] +
-                      acceleration * there.acceleration_noise[b] + there.own_noise[b]) /
-                     (deviation * deviation);
-      }
-    }
-  }
-
-  const Experiment& experiment_;
-  std::vector<double> deviation_;
-  Eigen::VectorXd mean_, noise_;
-};
 
 /// One direction in which a prediction can be moved.
 struct Direction {
@@ -91,42 +29,19 @@ struct Direction {
   double half_prior = 0.;          // nats of a unit of it
 };
 
-/// A start moved so near to neutral that its effect is a direction, its shape kept.
-std::vector<double> faint(const Effect& effect, std::vector<double> values) {
-  constexpr double share = 1e-3;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const Parameter& parameter = effect.parameters[i];
-    const double low = parameter.value(parameter.prior.low);
-    const double high = parameter.value(parameter.prior.high);
-    const bool within = parameter.neutral >= low && parameter.neutral <= high;
-    if (!parameter.logarithmic)
-      values[i] = parameter.neutral + share * (values[i] - parameter.neutral);
-    else if (!within)
-      values[i] = parameter.neutral < low ? low * share : high / share;
-    else if (parameter.neutral == 1.)
-      values[i] = std::pow(values[i], share);
-  }
-  return values;
-}
-
-/// Nats of a unit of a nuisance: within twice the spread of its prior, for the question is what the
-/// data say.
-double half_prior(const FreeFigure& figure, double x) {
-  return 0.5 * figure.description.prior.curvature(x) / 4.;
-}
+/// The question is what the data say: nuisances stay within this many spreads of their priors.
+constexpr double n_spreads = 2.;
 
 class Directions {
  public:
-  Directions(const Experiment& experiment, const HypothesisFit& fit) : changes_(experiment, fit) {
+  Directions(const Experiment& experiment, const HypothesisFit& fit)
+      : changes_(changes_against(experiment, fit)) {
     std::vector<Eigen::VectorXd> columns;
     add_figures(experiment, fit, columns);
     add_rivals(experiment, fit, columns);
-    columns_.resize(columns.front().size(), static_cast<Eigen::Index>(columns.size()));
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      columns_.col(static_cast<Eigen::Index>(i)) = columns[i];
-    gram_ = columns_.transpose() * columns_;
-    for (std::size_t i = 0; i < list_.size(); ++i)
-      gram_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += list_[i].half_prior;
+    std::vector<double> half_priors;
+    for (const Direction& direction : list_) half_priors.push_back(direction.half_prior);
+    directions_ = FisherDirections(columns, half_priors);
   }
 
   const std::vector<Direction>& list() const { return list_; }
@@ -135,7 +50,7 @@ class Directions {
   /// neutral is infinitely far.
   Eigen::VectorXd change_of(const Effect& effect, const Experiment& experiment,
                             const HypothesisFit& fit) const {
-    Eigen::VectorXd along = Eigen::VectorXd::Zero(columns_.rows());
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(directions_.columns().rows());
     Eigen::Index column = 0;
     for (std::size_t i = 0; i < fit.figures.size(); ++i) {
       const FreeFigure& figure = fit.figures[i];
@@ -144,8 +59,9 @@ class Directions {
         const Parameter& parameter = figure.description;
         const double neutral = parameter.coordinate(parameter.neutral);
         if (!(neutral >= parameter.prior.low && neutral <= parameter.prior.high))
-          return changes_.of(state_at(experiment, fit, fit.x, &effect));
-        along += (neutral - fit.x(static_cast<Eigen::Index>(i))) * columns_.col(column);
+          return changes_.of(noisy_chain(experiment, fit.figures, fit.x, &effect));
+        along +=
+            (neutral - fit.x(static_cast<Eigen::Index>(i))) * directions_.columns().col(column);
       }
       ++column;
     }
@@ -154,25 +70,7 @@ class Directions {
 
   /// Nats of a change that are left when the chosen directions follow it.
   double left(const Eigen::VectorXd& change, const std::vector<bool>& chosen) const {
-    std::vector<Eigen::Index> places;
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      if (chosen[i] && gram_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) > 0.)
-        places.push_back(static_cast<Eigen::Index>(i));
-    const double whole = change.squaredNorm();
-    if (places.empty()) return whole;
-    const Eigen::VectorXd right = (columns_.transpose() * change)(places);
-    const Eigen::MatrixXd matrix = gram_(places, places);
-    const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-    const Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * right);
-    // Directions that are the same but for rounding count once.
-    constexpr double same = 1e-11;
-    double explained = 0.;
-    for (Eigen::Index i = 0; i < along.size(); ++i)
-      if (solver.eigenvalues()(i) > same)
-        explained += along(i) * along(i) / solver.eigenvalues()(i);
-    return std::max(0., whole - explained);
+    return directions_.left(change, chosen);
   }
 
  private:
@@ -186,30 +84,32 @@ class Directions {
       double h = figure.description.step;
       if (x(place) + h > figure.description.prior.high) h = -h;
       x(place) += h;
-      columns.push_back(changes_.of(state_at(experiment, fit, x)) / h);
-      list_.push_back({figure.effect, false, half_prior(figure, x(place))});
+      columns.push_back(changes_.of(noisy_chain(experiment, fit.figures, x)) / h);
+      list_.push_back({figure.effect, false, half_prior(figure, x(place), n_spreads)});
     }
   }
 
   void add_rivals(const Experiment& experiment, const HypothesisFit& fit,
                   std::vector<Eigen::VectorXd>& columns) {
-    const State state = state_at(experiment, fit, fit.x);
+    const NoisyChain state = noisy_chain(experiment, fit.figures, fit.x);
     for (const Effect& effect : effect_catalogue()) {
       const bool held = std::any_of(fit.figures.begin(), fit.figures.end(),
                                     [&](const FreeFigure& f) { return f.effect == &effect; });
       if (held || !shows(experiment, effect)) continue;
-      for (const std::vector<double>& values : effect.starts) {
-        State moved = state;
-        effect.extend(moved.chain, faint(effect, values), experiment.scales);
+      const std::vector<std::size_t> sized = size_parameters(effect);
+      for (const std::vector<double>& start : effect.starts) {
+        NoisyChain moved = state;
+        effect.extend(moved.chain, EffectFamily(effect, sized, start).values(faint_share),
+                      experiment.scales);
         columns.push_back(changes_.of(moved));
         list_.push_back({&effect, true, 0.});
       }
     }
   }
 
-  Changes changes_;
+  FisherChanges changes_;
   std::vector<Direction> list_;
-  Eigen::MatrixXd columns_, gram_;
+  FisherDirections directions_;
 };
 
 /// Sets in which one named effect stands.

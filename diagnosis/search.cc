@@ -1,42 +1,21 @@
 #include "diagnosis/search.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <set>
-#include <thread>
 
 #include "diagnosis/chain_simulation.h"
 #include "diagnosis/form_errors.h"
+#include "diagnosis/parallel.h"
 
 namespace vibrissa::diagnosis {
 namespace {
 
 /// How many of each size are extended, and by how many partners.
 constexpr std::size_t n_extended = 4, n_partners = 5;
-
-void for_each_parallel(std::size_t n, std::size_t n_threads,
-                       const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto run = [&] {
-    for (std::size_t i = next++; i < n; i = next++) try {
-        work(i);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-      }
-  };
-  std::vector<std::thread> threads;
-  for (std::size_t t = 1; t < std::min(n_threads, n); ++t) threads.emplace_back(run);
-  run();
-  for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
-}
 
 bool testable(const Experiment& experiment, const Effect& effect, const SearchOptions& options) {
   const auto& out = options.left_out;
@@ -104,12 +83,15 @@ bool tells_noise(const Effect& effect) {
 }
 
 /// An answer whose residual stands out of the noise, the bounds of its form errors included, names
-/// the wrong cause or not all: something unknown is there. So does one whose own noise has the
-/// wrong spectrum: it has taken up what it is not.
+/// the wrong cause or not all: something unknown is there. So does one that leaves much in places
+/// while its bounds are far too wide in others, and one whose own noise has the wrong spectrum: it
+/// has taken up what it is not.
 bool leaves_too_much(const HypothesisFit& fit) {
-  constexpr double most_excess = 0.05, most_misshape_nats = 100.;
+  constexpr double most_excess = 0.05, most_misshape_nats = 100., most_surplus = 0.3;
+  const GoodnessOfFit& goodness = fit.goodness;
   return !fit.hypothesis.effects().empty() &&
-         (fit.goodness.excess > most_excess || fit.goodness.misshape_nats > most_misshape_nats);
+         (goodness.excess > most_excess || goodness.misshape_nats > most_misshape_nats ||
+          goodness.surplus_nats_per_bin > most_surplus);
 }
 
 class Searcher {

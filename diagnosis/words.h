@@ -10,7 +10,7 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
 /// At three significant digits.
 std::string three_digits(double value);
 
-/// A share in per cent, a digit more for small ones.
+/// 0.123 as "12 %", 0.0123 as "1.2 %".
 std::string percent(double share);
 
 /// A line of at most 100 characters, or two, broken at a space; what is longer ends in dots.

@@ -1,0 +1,42 @@
+#include "apps/nominal_input.h"
+
+#include <filesystem>
+
+#include "apps/case_file.h"
+#include "apps/sensor_model.h"
+#include "diagnosis/mended_model_json.h"
+#include "diagnosis/nominal_from_model.h"
+#include "diagnosis/nominal_identification.h"
+#include "fem/solver_session.h"
+#include "signals/error.h"
+
+namespace vibrissa::apps {
+namespace {
+
+signals::ReducedModel solve_case(const std::string& file, bool show_progress) {
+  Case parameters = CaseFile(file).read();
+  const fem::SolverSession session;
+  return make_reduced_model(fem::Sensor(parameters.sensor), parameters.sensor, show_progress);
+}
+
+}  // namespace
+
+signals::ReducedModel NominalInput::read_model(const bool show_progress) const {
+  const bool is_case = std::filesystem::path(*model).extension() == ".prm";
+  return is_case ? solve_case(*model, show_progress) : signals::read_reduced_model(*model);
+}
+
+NominalInput::Simulation NominalInput::read(const bool show_progress) const {
+  if (model.has_value() == simulation.has_value())
+    throw signals::UserError(
+        "give the simulation either as --model CASE.prm|model.json or as --sim DATASET");
+  if (simulation) {
+    const signals::Dataset dataset = signals::read_dataset(*simulation);
+    return {diagnosis::identify_nominal(dataset),
+            dataset.records.front().record.sampling_rate_hz()};
+  }
+  if (diagnosis::is_mended_model(*model)) return {diagnosis::read_mended_model(*model), 0.};
+  return {diagnosis::nominal_from(read_model(show_progress)), 0.};
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "diagnosis/mended_model.h"
+#include "signals/reduced_model.h"
+
+namespace vibrissa::apps {
+
+/// How a command takes the simulation: as a model or as records.
+struct NominalInput {
+  std::optional<std::string> model, simulation;
+
+  /// The simulation and the rate of its records, 0 when it is a model. Throws UserError unless one
+  /// of the two is given, and what their readers throw.
+  struct Simulation {
+    diagnosis::MendedModel model;
+    double sampling_rate_hz = 0.;
+  };
+  Simulation read(bool show_progress) const;
+  /// The model alone, which must be a case file or a reduced model.
+  signals::ReducedModel read_model(bool show_progress) const;
+};
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "diagnosis/experiment_plan.h"
+#include "report/figure.h"
+#include "report/table.h"
+
+namespace vibrissa::apps {
+
+/// Evidence for each effect at its typical strength, and a point for each pair not told apart, for
+/// a sensor that is as simulated otherwise and for one as built; effects by their number in
+/// limits_table(). Proven by tests/apps/plan_test.cc.
+report::Figure plan_figure(const diagnosis::ExperimentPlan& plan);
+
+/// One row an effect: number, name, size parameter, typical value, limits on both kinds of sensor,
+/// what it could be taken for.
+report::Table limits_table(const diagnosis::ExperimentPlan& plan);
+
+}  // namespace vibrissa::apps
