@@ -69,16 +69,20 @@ class ResponseRatio {
   }
 
   /// Of the lines up to a frequency that are not faint among themselves, nor beside all lines, for
-  /// then they are what noise predicts. Nothing: fewer lines than these.
+  /// then they are what noise predicts; nor faint as measured, for then an accelerometer that is
+  /// polled has its images there. Nothing: fewer lines than these.
   std::optional<Ratio> up_to(double highest_hz, std::size_t fewest_lines) const {
     const double last = std::min(highest_hz / line_hz_, static_cast<double>(measured_.size() - 2));
-    double largest = 0., product = 0., measured = 0., predicted = 0.;
-    for (std::size_t k = 1; static_cast<double>(k) <= last; ++k)
+    double largest = 0., largest_measured = 0., product = 0., measured = 0., predicted = 0.;
+    for (std::size_t k = 1; static_cast<double>(k) <= last; ++k) {
       largest = std::max(largest, std::abs(predicted_[k]));
+      largest_measured = std::max(largest_measured, std::abs(measured_[k]));
+    }
     const double least = std::max(0.1 * largest, 0.02 * largest_);
+    const double least_measured = 0.05 * largest_measured;
     std::vector<double> logs;
     for (std::size_t k = 1; static_cast<double>(k) <= last; ++k) {
-      if (!(std::abs(predicted_[k]) > least && std::abs(measured_[k]) > 0.)) continue;
+      if (!(std::abs(predicted_[k]) > least && std::abs(measured_[k]) > least_measured)) continue;
       logs.push_back(std::log(std::abs(measured_[k] / predicted_[k])));
       product += (measured_[k] * std::conj(predicted_[k])).real();
       measured += std::norm(measured_[k]);

@@ -64,6 +64,7 @@ TEST_F(GoodnessOfFitTest, SeesTheRightPowerWithTheWrongSpectrum) {
   EXPECT_EQ(
       goodness_of_fit(experiment_, residuals(experiment_, 1, half, 0.05), false).misshape_nats, 0.)
       << "no noise of an effect is there";
+  EXPECT_NEAR(found.surplus_nats_per_bin * n_bins, found.misshape_nats, 1e-9 * n_bins);
 }
 
 }  // namespace
