@@ -15,6 +15,7 @@
 #include "diagnosis/search.h"
 #include "diagnosis/shares.h"
 #include "diagnosis/untested.h"
+#include "diagnosis/wind_speed_error.h"
 
 namespace vibrissa::diagnosis {
 
@@ -64,6 +65,8 @@ struct Diagnosis {
   TraceComparison trace{};
   /// The simulation with the best answer's effects and every retune as fitted.
   MendedModel mended{};
+  /// What that does to the wind speed that is read from held-out records.
+  std::optional<WindSpeedError> wind_speed{};
 };
 
 struct DiagnoseOptions {

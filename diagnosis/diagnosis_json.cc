@@ -58,6 +58,11 @@ json score_json(const ErrorScore& score) {
   return out;
 }
 
+json wind_speed_json(const std::optional<WindSpeedError>& error) {
+  if (!error) return nullptr;
+  return {{"before", number(error->before_m_s)}, {"after", number(error->after_m_s)}};
+}
+
 json held_out_json(const HeldOutScore& score) {
   json out = score_json(score.overall);
   out["foretold"] = score.foretold;
@@ -142,13 +147,27 @@ std::string held_out_line(const HeldOutScore& score) {
   return text;
 }
 
-std::string separation_line(const HeldOutScore& score) {
+std::string vibration_part(const HeldOutScore& score) {
   if (!score.vibration_left) return "";
   std::ostringstream text;
   text.precision(1);
-  text << std::fixed << "Separation: vibration left when the foretold one is subtracted "
+  text << std::fixed << "vibration left when the foretold one is subtracted "
        << score.vibration_left->before_db << " dB -> " << score.vibration_left->after_db << " dB";
   return text.str();
+}
+
+std::string wind_speed_part(const Diagnosis& diagnosis) {
+  if (!diagnosis.wind_speed) return "";
+  return "wind speed off by " + three_digits(diagnosis.wind_speed->before_m_s) + " m/s -> " +
+         three_digits(diagnosis.wind_speed->after_m_s) + " m/s";
+}
+
+std::string separation_line(const Diagnosis& diagnosis) {
+  std::string text = vibration_part(*diagnosis.ranking.front().held_out);
+  const std::string wind = wind_speed_part(diagnosis);
+  if (!text.empty() && !wind.empty()) text += "; ";
+  text += wind;
+  return text.empty() ? "" : "Separation: " + text;
 }
 
 std::string shares_line(const RankedAnswer& answer) {
@@ -192,6 +211,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
                       {"confidence_set", diagnosis.confidence_set},
                       {"indistinguishable", diagnosis.indistinguishable},
                       {"untested", untested},
+                      {"wind_speed_error_m_s", wind_speed_json(diagnosis.wind_speed)},
                       {"next_experiment",
                        {{"name", diagnosis.next.name},
                         {"why", diagnosis.next.why},
@@ -218,7 +238,7 @@ std::string verdict_text(const Diagnosis& diagnosis) {
         percent(diagnosis.gap.noise_floor));
     if (diagnosis.ranking.front().held_out) {
       add(held_out_line(*diagnosis.ranking.front().held_out));
-      add(separation_line(*diagnosis.ranking.front().held_out));
+      add(separation_line(diagnosis));
     }
     add(shares_line(diagnosis.ranking.front()));
   }

@@ -47,6 +47,15 @@ Diagnosis example() {
   return out;
 }
 
+TEST(DiagnosisJson, TellsTheErrorOfTheWindSpeedWhereThereIsOne) {
+  Diagnosis diagnosis = example();
+  EXPECT_TRUE(nlohmann::json::parse(diagnosis_json(diagnosis))["wind_speed_error_m_s"].is_null());
+  diagnosis.wind_speed = WindSpeedError{0.4, 0.05};
+  EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["wind_speed_error_m_s"],
+            nlohmann::json({{"before", 0.4}, {"after", 0.05}}));
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("wind speed off by 0.4 m/s -> 0.05 m/s"));
+}
+
 TEST(DiagnosisJson, HoldsEveryKeyOfTheSchema) {
   const auto json = nlohmann::json::parse(diagnosis_json(example()));
   EXPECT_EQ(json["schema"], "vibrissa-diagnosis-1");
