@@ -58,6 +58,7 @@ std::string missing(const Experiment& experiment, const Effect& effect) {
   add(effect.needs.base, experiment.has_base, "base motion");
   add(effect.needs.wind, experiment.has_wind, "wind");
   add(effect.needs.cross, experiment.has_cross, "transverse acceleration");
+  add(effect.needs.repeats, experiment.has_repeats, "an accelerometer that is polled");
   return text.empty() ? "a simulation with dynamics" : text;
 }
 

@@ -33,12 +33,10 @@ int kind_of(const PreparedRecord& record) {
 }  // namespace
 
 GoodnessOfFit goodness_of_fit(const Experiment& experiment,
-                              const std::span<const WhitenedRecord> records, const bool has_ramp) {
-  // What the line of a drift leaves is judged with the drift.
-  constexpr std::size_t n_lines_of_ramp = 10;
+                              const std::span<const WhitenedRecord> records) {
   std::map<std::pair<int, std::size_t>, Block> blocks;
   for (std::size_t r = 0; r < records.size(); ++r)
-    for (std::size_t b = has_ramp ? n_lines_of_ramp : 0; b < records[r].error.size(); ++b) {
+    for (std::size_t b = 0; b < records[r].error.size(); ++b) {
       const PreparedRecord& record = experiment.records[r];
       Block& block = blocks[{kind_of(record), frequency_block(experiment, record, b)}];
       block.power += std::norm(records[r].error[b]);

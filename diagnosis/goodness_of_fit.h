@@ -28,9 +28,9 @@ struct GoodnessOfFit {
   double surplus_nats_per_bin = 0.;
 };
 
-/// records: residual of the experiment's records under a fit. has_ramp: the first lines are judged
-/// with a drift. Proven by tests/diagnosis/goodness_of_fit_test.cc.
-GoodnessOfFit goodness_of_fit(const Experiment& experiment, std::span<const WhitenedRecord> records,
-                              bool has_ramp);
+/// records: residual of the experiment's records under a fit. Proven by
+/// tests/diagnosis/goodness_of_fit_test.cc.
+GoodnessOfFit goodness_of_fit(const Experiment& experiment,
+                              std::span<const WhitenedRecord> records);
 
 }  // namespace vibrissa::diagnosis

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "diagnosis/fit_posterior.h"
+#include "diagnosis/ramp_share.h"
 #include "diagnosis/retune_choices.h"
 #include "diagnosis/spectrum.h"
 
@@ -217,6 +218,7 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
     FittedRecord record{.mean = predictions[r].mean,
                         .own_noise = predictions[r].own_noise,
                         .variance = posterior.variance(fit.x, predictions[r], r, a_variance),
+                        .ramp_variance = predictions[r].ramp_variance,
                         .form_errors = std::move(form_errors[r])};
     for (std::size_t b = 0; b < record.own_noise.size(); ++b)
       record.own_noise[b] += a_excess * predictions[r].acceleration_noise[b];
@@ -282,22 +284,26 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   if (!std::isfinite(fit.log_evidence)) fit.log_evidence = -std::numeric_limits<double>::infinity();
   fit.choices = retune_choices(fit);
   fit.records = fitted_records(experiment, posterior, fit, climb.predictions, actions);
-  fit.goodness = goodness_of_fit(experiment, whitened_residual(experiment, fit),
-                                 fit.chain(experiment).ramp_variance_rate > 0.);
+  fit.goodness = goodness_of_fit(experiment, whitened_residual(experiment, fit));
   return fit;
 }
 
 std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
                                               const HypothesisFit& fit) {
   std::vector<WhitenedRecord> records(fit.records.size());
-  for (std::size_t r = 0; r < records.size(); ++r)
-    for (std::size_t b = 0; b < fit.records[r].mean.size(); ++b) {
-      const double deviation = std::sqrt(fit.records[r].variance[b]);
-      const Complex error = experiment.records[r].moment[b] - fit.records[r].mean[b];
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const FittedRecord& fitted = fit.records[r];
+    RampShare ramp(experiment.records[r], fitted.ramp_variance);
+    std::vector<Complex> error = difference(experiment.records[r].moment, fitted.mean);
+    for (std::size_t b = 0; b < error.size(); ++b) ramp.add(b, error[b], fitted.variance[b]);
+    for (std::size_t b = 0; b < error.size(); ++b) {
+      const double deviation = std::sqrt(fitted.variance[b]);
+      if (ramp.on()) error[b] -= ramp.rise() * ramp.shape(b);
       records[r].deviation.push_back(deviation);
-      records[r].error.push_back(error / deviation);
-      records[r].own_share.push_back(fit.records[r].own_noise[b] / fit.records[r].variance[b]);
+      records[r].error.push_back(error[b] / deviation);
+      records[r].own_share.push_back(fitted.own_noise[b] / fitted.variance[b]);
     }
+  }
   return records;
 }
 

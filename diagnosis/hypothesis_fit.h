@@ -30,6 +30,7 @@ struct FormErrors {
 struct FittedRecord {
   std::vector<Complex> mean;
   std::vector<double> own_noise, variance;  // (N m)^2, of the effects alone and of all
+  double ramp_variance = 0.;                // Prediction::ramp_variance
   FormErrors form_errors;
 };
 
@@ -75,7 +76,7 @@ struct FitOptions {
 HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hypothesis,
                              const HypothesisFit* start = nullptr, const FitOptions& options = {});
 
-/// All records in turn.
+/// All records in turn, without the most probable line of a drift.
 std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
                                               const HypothesisFit& fit);
 

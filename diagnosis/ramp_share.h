@@ -29,6 +29,8 @@ class RampShare {
   }
   /// Posterior variance of the rise.
   double posterior() const { return variance_ / (1. + variance_ * information_); }
+  /// Posterior mean of the rise.
+  double rise() const { return score_ * posterior(); }
   double log_likelihood_gain() const {
     if (!on()) return 0.;
     return 0.5 * score_ * score_ * posterior() - 0.5 * std::log1p(variance_ * information_);

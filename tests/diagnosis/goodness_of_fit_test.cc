@@ -37,8 +37,8 @@ class GoodnessOfFitTest : public testing::Test {
 
 TEST_F(GoodnessOfFitTest, FindsNothingInWhiteResiduals) {
   for (unsigned seed = 0; seed < 20; ++seed) {
-    const GoodnessOfFit found = goodness_of_fit(
-        experiment_, residuals(experiment_, seed, [](double) { return 1.; }), false);
+    const GoodnessOfFit found =
+        goodness_of_fit(experiment_, residuals(experiment_, seed, [](double) { return 1.; }));
     EXPECT_NEAR(found.excess, 0., 0.1);
     EXPECT_LT(found.misshape_nats, 40.);
   }
@@ -46,13 +46,13 @@ TEST_F(GoodnessOfFitTest, FindsNothingInWhiteResiduals) {
 
 TEST_F(GoodnessOfFitTest, SeesPowerThatIsLeft) {
   const GoodnessOfFit found =
-      goodness_of_fit(experiment_, residuals(experiment_, 1, [](double) { return 1.5; }), false);
+      goodness_of_fit(experiment_, residuals(experiment_, 1, [](double) { return 1.5; }));
   EXPECT_NEAR(found.excess, 0.5, 0.15);
 }
 
 TEST_F(GoodnessOfFitTest, SeesTheRightPowerWithTheWrongSpectrum) {
   const auto half = [](double hz) { return hz < 125. ? 1.9 : 0.1; };
-  const GoodnessOfFit found = goodness_of_fit(experiment_, residuals(experiment_, 1, half), false);
+  const GoodnessOfFit found = goodness_of_fit(experiment_, residuals(experiment_, 1, half));
   EXPECT_NEAR(found.excess, 0., 0.15);
   // Each bin of a factor f > 1 gains f - 1 - ln f; the blocks' factors cost some of it.
   double n_bins = 0.;
@@ -61,8 +61,7 @@ TEST_F(GoodnessOfFitTest, SeesTheRightPowerWithTheWrongSpectrum) {
   const double all = 0.5 * n_bins * (0.9 - std::log(1.9));
   EXPECT_LT(found.misshape_nats, 1.1 * all);
   EXPECT_GT(found.misshape_nats, 0.3 * all);
-  EXPECT_EQ(
-      goodness_of_fit(experiment_, residuals(experiment_, 1, half, 0.05), false).misshape_nats, 0.)
+  EXPECT_EQ(goodness_of_fit(experiment_, residuals(experiment_, 1, half, 0.05)).misshape_nats, 0.)
       << "no noise of an effect is there";
   EXPECT_NEAR(found.surplus_nats_per_bin * n_bins, found.misshape_nats, 1e-9 * n_bins);
 }
