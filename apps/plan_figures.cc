@@ -1,6 +1,7 @@
 #include "apps/plan_figures.h"
 
 #include <algorithm>
+#include <span>
 
 #include "diagnosis/words.h"
 
@@ -10,52 +11,46 @@ namespace {
 using diagnosis::EffectPower;
 using diagnosis::SensorKind;
 
-report::Panel strength_panel(const diagnosis::ExperimentPlan& plan) {
+/// So many names stand on one panel without touching.
+constexpr std::size_t n_names = 14;
+
+/// Effects that the experiment shows, the strongest first.
+std::vector<const EffectPower*> by_strength(const diagnosis::ExperimentPlan& plan) {
+  std::vector<const EffectPower*> out;
+  for (const EffectPower& effect : plan.effects)
+    if (effect.shown) out.push_back(&effect);
+  std::sort(out.begin(), out.end(), [](const EffectPower* a, const EffectPower* b) {
+    return a->on(SensorKind::as_built).nats > b->on(SensorKind::as_built).nats;
+  });
+  return out;
+}
+
+/// What could be taken for it on a sensor as built, in brackets.
+std::string name_of(const EffectPower& effect) {
+  const std::vector<std::string>& alike = effect.on(SensorKind::as_built).alike;
+  return alike.empty() ? effect.effect : effect.effect + " (" + alike.front() + "?)";
+}
+
+report::Panel strength_panel(std::span<const EffectPower* const> effects) {
   report::Panel panel{.title = "What would be found at typical strength",
-                      .x_label = "Number of the effect",
-                      .y_label = "Evidence [nats]",
-                      .log_y = true};
+                      .x_label = "Evidence [nats]",
+                      .log_x = true};
   for (const SensorKind kind : diagnosis::sensor_kinds) {
     const bool exact = kind == SensorKind::exact;
     report::Curve curve{.label = exact ? "otherwise as simulated" : "as built",
                         .style = report::CurveStyle::points};
-    for (std::size_t i = 0; i < plan.effects.size(); ++i) {
-      if (!plan.effects[i].shown) continue;
-      curve.x.push_back(static_cast<double>(i + 1));
-      curve.y.push_back(plan.effects[i].on(kind).nats);
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+      curve.x.push_back(effects[i]->on(kind).nats);
+      curve.y.push_back(static_cast<double>(effects.size() - i));
     }
     panel.curves.push_back(std::move(curve));
   }
+  for (const EffectPower* effect : effects) panel.y_names.push_back(name_of(*effect));
+  std::reverse(panel.y_names.begin(), panel.y_names.end());
   panel.curves.push_back({.label = "needed",
                           .style = report::CurveStyle::dashed,
-                          .x = {1., static_cast<double>(plan.effects.size())},
-                          .y = {diagnosis::nats_to_find, diagnosis::nats_to_find}});
-  return panel;
-}
-
-report::Panel pairs_panel(const diagnosis::ExperimentPlan& plan) {
-  const auto n = static_cast<double>(plan.effects.size());
-  report::Panel panel{.title = "What could be taken for it",
-                      .x_label = "Number of the effect",
-                      .y_label = "Number of the other",
-                      .x_range = report::Range{0., n + 1.},
-                      .y_range = report::Range{0., n + 1.}};
-  const auto number_of = [&](const std::string& id) {
-    const auto found = std::find_if(plan.effects.begin(), plan.effects.end(),
-                                    [&](const EffectPower& e) { return e.effect == id; });
-    return static_cast<double>(found - plan.effects.begin() + 1);
-  };
-  for (const SensorKind kind : {SensorKind::as_built, SensorKind::exact}) {
-    report::Curve curve{
-        .label = kind == SensorKind::exact ? "even if otherwise as simulated" : "as built",
-        .style = report::CurveStyle::points};
-    for (std::size_t i = 0; i < plan.effects.size(); ++i)
-      for (const std::string& rival : plan.effects[i].on(kind).alike) {
-        curve.x.push_back(static_cast<double>(i + 1));
-        curve.y.push_back(number_of(rival));
-      }
-    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
-  }
+                          .x = {diagnosis::nats_to_find, diagnosis::nats_to_find},
+                          .y = {0.5, static_cast<double>(effects.size()) + 0.5}});
   return panel;
 }
 
@@ -69,10 +64,14 @@ report::Cell limit_cell(const EffectPower& effect, SensorKind kind) {
 report::Figure plan_figure(const diagnosis::ExperimentPlan& plan) {
   report::Figure figure{.name = "plan",
                         .title = "What the experiment could say",
-                        .caption = "Effects by their number in detection_limits.csv.",
-                        .panels = {strength_panel(plan)}};
-  report::Panel pairs = pairs_panel(plan);
-  if (!pairs.curves.empty()) figure.panels.push_back(std::move(pairs));
+                        .caption = "In brackets what could be taken for an effect."};
+  const std::vector<const EffectPower*> effects = by_strength(plan);
+  std::span<const EffectPower* const> left = effects;
+  while (!left.empty()) {
+    const std::size_t n = std::min(n_names, left.size());
+    figure.panels.push_back(strength_panel(left.first(n)));
+    left = left.subspan(n);
+  }
   return figure;
 }
 

@@ -85,7 +85,10 @@ void set_y_range(const Panel& panel, PanelLayout& placed) {
       for (const auto* values : {&curve.y, &curve.y_low, &curve.y_high})
         if (!values->empty()) extent.add((*values)[i]);
     }
-  placed.y.range = panel.y_range ? on_paper(placed.y, *panel.y_range) : extent.range(0.05);
+  if (!panel.y_names.empty())
+    placed.y.range = {0.5, static_cast<double>(panel.y_names.size()) + 0.5};
+  else
+    placed.y.range = panel.y_range ? on_paper(placed.y, *panel.y_range) : extent.range(0.05);
 }
 
 }  // namespace

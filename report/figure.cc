@@ -89,6 +89,7 @@ json panel_json(const Panel& panel) {
                  {"log_x", panel.log_x}, {"log_y", panel.log_y},     {"curves", json::array()}};
   if (panel.x_range) object["x_range"] = {panel.x_range->low, panel.x_range->high};
   if (panel.y_range) object["y_range"] = {panel.y_range->low, panel.y_range->high};
+  if (!panel.y_names.empty()) object["y_names"] = panel.y_names;
   for (const Curve& curve : panel.curves) object["curves"].push_back(curve_json(curve));
   return object;
 }
@@ -110,6 +111,7 @@ Panel panel_from(const json& object) {
   panel.log_y = given_or(object, "log_y", false);
   panel.x_range = range_from(object, "x_range");
   panel.y_range = range_from(object, "y_range");
+  panel.y_names = given_or<std::vector<std::string>>(object, "y_names", {});
   for (const json& curve : required<std::vector<json>>(object, "curves"))
     panel.curves.push_back(curve_from(curve));
   return panel;
@@ -157,6 +159,8 @@ void check(const Figure& figure) {
     const std::string where = name + ", panel " + std::to_string(p + 1);
     check_range(panel.x_range, panel.log_x, where + ": x_range");
     check_range(panel.y_range, panel.log_y, where + ": y_range");
+    if (panel.log_y && !panel.y_names.empty())
+      throw UserError(where + ": y_names have no place on a logarithmic axis");
     for (std::size_t c = 0; c < panel.curves.size(); ++c)
       check_curve(panel.curves[c], where + ", curve " + std::to_string(c + 1) + " ('" +
                                        panel.curves[c].label + "')");

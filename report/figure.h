@@ -32,6 +32,7 @@ struct Panel {
   std::string x_label{}, y_label{};
   bool log_x = false, log_y = false;
   std::optional<Range> x_range{}, y_range{};  // else what the curves need
+  std::vector<std::string> y_names{};         // of y = 1, 2, ..., in place of numbers
   std::vector<Curve> curves{};
 
   bool operator==(const Panel&) const = default;

@@ -77,6 +77,11 @@ class PageBuilder {
                                   : linear_ticks(axis.range, n_most, is_in_degrees(label));
   }
 
+  static void set_names(Axis& axis, const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i)
+      axis.ticks.marks.push_back({static_cast<double>(i + 1), names[i]});
+  }
+
   double widest_number(const Axis& axis) const {
     double widest = 0.;
     for (const Tick& mark : axis.ticks.marks)
@@ -94,7 +99,10 @@ class PageBuilder {
     for (std::size_t p = 0; p < n_; ++p) {
       Axis& y = panel(p).y;
       const bool few = y.logarithmic || is_in_degrees(figure_.panels[p].y_label);
-      set_ticks(y, figure_.panels[p].y_label, usual_plot_height, few ? 48. : 36.);
+      if (figure_.panels[p].y_names.empty())
+        set_ticks(y, figure_.panels[p].y_label, usual_plot_height, few ? 48. : 36.);
+      else
+        set_names(y, figure_.panels[p].y_names);
       left = std::max(left, margin + static_cast<double>(y_label_lines(p).size()) * row + tick_gap +
                                 widest_number(y));
     }

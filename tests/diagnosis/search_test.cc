@@ -49,6 +49,16 @@ TEST(Search, AnAnswerThatLeavesMoreThanNoiseIsNone) {
             outside_catalogue);
 }
 
+TEST(Search, ASensorThatIsMerelyOffIsNoAnswerWhereMuchIsLeft) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.cubic = 1e7;
+  std::vector<std::string> all;
+  for (const Effect& effect : effect_catalogue())
+    if (!effect.retune) all.push_back(effect.id);
+  EXPECT_EQ(search(experiment_of(rig), {.left_out = all}).candidates.front().name,
+            outside_catalogue);
+}
+
 TEST(Search, NamesAPairOfStrongEffects) {
   test::OneModeRig rig = test::noisy_rig();
   rig.delay_s = 1e-3;

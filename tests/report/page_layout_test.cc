@@ -132,6 +132,17 @@ TEST(PageLayout, HasTheSizeAskedForAndPlotsInLine) {
   EXPECT_EQ(page.panels[0].plot.height, page.panels[1].plot.height);
 }
 
+TEST(PageLayout, NamesThePlacesOfAnAxis) {
+  Panel panel{.x_label = "Evidence [nats]", .y_names = {"delay", "hum", "mass"}};
+  panel.curves = {curve("found", 1., 100., 1., 3.)};
+  const PageLayout page = page_of({.name = "plan", .panels = {panel}});
+  const Ticks& ticks = page.panels[0].y.ticks;
+  ASSERT_EQ(ticks.marks.size(), 3u);
+  EXPECT_EQ(ticks.marks[1], (Tick{2., "hum"}));
+  EXPECT_EQ(page.panels[0].y.range.low, 0.5);
+  EXPECT_EQ(page.panels[0].y.range.high, 3.5);
+}
+
 TEST(PageLayout, LabelsASharedAxisOnceAndTellsALegendOnce) {
   const PageLayout page = page_of(bode());
   EXPECT_EQ(count(page, "Frequency [Hz]"), 1u);
