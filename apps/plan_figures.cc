@@ -12,7 +12,7 @@ using diagnosis::EffectPower;
 using diagnosis::SensorKind;
 
 /// So many names stand on one panel without touching.
-constexpr std::size_t n_names = 14;
+constexpr std::size_t most_names = 16;
 
 /// Effects that the experiment shows, the strongest first.
 std::vector<const EffectPower*> by_strength(const diagnosis::ExperimentPlan& plan) {
@@ -31,10 +31,24 @@ std::string name_of(const EffectPower& effect) {
   return alike.empty() ? effect.effect : effect.effect + " (" + alike.front() + "?)";
 }
 
-report::Panel strength_panel(std::span<const EffectPower* const> effects) {
+/// Of all points and what is needed, with room at either end.
+report::Range evidence_range(std::span<const EffectPower* const> effects) {
+  report::Range range{diagnosis::nats_to_find, diagnosis::nats_to_find};
+  for (const EffectPower* effect : effects)
+    for (const SensorKind kind : diagnosis::sensor_kinds)
+      if (const double nats = effect->on(kind).nats; nats > 0.) {
+        range.low = std::min(range.low, nats);
+        range.high = std::max(range.high, nats);
+      }
+  return {0.5 * range.low, 2. * range.high};
+}
+
+report::Panel strength_panel(std::span<const EffectPower* const> effects,
+                             const report::Range& range) {
   report::Panel panel{.title = "What would be found at typical strength",
                       .x_label = "Evidence [nats]",
-                      .log_x = true};
+                      .log_x = true,
+                      .x_range = range};
   for (const SensorKind kind : diagnosis::sensor_kinds) {
     const bool exact = kind == SensorKind::exact;
     report::Curve curve{.label = exact ? "otherwise as simulated" : "as built",
@@ -66,10 +80,12 @@ report::Figure plan_figure(const diagnosis::ExperimentPlan& plan) {
                         .title = "What the experiment could say",
                         .caption = "In brackets what could be taken for an effect."};
   const std::vector<const EffectPower*> effects = by_strength(plan);
+  const report::Range range = evidence_range(effects);
   std::span<const EffectPower* const> left = effects;
-  while (!left.empty()) {
-    const std::size_t n = std::min(n_names, left.size());
-    figure.panels.push_back(strength_panel(left.first(n)));
+  for (std::size_t n_panels = (effects.size() + most_names - 1) / most_names; n_panels > 0;
+       --n_panels) {
+    const std::size_t n = (left.size() + n_panels - 1) / n_panels;
+    figure.panels.push_back(strength_panel(left.first(n), range));
     left = left.subspan(n);
   }
   return figure;
