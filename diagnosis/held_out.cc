@@ -185,6 +185,17 @@ std::optional<double> gap_closed(const Block& sum) {
   return 1. - (sum.after - floor) / (sum.before - floor);
 }
 
+/// By how much an interval between quantiles of resamples is too short for so few blocks: Student's
+/// quantile over the normal one (by its series in 1 / nu), and the missing degree of freedom
+/// (Hesterberg 2015, expanded percentile interval).
+double expansion(std::size_t n_blocks) {
+  constexpr double z = 1.959964;
+  const double n = static_cast<double>(n_blocks), nu = n - 1.;
+  const double student = z + (std::pow(z, 3) + z) / (4. * nu) +
+                         (5. * std::pow(z, 5) + 16. * std::pow(z, 3) + 3. * z) / (96. * nu * nu);
+  return student / z * std::sqrt(n / nu);
+}
+
 std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
                                               const Levels& levels, const HeldOutOptions& options) {
   constexpr std::size_t fewest_blocks = 8;
@@ -207,7 +218,9 @@ std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
   const auto quantile = [&](double q) {
     return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
   };
-  return std::array<double, 2>{quantile(0.025), quantile(0.975)};
+  const double median = quantile(0.5), factor = expansion(blocks.size());
+  return std::array<double, 2>{median + factor * (quantile(0.025) - median),
+                               median + factor * (quantile(0.975) - median)};
 }
 
 std::optional<VibrationLeft> vibration_left(const std::vector<Block>& blocks) {
