@@ -36,7 +36,7 @@ void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& d
   for (const report::Figure& figure : diagnosis_figures(diagnosis))
     report::write_figure(folder.path(), figure);
   const auto pictures = report::draw_pictures(folder.path());
-  if (options.common.json || options.common.quiet) return;
+  if (!options.common.is_talkative()) return;
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
 

@@ -45,7 +45,7 @@ void write_results(const PlanCommand& options, const diagnosis::ExperimentPlan& 
   folder.write_text("detection_limits.csv", limits_table(plan).to_csv());
   report::write_figure(folder.path(), plan_figure(plan));
   const auto pictures = report::draw_pictures(folder.path());
-  if (options.common.json || options.common.quiet) return;
+  if (!options.common.is_talkative()) return;
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
 
@@ -59,7 +59,7 @@ diagnosis::NominalModel nominal_model(const PlanCommand& options, bool show) {
 }
 
 void plan(const PlanCommand& options) {
-  const bool show = !options.common.quiet && !options.common.json;
+  const bool show = options.common.is_talkative();
   const diagnosis::NominalModel nominal = nominal_model(options, show);
   const std::vector<diagnosis::PlannedInput> inputs = planned_inputs(options, nominal);
   signals::Progress progress("trying effects", diagnosis::n_plan_steps(nominal, inputs), show);

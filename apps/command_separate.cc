@@ -39,14 +39,8 @@ struct SeparateOptions {
 /// What is left of the measured moment when a mended model has foretold the part of the base.
 std::vector<double> separate_by_mended_model(const std::string& file,
                                              const signals::Record& record) {
-  signals::Record base(record.sampling_rate_hz(), record.n_samples());
-  for (const std::string& name :
-       {signals::channel::base_acceleration, signals::channel::cross_acceleration})
-    if (record.has(name)) {
-      const auto values = record.channel(name);
-      base.set_channel(name, {values.begin(), values.end()});
-    }
-  std::vector<double> wind = diagnosis::simulate_moment(diagnosis::read_mended_model(file), base);
+  std::vector<double> wind =
+      diagnosis::simulate_vibration(diagnosis::read_mended_model(file), record);
   const auto measured = record.channel(signals::channel::base_moment);
   std::transform(measured.begin(), measured.end(), wind.begin(), wind.begin(), std::minus<>());
   return wind;

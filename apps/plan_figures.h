@@ -6,9 +6,9 @@
 
 namespace vibrissa::apps {
 
-/// Evidence for each effect at its typical strength, and a point for each pair not told apart, for
-/// a sensor that is as simulated otherwise and for one as built; effects by their number in
-/// limits_table(). Proven by tests/apps/plan_test.cc.
+/// Evidence for each effect at its typical strength, strongest first, on a sensor that is as
+/// simulated otherwise and on one as built; in brackets what it could be taken for. Proven by
+/// tests/apps/plan_test.cc.
 report::Figure plan_figure(const diagnosis::ExperimentPlan& plan);
 
 /// One row an effect: number, name, size parameter, typical value, limits on both kinds of sensor,

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "diagnosis/hypothesis.h"
-#include "signals/error.h"
 #include "signals/json_input.h"
 
 /// A folder with sim/, caseNNN/real/ and labels.json.

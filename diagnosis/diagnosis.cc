@@ -135,18 +135,6 @@ MendedModel mended_model(const Experiment& experiment, const HypothesisFit& fit)
   return model;
 }
 
-std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates,
-                                        const double level) {
-  std::vector<std::string> names;
-  double sum = 0.;
-  for (const Candidate& candidate : candidates) {
-    if (sum >= level) break;
-    names.push_back(candidate.name);
-    sum += candidate.probability;
-  }
-  return names;
-}
-
 Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
                    const DiagnoseOptions& options) {
   const NominalModel& nominal = simulation.nominal;

@@ -92,7 +92,4 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
 /// The experiment's simulation with what a fit has added to it: its chain as a model to keep.
 MendedModel mended_model(const Experiment& experiment, const HypothesisFit& fit);
 
-/// Shortest list of candidates, most probable first, whose probabilities reach the level.
-std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates, double level);
-
 }  // namespace vibrissa::diagnosis

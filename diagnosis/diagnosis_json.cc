@@ -1,10 +1,10 @@
 #include "diagnosis/diagnosis_json.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "diagnosis/json_number.h"
 #include "diagnosis/words.h"
 
 namespace vibrissa::diagnosis {
@@ -12,12 +12,8 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-json number(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
 json interval(const std::array<double, 2>& limits) {
-  return {number(limits[0]), number(limits[1])};
+  return {json_number(limits[0]), json_number(limits[1])};
 }
 
 json location_json(const Location& location) {
@@ -28,30 +24,31 @@ json location_json(const Location& location) {
     for (const BandGap& band : channel.bands)
       map.push_back({{"channel", channel.channel},
                      {"band_hz", {band.low_hz, band.high_hz}},
-                     {"nrmse", number(band.nrmse)},
-                     {"power_over_noise", number(band.excess)},
-                     {"p_value", number(band.p_value)}});
-  return {{"links", location.links},
-          {"bands_hz", bands},
-          {"mode", location.mode ? json(*location.mode) : json(nullptr)},
-          {"level_exponent",
-           location.level_exponent ? number(*location.level_exponent) : json(nullptr)},
-          {"level_exponent_deviation",
-           location.level_exponent ? number(location.level_exponent_deviation) : json(nullptr)},
-          {"channels", location.channels},
-          {"harmonics", to_string(location.harmonics)},
-          {"varies_in_time", location.varies_in_time},
-          {"present_at_rest", location.present_at_rest},
-          {"sentence", location_sentence(location)},
-          {"map", map}};
+                     {"nrmse", json_number(band.nrmse)},
+                     {"power_over_noise", json_number(band.excess)},
+                     {"p_value", json_number(band.p_value)}});
+  return {
+      {"links", location.links},
+      {"bands_hz", bands},
+      {"mode", location.mode ? json(*location.mode) : json(nullptr)},
+      {"level_exponent",
+       location.level_exponent ? json_number(*location.level_exponent) : json(nullptr)},
+      {"level_exponent_deviation",
+       location.level_exponent ? json_number(location.level_exponent_deviation) : json(nullptr)},
+      {"channels", location.channels},
+      {"harmonics", to_string(location.harmonics)},
+      {"varies_in_time", location.varies_in_time},
+      {"present_at_rest", location.present_at_rest},
+      {"sentence", location_sentence(location)},
+      {"map", map}};
 }
 
 json score_json(const ErrorScore& score) {
-  json out{{"nrmse_before", number(score.nrmse_before)},
-           {"nrmse_after", number(score.nrmse_after)},
-           {"noise_floor_nrmse", number(score.noise_floor)},
-           {"irreducible_floor_nrmse", number(score.irreducible_floor)},
-           {"gap_closed", score.gap_closed ? number(*score.gap_closed) : json(nullptr)},
+  json out{{"nrmse_before", json_number(score.nrmse_before)},
+           {"nrmse_after", json_number(score.nrmse_after)},
+           {"noise_floor_nrmse", json_number(score.noise_floor)},
+           {"irreducible_floor_nrmse", json_number(score.irreducible_floor)},
+           {"gap_closed", score.gap_closed ? json_number(*score.gap_closed) : json(nullptr)},
            {"gap_closed_ci95",
             score.gap_closed_ci95 ? interval(*score.gap_closed_ci95) : json(nullptr)}};
   if (!score.record.empty()) out["record"] = score.record;
@@ -60,7 +57,7 @@ json score_json(const ErrorScore& score) {
 
 json wind_speed_json(const std::optional<WindSpeedError>& error) {
   if (!error) return nullptr;
-  return {{"before", number(error->before_m_s)}, {"after", number(error->after_m_s)}};
+  return {{"before", json_number(error->before_m_s)}, {"after", json_number(error->after_m_s)}};
 }
 
 json held_out_json(const HeldOutScore& score) {
@@ -68,8 +65,8 @@ json held_out_json(const HeldOutScore& score) {
   out["foretold"] = score.foretold;
   out["not_foretold"] = score.not_foretold;
   if (score.vibration_left)
-    out["vibration_left_db"] = {{"before", number(score.vibration_left->before_db)},
-                                {"after", number(score.vibration_left->after_db)}};
+    out["vibration_left_db"] = {{"before", json_number(score.vibration_left->before_db)},
+                                {"after", json_number(score.vibration_left->after_db)}};
   else
     out["vibration_left_db"] = nullptr;
   out["records"] = json::array();
@@ -82,14 +79,14 @@ json answer_json(const RankedAnswer& answer) {
   for (const ParameterEstimate& parameter : answer.parameters)
     parameters.push_back({{"effect", parameter.effect},
                           {"name", parameter.name},
-                          {"value", number(parameter.value)},
+                          {"value", json_number(parameter.value)},
                           {"unit", parameter.unit},
                           {"ci95", interval(parameter.ci95)}});
   json shares = json::array();
   for (const EffectShare& share : answer.shares)
-    shares.push_back({{"effect", share.effect}, {"gap_closed", number(share.share)}});
+    shares.push_back({{"effect", share.effect}, {"gap_closed", json_number(share.share)}});
   return {{"effect", answer.name},
-          {"probability", number(answer.probability)},
+          {"probability", json_number(answer.probability)},
           {"parameters", parameters},
           {"shapley_shares", shares},
           {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)}};
@@ -201,13 +198,13 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
     untested.push_back({{"effect", entry.effect}, {"reason", entry.reason}});
   const json document{{"schema", "vibrissa-diagnosis-1"},
                       {"gap",
-                       {{"nrmse", number(diagnosis.gap.nrmse)},
-                        {"noise_floor_nrmse", number(diagnosis.gap.noise_floor)},
-                        {"p_value", number(diagnosis.gap.p_value)}}},
+                       {{"nrmse", json_number(diagnosis.gap.nrmse)},
+                        {"noise_floor_nrmse", json_number(diagnosis.gap.noise_floor)},
+                        {"p_value", json_number(diagnosis.gap.p_value)}}},
                       {"location", location_json(diagnosis.location)},
                       {"verdict", diagnosis.verdict},
                       {"ranking", ranking},
-                      {"probability_of_unlisted", number(diagnosis.probability_of_unlisted)},
+                      {"probability_of_unlisted", json_number(diagnosis.probability_of_unlisted)},
                       {"confidence_set", diagnosis.confidence_set},
                       {"indistinguishable", diagnosis.indistinguishable},
                       {"untested", untested},
@@ -216,7 +213,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
                        {{"name", diagnosis.next.name},
                         {"why", diagnosis.next.why},
                         {"would_separate", diagnosis.next.would_separate},
-                        {"split_probability", number(diagnosis.next.split_probability)}}},
+                        {"split_probability", json_number(diagnosis.next.split_probability)}}},
                       {"findings", findings},
                       {"guesses", diagnosis.guesses}};
   return document.dump(2) + "\n";

@@ -9,6 +9,7 @@
 #include "diagnosis/follower.h"
 #include "diagnosis/form_errors.h"
 #include "diagnosis/parallel.h"
+#include "diagnosis/words.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -50,16 +51,28 @@ StudiedEffect studied(const Effect& effect) {
   return out;
 }
 
-std::string missing(const Experiment& experiment, const Effect& effect) {
-  std::string text;
-  const auto add = [&](bool needed, bool there, const std::string& what) {
-    if (needed && !there) text += (text.empty() ? "" : ", ") + what;
-  };
-  add(effect.needs.base, experiment.has_base, "base motion");
-  add(effect.needs.wind, experiment.has_wind, "wind");
-  add(effect.needs.cross, experiment.has_cross, "transverse acceleration");
-  add(effect.needs.repeats, experiment.has_repeats, "an accelerometer that is polled");
-  return text.empty() ? "a simulation with dynamics" : text;
+std::string word_of(Lack lack) {
+  switch (lack) {
+    case Lack::base:
+      return "base motion";
+    case Lack::wind:
+      return "wind";
+    case Lack::cross:
+      return "transverse acceleration";
+    case Lack::repeats:
+      return "an accelerometer that is polled";
+    case Lack::modes:
+      return "a simulation with dynamics";
+    case Lack::duration:
+      return "more seconds of motion";
+  }
+  return "";
+}
+
+std::string missing(const std::vector<Lack>& lacks) {
+  std::vector<std::string> words;
+  for (const Lack lack : lacks) words.push_back(word_of(lack));
+  return joined(words, ", ");
 }
 
 bool contains(const std::vector<std::string>& list, const std::string& id) {
@@ -73,8 +86,8 @@ class PowerStudy {
     for (const Effect& effect : effect_catalogue()) effects_.push_back(studied(effect));
     for (std::size_t i = 0; i < effects_.size(); ++i) {
       EffectPower& power = effects_[i].power;
-      power.shown = shows(experiment, *effects_[i].effect);
-      if (!power.shown) power.needs = missing(experiment, *effects_[i].effect);
+      power.needs = missing(lacks(experiment, *effects_[i].effect));
+      power.shown = power.needs.empty();
     }
   }
 

@@ -30,10 +30,7 @@ bool is_periodic(const DatasetRecord& entry) {
 }
 
 std::size_t transient_samples(const NominalModel& nominal, double rate_hz) {
-  if (nominal.modes.empty()) return 0;
-  const StructuralMode& mode = nominal.modes.front();
-  return static_cast<std::size_t>(
-      std::ceil(n_time_constants * rate_hz / (mode.damping_ratio * mode.frequency_rad_s)));
+  return nominal.decay_samples(n_time_constants, rate_hz);
 }
 
 /// Averages whole periods: in place, lines that are no multiple of 1/period become zero.
@@ -265,13 +262,21 @@ bool is_comparable(const NominalModel& nominal, const DatasetRecord& entry) {
   return (!entry.excitation.base || base_known) && (!entry.excitation.wind || wind_known);
 }
 
+std::vector<Lack> lacks(const Experiment& experiment, const Effect& effect) {
+  const Needs& needs = effect.needs;
+  std::vector<Lack> out;
+  if (needs.base && !experiment.has_base) out.push_back(Lack::base);
+  if (needs.wind && !experiment.has_wind) out.push_back(Lack::wind);
+  if (needs.cross && !experiment.has_cross) out.push_back(Lack::cross);
+  if (needs.repeats && !experiment.has_repeats) out.push_back(Lack::repeats);
+  if (experiment.nominal.modes.empty() && !acts_without_modes(effect)) out.push_back(Lack::modes);
+  if (needs.moved_s > 0. && moved_seconds(experiment) <= needs.moved_s)
+    out.push_back(Lack::duration);
+  return out;
+}
+
 bool shows(const Experiment& experiment, const Effect& effect) {
-  return (!effect.needs.base || experiment.has_base) &&
-         (!effect.needs.wind || experiment.has_wind) &&
-         (!effect.needs.cross || experiment.has_cross) &&
-         (!effect.needs.repeats || experiment.has_repeats) &&
-         (!experiment.nominal.modes.empty() || acts_without_modes(effect)) &&
-         (effect.needs.moved_s == 0. || moved_seconds(experiment) > effect.needs.moved_s);
+  return lacks(experiment, effect).empty();
 }
 
 std::size_t PreparedRecord::whole_line(const std::size_t b) const {

@@ -68,6 +68,10 @@ std::size_t fewest_samples(const NominalModel& nominal, const signals::DatasetRe
 /// Proven by tests/diagnosis/experiment_test.cc.
 bool is_comparable(const NominalModel& nominal, const signals::DatasetRecord& entry);
 
+/// What an experiment may lack of what an effect needs.
+enum class Lack { base, wind, cross, repeats, modes, duration };
+/// All of it, in that order.
+std::vector<Lack> lacks(const Experiment& experiment, const Effect& effect);
 /// Does the experiment hold what the effect needs?
 bool shows(const Experiment& experiment, const Effect& effect);
 

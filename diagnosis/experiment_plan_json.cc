@@ -1,10 +1,10 @@
 #include "diagnosis/experiment_plan_json.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "diagnosis/json_number.h"
 #include "diagnosis/words.h"
 
 namespace vibrissa::diagnosis {
@@ -13,15 +13,11 @@ namespace {
 using json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
 
-json number(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
 json standing_json(const EffectPower& effect, SensorKind kind) {
   const Standing& standing = effect.on(kind);
-  return {{"nats_at_typical", effect.shown ? number(standing.nats) : json(nullptr)},
+  return {{"nats_at_typical", effect.shown ? json_number(standing.nats) : json(nullptr)},
           {"found_at_typical", standing.found},
-          {"limit", standing.limit ? number(*standing.limit) : json(nullptr)},
+          {"limit", standing.limit ? json_number(*standing.limit) : json(nullptr)},
           {"found_at_any_size", standing.any_size},
           {"alike", standing.alike}};
 }
@@ -32,7 +28,7 @@ json effect_json(const EffectPower& effect) {
           {"needs", effect.shown ? json(nullptr) : json(effect.needs)},
           {"parameter", effect.parameter},
           {"unit", effect.unit},
-          {"typical", number(effect.typical)},
+          {"typical", json_number(effect.typical)},
           {"exact", standing_json(effect, SensorKind::exact)},
           {"as_built", standing_json(effect, SensorKind::as_built)}};
 }
@@ -43,8 +39,8 @@ json step_json(const PlannedStep& step) {
   return {{"name", step.name},
           {"what", step.what},
           {"simulated", !step.by_rule},
-          {"duration_s", step.by_rule ? json(nullptr) : number(step.duration_s)},
-          {"gain", number(step.gain)},
+          {"duration_s", step.by_rule ? json(nullptr) : json_number(step.duration_s)},
+          {"gain", json_number(step.gain)},
           {"finds", step.finds},
           {"separates", separates}};
 }
@@ -182,17 +178,17 @@ std::string plan_json(const ExperimentPlan& plan) {
   for (const PlannedRecord& record : plan.records)
     records.push_back({{"name", record.name},
                        {"excitation", record.excitation},
-                       {"duration_s", number(record.duration_s)}});
+                       {"duration_s", json_number(record.duration_s)}});
   for (const EffectPower& effect : plan.effects) effects.push_back(effect_json(effect));
   for (const PlannedStep& step : plan.steps) steps.push_back(step_json(step));
   const json document{{"schema", "vibrissa-plan-1"},
                       {"noise",
-                       {{"moment_n_m", number(plan.noise.moment_n_m)},
-                        {"acceleration_m_s2", number(plan.noise.acceleration_m_s2)}}},
+                       {{"moment_n_m", json_number(plan.noise.moment_n_m)},
+                        {"acceleration_m_s2", json_number(plan.noise.acceleration_m_s2)}}},
                       {"nats_to_find", nats_to_find},
                       {"nats_to_tell_apart", nats_to_tell_apart},
                       {"records", records},
-                      {"undecided_probability", number(plan.undecided)},
+                      {"undecided_probability", json_number(plan.undecided)},
                       {"effects", effects},
                       {"experiments", steps}};
   return document.dump(2) + "\n";

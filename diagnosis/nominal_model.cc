@@ -1,5 +1,7 @@
 #include "diagnosis/nominal_model.h"
 
+#include <cmath>
+
 namespace vibrissa::diagnosis {
 namespace {
 
@@ -27,6 +29,14 @@ NominalModel::Responses NominalModel::responses(const Complex s) const {
     sum.wind += (mode.wind_gain + mode.wind_rate * x) * c;
   }
   return sum;
+}
+
+std::size_t NominalModel::decay_samples(const double n_time_constants,
+                                        const double sampling_rate_hz) const {
+  if (modes.empty()) return 0;
+  const StructuralMode& mode = modes.front();
+  return static_cast<std::size_t>(
+      std::ceil(n_time_constants * sampling_rate_hz / (mode.damping_ratio * mode.frequency_rad_s)));
 }
 
 }  // namespace vibrissa::diagnosis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <vector>
 
 namespace vibrissa::diagnosis {
@@ -46,6 +47,9 @@ struct NominalModel {
     Complex base, wind;
   };
   Responses responses(Complex s) const;
+
+  /// Samples that so many time constants of the first mode last; 0 without a mode.
+  std::size_t decay_samples(double n_time_constants, double sampling_rate_hz) const;
 };
 
 }  // namespace vibrissa::diagnosis

@@ -15,10 +15,7 @@ namespace {
 std::size_t tail_length(const NominalModel& nominal, double rate_hz) {
   constexpr double n_time_constants = 14.;
   constexpr std::size_t least = 128;
-  if (nominal.modes.empty()) return least;
-  const StructuralMode& mode = nominal.modes.front();
-  const double seconds = n_time_constants / (mode.damping_ratio * mode.frequency_rad_s);
-  return std::max(least, static_cast<std::size_t>(std::ceil(seconds * rate_hz)));
+  return std::max(least, nominal.decay_samples(n_time_constants, rate_hz));
 }
 
 /// From the last value smoothly to the first, which then holds.
@@ -70,6 +67,17 @@ std::vector<double> simulate_moment(const MendedModel& model, const signals::Rec
   std::vector<double> moment = ChainSimulator(chain).samples(record);
   moment.resize(inputs.n_samples());
   return moment;
+}
+
+std::vector<double> simulate_vibration(const MendedModel& model, const signals::Record& inputs) {
+  signals::Record base(inputs.sampling_rate_hz(), inputs.n_samples());
+  for (const std::string& name :
+       {signals::channel::base_acceleration, signals::channel::cross_acceleration})
+    if (inputs.has(name)) {
+      const auto values = inputs.channel(name);
+      base.set_channel(name, {values.begin(), values.end()});
+    }
+  return simulate_moment(model, base);
 }
 
 }  // namespace vibrissa::diagnosis

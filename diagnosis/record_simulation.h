@@ -20,4 +20,7 @@ enum class Start {
 std::vector<double> simulate_moment(const MendedModel& model, const signals::Record& inputs,
                                     Start start = Start::settled);
 
+/// The same under the base's motion alone, as if no wind blew: what a separator subtracts.
+std::vector<double> simulate_vibration(const MendedModel& model, const signals::Record& inputs);
+
 }  // namespace vibrissa::diagnosis

@@ -235,17 +235,6 @@ std::vector<ResonanceExplanation> all_explanations(const ResonanceGap& gap,
   return out;
 }
 
-std::vector<std::string> confidence_set(const std::vector<ResonanceExplanation>& explanations) {
-  std::vector<std::string> names;
-  double sum = 0.;
-  for (const ResonanceExplanation& e : explanations) {
-    if (sum >= 0.95) break;
-    names.push_back(e.name());
-    sum += e.odds;
-  }
-  return names;
-}
-
 }  // namespace
 
 std::string ResonanceExplanation::name() const {
@@ -267,10 +256,10 @@ ResonanceDiagnosis explain_resonance_gap(const ResonanceFigures& simulated,
                          .modal_ratio = gap.squared_ratio(),
                          .explanations = all_explanations(gap, simulated, model)};
   out.verdict = out.explanations.front().name();
-  out.confidence_set = confidence_set(out.explanations);
   std::vector<Candidate> candidates;
   for (const ResonanceExplanation& e : out.explanations)
     candidates.push_back({.name = e.name(), .retunes = {}, .probability = e.odds});
+  out.confidence_set = confidence_set(candidates, 0.95);
   out.next = next_experiment(candidates, out.confidence_set, {});
   return out;
 }

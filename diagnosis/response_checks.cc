@@ -27,10 +27,8 @@ struct Ratio {
 };
 
 double first_mode_hz(const NominalModel& nominal) {
-  double lowest = 0.;
-  for (const StructuralMode& mode : nominal.modes)
-    if (lowest == 0. || mode.frequency_rad_s < lowest) lowest = mode.frequency_rad_s;
-  return lowest / (2. * std::numbers::pi);
+  return nominal.modes.empty() ? 0.
+                               : nominal.modes.front().frequency_rad_s / (2. * std::numbers::pi);
 }
 
 /// Spectrum of what a path makes of its input.

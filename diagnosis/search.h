@@ -34,4 +34,7 @@ struct SearchOptions {
 /// choice of retune effects; its prior pays for every effect named.
 SearchResult search(const Experiment& experiment, const SearchOptions& options = {});
 
+/// Shortest list of candidates, most probable first, whose probabilities reach the level.
+std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates, double level);
+
 }  // namespace vibrissa::diagnosis

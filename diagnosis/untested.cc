@@ -1,5 +1,6 @@
 #include "diagnosis/untested.h"
 
+#include <algorithm>
 #include <map>
 
 #include "diagnosis/words.h"
@@ -7,22 +8,37 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-std::string reason_of(const Experiment& experiment, const Effect& effect) {
-  if (effect.needs.wind && !experiment.has_wind) return "no usable fit record with wind";
-  if (effect.needs.base && !experiment.has_base) return "no usable fit record with base motion";
-  if (effect.needs.cross && !experiment.has_cross) return "no cross_acceleration_m_s2";
-  if (experiment.nominal.modes.empty()) return "the simulation has no mode";
-  return "too few seconds of motion";
+std::string reason_of(Lack lack) {
+  switch (lack) {
+    case Lack::wind:
+      return "no usable fit record with wind";
+    case Lack::base:
+      return "no usable fit record with base motion";
+    case Lack::cross:
+      return "no cross_acceleration_m_s2";
+    case Lack::modes:
+      return "the simulation has no mode";
+    case Lack::duration:
+      return "too few seconds of motion";
+    case Lack::repeats:
+      break;
+  }
+  return "";
 }
 
 }  // namespace
 
 std::vector<UntestedEffect> untested_effects(const Experiment& experiment) {
   std::vector<UntestedEffect> out;
-  for (const Effect& effect : effect_catalogue())
+  for (const Effect& effect : effect_catalogue()) {
+    const std::vector<Lack> lack = lacks(experiment, effect);
+    const auto has = [&](Lack one) {
+      return std::find(lack.begin(), lack.end(), one) != lack.end();
+    };
     // Where no sample repeats, the count of equal neighbours has told.
-    if (!shows(experiment, effect) && (!effect.needs.repeats || experiment.has_repeats))
-      out.push_back({effect.id, reason_of(experiment, effect)});
+    if (lack.empty() || has(Lack::repeats)) continue;
+    out.push_back({effect.id, reason_of(has(Lack::wind) ? Lack::wind : lack.front())});
+  }
   return out;
 }
 

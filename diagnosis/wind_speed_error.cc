@@ -22,13 +22,7 @@ double steady_drag(const MendedModel& model, double rate_hz) {
 std::vector<double> foretold_vibration(const MendedModel& model, const signals::Record& record) {
   if (!model.nominal.has_base || !record.has(channel::base_acceleration))
     return std::vector<double>(record.n_samples(), 0.);
-  signals::Record base(record.sampling_rate_hz(), record.n_samples());
-  for (const std::string& name : {channel::base_acceleration, channel::cross_acceleration})
-    if (record.has(name)) {
-      const auto values = record.channel(name);
-      base.set_channel(name, {values.begin(), values.end()});
-    }
-  return simulate_moment(model, base);
+  return simulate_vibration(model, record);
 }
 
 /// Half of the samples averaged over.
