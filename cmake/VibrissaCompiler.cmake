@@ -36,7 +36,12 @@ endif()
 
 find_program(VIBRISSA_CCACHE ccache)
 if(VIBRISSA_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${VIBRISSA_CCACHE})
+  # ccache takes precompiled headers only when told that their macros and times may be trusted.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${VIBRISSA_CCACHE})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-fpch-preprocess)
+  endif()
 endif()
 find_program(VIBRISSA_LLD ld.lld)
 if(VIBRISSA_LLD)

@@ -13,7 +13,8 @@ std::vector<Complex> wind_force_spectrum(const Chain& chain, const PreparedRecor
   if (record.wind.empty()) return {};
   std::vector<double> u = record.wind;
   for (const auto& law : chain.wind) law(u, 1. / record.sampling_rate_hz);
-  for (double& value : u) value *= chain.drag_factor * std::abs(value);
+  const double factor = chain.drag_factor * record.wind_share;
+  for (double& value : u) value *= factor * std::abs(value);
   return spectrum_of(u);
 }
 

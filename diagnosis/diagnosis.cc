@@ -163,6 +163,7 @@ Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
   out.response = compare_response(experiment, result.fits[best.fit]);
   out.mended = mended_model(experiment, result.fits[best.fit]);
   out.wind_speed = wind_speed_error(simulation, out.mended, real);
+  out.separation = separation_quality(simulation, out.mended, real);
   out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);
   out.indistinguishable = indistinguishable_sets(experiment, result);
   out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable);

@@ -13,6 +13,7 @@
 #include "diagnosis/location.h"
 #include "diagnosis/next_experiment.h"
 #include "diagnosis/search.h"
+#include "diagnosis/separation_quality.h"
 #include "diagnosis/shares.h"
 #include "diagnosis/untested.h"
 #include "diagnosis/wind_speed_error.h"
@@ -67,6 +68,8 @@ struct Diagnosis {
   MendedModel mended{};
   /// What that does to the wind speed that is read from held-out records.
   std::optional<WindSpeedError> wind_speed{};
+  /// And to the wind's moment, where its truth is known.
+  std::optional<SeparationQuality> separation{};
 };
 
 struct DiagnoseOptions {

@@ -60,6 +60,11 @@ json wind_speed_json(const std::optional<WindSpeedError>& error) {
   return {{"before", json_number(error->before_m_s)}, {"after", json_number(error->after_m_s)}};
 }
 
+json separation_json(const std::optional<SeparationQuality>& quality) {
+  if (!quality) return nullptr;
+  return {{"before", json_number(quality->before_db)}, {"after", json_number(quality->after_db)}};
+}
+
 json held_out_json(const HeldOutScore& score) {
   json out = score_json(score.overall);
   out["foretold"] = score.foretold;
@@ -209,6 +214,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
                       {"indistinguishable", diagnosis.indistinguishable},
                       {"untested", untested},
                       {"wind_speed_error_m_s", wind_speed_json(diagnosis.wind_speed)},
+                      {"separation_sdr_db", separation_json(diagnosis.separation)},
                       {"next_experiment",
                        {{"name", diagnosis.next.name},
                         {"why", diagnosis.next.why},

@@ -120,9 +120,34 @@ std::vector<std::size_t> driven_lines(const PreparedRecord& record, const Datase
   return lines;
 }
 
-void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry, const double noise,
+/// Accelerations in the frame of a sensor that is turned about its axis while the accelerometer
+/// stays: along the plane that is read, and across it.
+struct SensorFrame {
+  std::vector<double> axial, cross;  // empty: not measured
+};
+
+SensorFrame in_sensor_frame(const DatasetRecord& entry) {
+  const auto values = [&](const std::string& name) {
+    if (!entry.record.has(name)) return std::vector<double>{};
+    const auto x = entry.record.channel(name);
+    return std::vector<double>(x.begin(), x.end());
+  };
+  SensorFrame out{values(channel::base_acceleration), values(channel::cross_acceleration)};
+  if (entry.setup.rotation_deg == 0. || out.axial.empty()) return out;
+  const double angle = entry.setup.rotation_deg * std::numbers::pi / 180.;
+  const double c = std::cos(angle), s = std::sin(angle);
+  out.cross.resize(out.axial.size(), 0.);
+  for (std::size_t i = 0; i < out.axial.size(); ++i) {
+    const double a = out.axial[i], b = out.cross[i];
+    out.axial[i] = c * a + s * b;
+    out.cross[i] = c * b - s * a;
+  }
+  return out;
+}
+
+void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
+                          const std::span<const double> reading, const double noise,
                           const ExcitedHarmonics& excited, const InputNoise treatment) {
-  const std::span<const double> reading = entry.record.channel(channel::base_acceleration);
   out.acceleration = spectrum_of(reading);
   if (entry.excitation.base && is_polled(reading))
     out.renewed = spectrum_of(renewed_series(reading));
@@ -170,6 +195,8 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   out.name = entry.name;
   out.excitation = entry.excitation;
   out.number = number;
+  out.readout = entry.readout;
+  out.magnet = entry.setup.magnet;
   out.sampling_rate_hz = entry.record.sampling_rate_hz();
   out.n_samples = entry.record.n_samples();
   out.periodic = is_periodic(entry);
@@ -182,13 +209,14 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
     out.first = skip - end_margin;
     out.n_judged = judged_length(out.n_samples - skip, period_of_drive(entry, acceleration_noise));
   }
-  if (entry.record.has(channel::base_acceleration))
-    prepare_acceleration(out, entry, acceleration_noise, excited, treatment);
-  if (entry.record.has(channel::cross_acceleration))
-    out.cross_acceleration = spectrum_of(entry.record.channel(channel::cross_acceleration));
+  const SensorFrame frame = in_sensor_frame(entry);
+  if (!frame.axial.empty())
+    prepare_acceleration(out, entry, frame.axial, acceleration_noise, excited, treatment);
+  if (!frame.cross.empty()) out.cross_acceleration = spectrum_of(frame.cross);
   if (entry.excitation.wind) {
     const auto wind = entry.record.channel(channel::wind_speed);
     out.wind.assign(wind.begin(), wind.end());
+    out.wind_share = std::cos(entry.setup.rotation_deg * std::numbers::pi / 180.);
   }
   const auto is_zero = [](Complex a) { return a == Complex(0.); };
   out.has_zero_inputs = out.cross_acceleration.empty() &&
@@ -255,8 +283,13 @@ std::size_t fewest_samples(const NominalModel& nominal, const DatasetRecord& ent
   return transient_samples(nominal, entry.record.sampling_rate_hz()) + end_margin + fewest_judged;
 }
 
+bool is_simulated(const signals::BenchSetup& setup) {
+  return setup.added_mass_kg == 0. && setup.stage == signals::Stage::free;
+}
+
 bool is_comparable(const NominalModel& nominal, const DatasetRecord& entry) {
-  if (entry.record.n_samples() < fewest_samples(nominal, entry)) return false;
+  if (!is_simulated(entry.setup) || entry.record.n_samples() < fewest_samples(nominal, entry))
+    return false;
   const bool base_known = nominal.has_base && entry.record.has(channel::base_acceleration);
   const bool wind_known = nominal.has_wind && entry.record.has(channel::wind_speed);
   return (!entry.excitation.base || base_known) && (!entry.excitation.wind || wind_known);

@@ -15,6 +15,9 @@ struct PreparedRecord {
   std::string name;
   signals::Excitation excitation;
   std::size_t number = 0;  // in the order of the dataset
+  signals::Readout readout = signals::Readout::moment;
+  bool magnet = true;      // without it the sensor reads nothing of the structure
+  double wind_share = 1.;  // of the wind's force, in the plane that is read
   double sampling_rate_hz = 0.;
   std::size_t n_samples = 0;            // of the whole record
   bool periodic = false;                // the whole record is whole periods
@@ -63,6 +66,10 @@ inline constexpr double usual_acceleration_noise = 0.05;
 
 /// Fewest samples of which something is left to judge once the unknown start has decayed.
 std::size_t fewest_samples(const NominalModel& nominal, const signals::DatasetRecord& entry);
+
+/// Can the chain be set up so? An added mass needs the sensor's moment of inertia and a clamped
+/// stage the coil's force, which neither records nor the nominal model hold.
+bool is_simulated(const signals::BenchSetup& setup);
 
 /// Are all excitations of a record measured, and known to the simulation, and is it long enough?
 /// Proven by tests/diagnosis/experiment_test.cc.

@@ -38,6 +38,8 @@ std::string to_string(const FindingKind kind) {
       return "one_level";
     case FindingKind::missing_wind:
       return "missing_wind";
+    case FindingKind::unsimulated_setup:
+      return "unsimulated_setup";
     case FindingKind::missing_acceleration:
       return "missing_acceleration";
     case FindingKind::no_wind:

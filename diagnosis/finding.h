@@ -22,6 +22,7 @@ enum class FindingKind {
   no_quiet_record,
   one_level,
   missing_wind,
+  unsimulated_setup,
   missing_acceleration,
   no_wind,
   no_base_motion,

@@ -17,8 +17,8 @@ double most_joint_loss(const NominalModel& nominal) {
   constexpr double most = 1.3, least = 1.;
   if (nominal.modes.empty()) return most;
   const StructuralMode& mode = nominal.modes.front();
-  const double all = 2. * mode.damping_ratio * mode.base_gain;
-  return all * mode.base_rate > 0. ? std::clamp(all / mode.base_rate, least, most) : most;
+  const double viscous = nominal.joint_viscous_ratio();
+  return viscous > 0. ? std::clamp(2. * mode.damping_ratio / viscous, least, most) : most;
 }
 
 }  // namespace

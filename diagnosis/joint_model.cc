@@ -20,17 +20,17 @@ JointModel made_dynamic(JointModel model) {
 }  // namespace
 
 JointModel::JointModel(const StructuralMode& mode, const double joint_share,
-                       const double loss_factor, const JointChange& joint_change)
+                       const double viscous_ratio, const JointChange& joint_change)
     : frequency_rad_s(mode.frequency_rad_s), share(joint_share), change(joint_change) {
-  const double viscous = mode.base_gain != 0. ? mode.base_rate / mode.base_gain : 0.;
-  const double in_joint = std::clamp(loss_factor * viscous, 0., 2. * mode.damping_ratio);
+  const double in_joint = std::clamp(viscous_ratio, 0., 2. * mode.damping_ratio);
   loss = in_joint / share;
   damping = mode.damping_ratio - 0.5 * in_joint;
 }
 
 std::optional<JointModel> joint_of(const Chain& chain) {
   if (chain.structure.modes.empty()) return std::nullopt;
-  return JointModel(chain.structure.modes.front(), chain.joint_share, chain.joint_loss_factor,
+  return JointModel(chain.structure.modes.front(), chain.joint_share,
+                    chain.joint_loss_factor * chain.structure.joint_viscous_ratio(),
                     chain.joint_change);
 }
 
@@ -70,7 +70,7 @@ double JointIntegrator::rate(const Eigen::Vector3d& state) const {
   return rate_factor_ * ((state(0) - share_ * state(2)) * rest_ - spring_ * state(2));
 }
 
-Lanes JointIntegrator::accept(const Lanes& torque, const Lanes& external) {
+JointIntegrator::AtBase JointIntegrator::accept(const Lanes& torque, const Lanes& external) {
   const auto loaded = [&](const Lanes& free, Eigen::Index i) -> Lanes {
     return free + torque_new_(i) * torque + external_new_(i) * external;
   };
@@ -82,7 +82,7 @@ Lanes JointIntegrator::accept(const Lanes& torque, const Lanes& external) {
   };
   free_ = {next(0), next(1), next(2), {}};
   free_.rate = rate_factor_ * ((free_.theta - share_ * free_.y) * rest_ - spring_ * free_.y);
-  return (theta - share_ * y) * rest_;
+  return {(theta - share_ * y) * rest_, y};
 }
 
 }  // namespace vibrissa::diagnosis

@@ -21,7 +21,8 @@ struct JointModel {
   double damping = 0.;  // z
   JointChange change{};
 
-  JointModel(const StructuralMode& mode, double joint_share, double loss_factor = 1.,
+  /// viscous_ratio: NominalModel::joint_viscous_ratio times what is believed of it.
+  JointModel(const StructuralMode& mode, double joint_share, double viscous_ratio,
              const JointChange& change = {});
 
   /// Joint's share of the compliance at s, of the static whole.
@@ -65,8 +66,11 @@ class JointIntegrator {
   Lanes elastic_rate(const Lanes& torque, const Lanes& external) const {
     return free_.rate + torque_rate_ * torque + external_rate_ * external;
   }
-  /// Takes the step; returns the moment at its end.
-  Lanes accept(const Lanes& torque, const Lanes& external);
+  struct AtBase {
+    Lanes moment, elastic;  // whole, and the joint's elastic one
+  };
+  /// Takes the step; returns what is at its end.
+  AtBase accept(const Lanes& torque, const Lanes& external);
 
  private:
   double rate(const Eigen::Vector3d& state) const;

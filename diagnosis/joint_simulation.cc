@@ -22,9 +22,10 @@ class DifferenceIntegrator {
   }
 
   /// One step to (y, y_rate) of the linear part; load gives the extra wind load for a rate of the
-  /// joint moment. Returns the change of the base moment.
+  /// joint moment. Returns the change at the base.
   template <typename Load>
-  Lanes advance(const Lanes& y, const Lanes& y_rate, const Lanes& t_s, const Load& load) {
+  JointIntegrator::AtBase advance(const Lanes& y, const Lanes& y_rate, const Lanes& t_s,
+                                  const Load& load) {
     if (laws_.empty()) {
       for (int pass = 0; pass < 2; ++pass)
         external_ = load(y_rate + integrator_.elastic_rate(torque_, external_));
@@ -95,7 +96,7 @@ class DifferenceIntegrator {
 struct FineSignals {
   explicit FineSignals(std::size_t n) : y(n, Lanes::Zero()), y_rate(n, Lanes::Zero()) {}
   std::vector<Lanes> y, y_rate, wind, base_velocity;
-  Lanes has_wind = Lanes::Zero();
+  Lanes wind_share = Lanes::Zero();
 };
 
 std::size_t warm_up(const PreparedRecord& record, std::size_t factor) {
@@ -132,7 +133,7 @@ void fill(FineSignals& fine, const Chain& chain, std::size_t lane, const Elastic
   if (!chain.relative_wind.on || record.wind.empty()) return;
   fine.wind.resize(fine.y.size(), Lanes::Zero());
   fine.base_velocity.resize(fine.y.size(), Lanes::Zero());
-  fine.has_wind(static_cast<Eigen::Index>(lane)) = 1.;
+  fine.wind_share(static_cast<Eigen::Index>(lane)) = record.wind_share;
   fill_lane(fine.wind, lane, upsampled(spectrum_of(record.wind), n, factor), before);
   fill_lane(fine.base_velocity, lane, upsampled(base_velocity(record), n, factor), before);
 }
@@ -172,7 +173,7 @@ std::vector<std::vector<double>> side_by_side(const Chain& chain, const JointMod
   DifferenceIntegrator integrator(chain, joint, number, dt);
   const double velocity_per_rate = chain.relative_wind.velocity_per_moment_rate;
   const Lanes wind_gain =
-      fine.has_wind * chain.structure.modes.front().wind_gain * chain.drag_factor;
+      fine.wind_share * chain.structure.modes.front().wind_gain * chain.drag_factor;
   for (std::size_t i = 0; i < n_steps; ++i) {
     const auto load = [&](const Lanes& rate) -> Lanes {
       if (fine.wind.empty()) return Lanes::Zero();
@@ -182,10 +183,12 @@ std::vector<std::vector<double>> side_by_side(const Chain& chain, const JointMod
     };
     // A record's own clock starts at its first sample: before it slow changes stand still.
     const Lanes t_s = (static_cast<double>(i) - start).max(0.) * dt;
-    const Lanes added = integrator.advance(fine.y[i], fine.y_rate[i], t_s, load);
+    const auto added = integrator.advance(fine.y[i], fine.y_rate[i], t_s, load);
     for (std::size_t lane = 0; lane < elastic.size(); ++lane)
       if (i == next[lane].step && next[lane].sample < out[lane].size()) {
-        out[lane][next[lane].sample++] = added(static_cast<Eigen::Index>(lane));
+        const bool rotation = elastic[lane].record->readout == signals::Readout::rotation;
+        out[lane][next[lane].sample++] =
+            (rotation ? added.elastic : added.moment)(static_cast<Eigen::Index>(lane));
         next[lane].step += factor;
       }
   }

@@ -19,10 +19,10 @@ struct ElasticMoment {
   std::vector<Complex> spectrum;
 };
 
-/// What joint laws and relative wind add to the base moments before the sensor [N m], at the
-/// records' samples. Integrated on a finer grid with a second-order exponential rule, records side
-/// by side; the joint's law is solved implicitly. Proven by
-/// tests/diagnosis/chain_simulation_test.cc.
+/// What joint laws and relative wind add to the base moments before the sensor [N m], or, under the
+/// readout rotation, to the joint's elastic moments, at the records' samples. Integrated on a finer
+/// grid with a second-order exponential rule, records side by side; the joint's law is solved
+/// implicitly. Proven by tests/diagnosis/chain_simulation_test.cc.
 std::vector<std::vector<double>> dynamic_parts(const Chain& chain, const JointModel& joint,
                                                std::span<const ElasticMoment> elastic);
 

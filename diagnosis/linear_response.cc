@@ -21,42 +21,52 @@ LinearResponse::LinearResponse(const Chain& chain) : chain_(chain), joint_(joint
   if (chain.structure.has_base) static_response_ = chain.structure.base_response(0.);
 }
 
-LinearPart LinearResponse::at(const Complex s) const {
-  const Complex reference = product(chain_.reference, s);
-  const Complex input = reference * product(chain_.mount, s);
+LinearPart LinearResponse::at(const Complex s, const signals::Readout readout,
+                              const bool magnet) const {
+  const Complex reference = product(chain_.reference, s),
+                input = reference * product(chain_.mount, s),
+                feedthrough = sum(chain_.feedthrough, s) * reference,
+                sensor = product(chain_.sensor, s);
+  if (!magnet)
+    return {.base = feedthrough, .wind = 0., .elastic = 0., .cross = 0., .sensor = sensor};
   const auto [base, wind] = chain_.structure.responses(s);
-  LinearPart part{.base = base,
-                  .wind = wind,
-                  .elastic = 1.,
-                  .cross = sum(chain_.cross, s),
-                  .sensor = product(chain_.sensor, s)};
+  // From what the simulation reads to the base moment, and from there to what this sensor reads.
+  Complex to_moment = 1., to_reading = 1., elastic = 1., change = 1.;
   if (joint_) {
-    const Complex d = sum(chain_.relaxation, s) + joint_->stiffness_change(s);
-    part.elastic = 1. / (joint_->stiffness_ratio(s) * (1. + d));
+    const Complex ratio = joint_->stiffness_ratio(s);
+    if (chain_.structure.readout == signals::Readout::rotation) to_moment = ratio;
+    const Complex own = sum(chain_.relaxation, s) + joint_->stiffness_change(s),
+                  d = own + sum(chain_.support, s);
+    elastic = 1. / (ratio * (1. + d));
+    if (readout == signals::Readout::rotation) to_reading = 1. / (ratio * (1. + own));
     // P of the joint model; what the modes above the first do to H they do to 1 / (1 + K G), too: B
     // is that of the load.
-    const Complex rest = joint_->compliance(s) * joint_->inertia(s) * base / static_response_;
-    Complex change = (1. + d) / (1. + d * (1. - rest));
+    const Complex rest =
+        joint_->compliance(s) * joint_->inertia(s) * base * to_moment / static_response_;
+    change = (1. + d) / (1. + d * (1. - rest));
     if (chain_.joint_change.any()) {
       const Complex compliance = joint_->total_compliance(s, d);
       change *=
           (1. + joint_->inertia(s) * compliance) / (1. + joint_->changed_inertia(s) * compliance);
     }
-    part.base *= change;
-    part.wind *= change;
   }
-  part.base += sum(chain_.parallel, s);
-  part.base = part.base * input + sum(chain_.feedthrough, s) * reference;
-  return part;
+  const Complex whole = to_moment * to_reading;
+  return {.base = (base * change + sum(chain_.parallel, s)) * whole * input + feedthrough,
+          .wind = wind * change * whole,
+          .elastic = elastic / to_reading,
+          .cross = sum(chain_.cross, s) * whole,
+          .sensor = sensor};
 }
 
 const std::vector<LinearPart>& LinearResponse::lines(const PreparedRecord& record) {
-  std::vector<LinearPart>& lines = lines_[{record.n_samples, record.sampling_rate_hz}];
+  std::vector<LinearPart>& lines =
+      lines_[{record.n_samples, record.sampling_rate_hz, record.readout, record.magnet}];
   if (!lines.empty()) return lines;
   const std::size_t n = record.n_samples / 2 + 1;
   lines.reserve(n);
   // At zero frequency filters may have poles; means are not judged.
-  for (std::size_t k = 0; k < n; ++k) lines.push_back(at(record.line_s(k)));
+  for (std::size_t k = 0; k < n; ++k)
+    lines.push_back(at(record.line_s(k), record.readout, record.magnet));
   return lines;
 }
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "diagnosis/chain.h"
@@ -12,13 +12,14 @@
 
 namespace vibrissa::diagnosis {
 
-/// Transfer functions of the chain at one frequency.
+/// Transfer functions of the chain at one frequency. What comes before the sensor is the base
+/// moment, or under the readout rotation k_nominal times the joint's rotation.
 struct LinearPart {
-  Complex base;     // reading of the accelerometer -> moment before the sensor
-  Complex wind;     // u |u| -> moment before the sensor
-  Complex elastic;  // moment before the sensor -> its elastic share in the joint
-  Complex cross;    // transverse acceleration -> moment before the sensor
-  Complex sensor;   // moment before the sensor -> reading
+  Complex base;     // reading of the accelerometer -> before the sensor
+  Complex wind;     // u |u| -> before the sensor
+  Complex elastic;  // before the sensor -> elastic moment of the joint
+  Complex cross;    // transverse acceleration -> before the sensor
+  Complex sensor;   // before the sensor -> reading
 };
 
 /// The linear part of a chain, at the lines of records; records of one length share them. A joint
@@ -30,7 +31,8 @@ class LinearResponse {
  public:
   explicit LinearResponse(const Chain& chain);
 
-  LinearPart at(Complex s) const;
+  LinearPart at(Complex s, signals::Readout readout = signals::Readout::moment,
+                bool magnet = true) const;
   /// At lines 0 .. n_samples / 2 of a whole record.
   const std::vector<LinearPart>& lines(const PreparedRecord& record);
   const std::optional<JointModel>& joint() const { return joint_; }
@@ -39,7 +41,9 @@ class LinearResponse {
   const Chain& chain_;
   std::optional<JointModel> joint_;
   Complex static_response_ = 1.;
-  std::map<std::pair<std::size_t, double>, std::vector<LinearPart>> lines_;  // length, rate
+  /// By length, rate, readout and magnet.
+  using Kind = std::tuple<std::size_t, double, signals::Readout, bool>;
+  std::map<Kind, std::vector<LinearPart>> lines_;
 };
 
 }  // namespace vibrissa::diagnosis

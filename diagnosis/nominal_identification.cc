@@ -64,6 +64,7 @@ std::vector<const DatasetRecord*> choose(const signals::Dataset& dataset, bool b
   std::vector<const DatasetRecord*> alone, combined;
   for (const DatasetRecord& entry : dataset.records) {
     const signals::Excitation e = entry.excitation;
+    if (entry.setup != signals::BenchSetup{}) continue;
     if (base && !e.base) continue;
     if (wind && !e.wind) continue;
     if (base && !entry.record.has(channel::base_acceleration)) continue;
@@ -212,6 +213,17 @@ void set_wind_path(NominalModel& model, const signals::Dataset& simulation) {
   model.has_wind = true;
 }
 
+/// One model foretells one kind of reading.
+signals::Readout readout_of(const signals::Dataset& simulation) {
+  if (simulation.records.empty()) return signals::Readout::moment;
+  const DatasetRecord& first = simulation.records.front();
+  for (const DatasetRecord& entry : simulation.records)
+    if (entry.readout != first.readout)
+      throw signals::UserError("the simulation's records '" + first.name + "' and '" + entry.name +
+                               "' differ in their readout: give all as moment or all as rotation");
+  return first.readout;
+}
+
 /// Misfit of the model on the simulation's own records, base alone and with wind.
 void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
   double base_error = 0., base_power = 0., wind_error = 0., wind_power = 0.;
@@ -242,6 +254,7 @@ void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
 
 NominalModel identify_nominal(const signals::Dataset& simulation) {
   NominalModel model;
+  model.readout = readout_of(simulation);
   set_base_path(model, simulation);
   set_wind_path(model, simulation);
   if (!model.has_base && !model.has_wind)

@@ -31,6 +31,13 @@ NominalModel::Responses NominalModel::responses(const Complex s) const {
   return sum;
 }
 
+double NominalModel::joint_viscous_ratio() const {
+  if (modes.empty()) return 0.;
+  const StructuralMode& mode = modes.front();
+  if (readout == signals::Readout::rotation) return 2. * mode.damping_ratio;
+  return mode.base_gain != 0. ? mode.base_rate / mode.base_gain : 0.;
+}
+
 std::size_t NominalModel::decay_samples(const double n_time_constants,
                                         const double sampling_rate_hz) const {
   if (modes.empty()) return 0;

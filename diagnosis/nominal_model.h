@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "signals/dataset.h"
+
 namespace vibrissa::diagnosis {
 
 using Complex = std::complex<double>;
@@ -24,8 +26,11 @@ struct StructuralMode {
 };
 
 /// What the simulation says: base acceleration and wind to base moment, linear in a and in u |u|.
-/// Modes in ascending frequency; the direct terms stand for the modes above the band.
+/// The mode that base motion moves most comes first: joint laws act on it, and it is the first mode
+/// everywhere here. The direct terms stand for the modes above the band.
 struct NominalModel {
+  /// What its gains and rates are of: the base moment, or k_nominal times the joint's rotation.
+  signals::Readout readout = signals::Readout::moment;
   std::vector<StructuralMode> modes;
   double base_direct = 0.;                  // N m / (m/s^2)
   double wind_direct = 0.;                  // N m / (m/s)^2
@@ -47,6 +52,10 @@ struct NominalModel {
     Complex base, wind;
   };
   Responses responses(Complex s) const;
+
+  /// Viscous over elastic moment of the joint times its share of the first mode's compliance, at
+  /// that mode's frequency. A rotation does not show it: the joint is taken to hold all damping.
+  double joint_viscous_ratio() const;
 
   /// Samples that so many time constants of the first mode last; 0 without a mode.
   std::size_t decay_samples(double n_time_constants, double sampling_rate_hz) const;

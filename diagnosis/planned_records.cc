@@ -174,7 +174,7 @@ signals::Dataset planned_dataset(const NominalModel& nominal,
                            {!input.acceleration.empty(), !input.wind.empty()},
                            input.period_samples,
                            signals::Split::fit,
-                           signals::Readout::moment});
+                           nominal.readout});
   }
   return out;
 }

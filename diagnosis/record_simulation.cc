@@ -45,6 +45,7 @@ std::vector<double> simulate_moment(const MendedModel& model, const signals::Rec
                              std::string(model.nominal.has_wind ? channel::wind_speed : ""));
   PreparedRecord record;
   record.excitation = {.base = base, .wind = wind};
+  record.readout = model.nominal.readout;
   record.sampling_rate_hz = inputs.sampling_rate_hz();
   record.periodic = start == Start::periodic && inputs.n_samples() % 2 == 0;
   record.n_samples = inputs.n_samples();

@@ -26,9 +26,11 @@ struct Ratio {
   double likeness = 0.;  // normalized product of both: -1 for an opposite sign
 };
 
-double first_mode_hz(const NominalModel& nominal) {
-  return nominal.modes.empty() ? 0.
-                               : nominal.modes.front().frequency_rad_s / (2. * std::numbers::pi);
+double lowest_mode_hz(const NominalModel& nominal) {
+  double lowest = 0.;
+  for (const StructuralMode& mode : nominal.modes)
+    if (lowest == 0. || mode.frequency_rad_s < lowest) lowest = mode.frequency_rad_s;
+  return lowest / (2. * std::numbers::pi);
 }
 
 /// Spectrum of what a path makes of its input.
@@ -110,7 +112,7 @@ Ratios ratios_of(const NominalModel& nominal, const ResponseRatio& lines) {
   constexpr double slow = 0.4;
   constexpr std::size_t fewest_slow_lines = 4;
   return {lines.up_to(std::numeric_limits<double>::infinity(), 1),
-          lines.up_to(slow * first_mode_hz(nominal), fewest_slow_lines)};
+          lines.up_to(slow * lowest_mode_hz(nominal), fewest_slow_lines)};
 }
 
 /// A factor of the response that a wrong unit gives.
@@ -234,7 +236,7 @@ void check_both(const NominalModel& nominal, const DatasetRecord& entry,
 
 void check_rate(const NominalModel& nominal, const DatasetRecord& entry,
                 std::vector<Finding>& findings) {
-  const double mode_hz = first_mode_hz(nominal), rate_hz = entry.record.sampling_rate_hz();
+  const double mode_hz = lowest_mode_hz(nominal), rate_hz = entry.record.sampling_rate_hz();
   if (0.5 * rate_hz > mode_hz) return;
   const std::string where = "sampled at " + signals::to_text(rate_hz) +
                             " Hz, while the first mode is "

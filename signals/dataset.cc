@@ -57,6 +57,12 @@ std::size_t period_of(const json& entry, const std::string& where) {
   return period.get<std::size_t>();
 }
 
+BenchSetup setup_of(const json& document, const json& entry, const std::string& where) {
+  if (entry.contains("setup")) return read_bench_setup(entry["setup"], where + "/setup");
+  return document.contains("setup") ? read_bench_setup(document["setup"], where + " of /setup")
+                                    : BenchSetup{};
+}
+
 DatasetRecord read_entry(const fs::path& folder, const json& document, const json& entry,
                          const std::string& where) {
   if (!entry.is_object()) refuse(where, "is no object");
@@ -78,7 +84,8 @@ DatasetRecord read_entry(const fs::path& folder, const json& document, const jso
       .excitation = excitation_of(text_of(entry, "excitation", where, ""), where + "/excitation"),
       .period_samples = period_of(entry, where),
       .split = split_of(text_of(entry, "split", where, "fit"), where + "/split"),
-      .readout = readout_of(text_of(entry, "readout", where, readout), where + "/readout")};
+      .readout = readout_of(text_of(entry, "readout", where, readout), where + "/readout"),
+      .setup = setup_of(document, entry, where)};
   if (result.period_samples > result.record.n_samples())
     refuse(where + "/period_samples", "is longer than the record of " +
                                           std::to_string(result.record.n_samples()) + " samples");

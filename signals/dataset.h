@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "signals/bench_setup.h"
 #include "signals/record.h"
 
 namespace vibrissa::signals {
@@ -32,6 +33,7 @@ struct DatasetRecord {
   std::size_t period_samples = 0;  // 0: not periodic; else periodic and in steady state
   Split split = Split::fit;
   Readout readout = Readout::moment;
+  BenchSetup setup{};
 };
 
 /// Records of one sensor, as records.md describes the folder.

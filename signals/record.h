@@ -17,6 +17,8 @@ inline const std::string wind_speed = "wind_speed_m_s";
 /// motion; positive for wind in +x.
 inline const std::string base_moment = "base_moment_N_m";
 inline const std::string cross_moment = "cross_moment_N_m";
+/// The share of the base moment that is the wind's, where a simulation or a rig tells it.
+inline const std::string wind_moment = "wind_moment_N_m";
 }  // namespace channel
 
 /// Uniformly sampled channels on one clock: sample i is at start + i / sampling_rate. SI units.

@@ -17,7 +17,7 @@ Effect base_compliance() {
                   const std::optional<JointModel> joint = joint_of(chain);
                   if (!joint) return;
                   // K ks / (K + ks) over K: the damper of the silicone keeps its share.
-                  chain.relaxation.push_back([ratio = v[0], joint = *joint](Complex s) {
+                  chain.support.push_back([ratio = v[0], joint = *joint](Complex s) {
                     const Complex nominal = joint.stiffness_ratio(s);
                     return -nominal / (nominal + ratio);
                   });

@@ -100,6 +100,100 @@ TEST(SimulateChain, CubicJointMeetsARungeKuttaIntegration) {
   }
 }
 
+test::OneModeRig rotation_rig() {
+  test::OneModeRig rig;
+  rig.readout = signals::Readout::rotation;
+  return rig;
+}
+
+TEST(SimulateChain, RotationOfASofterJointMeetsARungeKuttaIntegration) {
+  test::OneModeRig rig = rotation_rig();
+  rig.stiffness = 0.7;
+  rig.loss = 1.4;
+  const Experiment experiment = experiment_of(rig);
+  Chain chain{.structure = experiment.nominal};
+  chain.joint_change = {.spring = rig.stiffness, .damper = rig.loss};
+  for (const PreparedRecord& record : experiment.records)
+    EXPECT_LT(relative_difference(simulate_mean(chain, record), record.moment), 2e-4)
+        << record.name;
+}
+
+TEST(SimulateChain, RotationOnACubicJointMeetsARungeKuttaIntegration) {
+  test::OneModeRig rig = rotation_rig();
+  rig.cubic = 2e5;
+  const Experiment experiment = experiment_of(rig);
+  const double w = 2. * std::numbers::pi * rig.frequency_hz;
+  const double deflection = experiment.scales.joint_moment_n_m / (rig.moment_mass * w * w);
+  Chain chain{.structure = experiment.nominal};
+  find_effect("hardening")
+      .extend(chain, std::vector<double>{rig.cubic * deflection * deflection}, experiment.scales);
+  for (const PreparedRecord& record : experiment.records) {
+    const std::vector<Complex> linear = simulate_mean({.structure = experiment.nominal}, record);
+    EXPECT_GT(relative_difference(record.moment, linear), 0.003) << "the law must act";
+    EXPECT_LT(relative_difference(simulate_mean(chain, record), record.moment),
+              0.03 * relative_difference(record.moment, linear))
+        << record.name;
+  }
+}
+
+TEST(SimulateChain, ASimulationOfTheRotationForetellsIt) {
+  NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
+  nominal.readout = signals::Readout::rotation;
+  nominal.modes.front().base_rate = 0.;
+  for (const double stiffness : {1., 0.8}) {
+    test::OneModeRig rig = rotation_rig();
+    rig.stiffness = stiffness;
+    const Experiment experiment = prepare_experiment(
+        nominal, test::rig_dataset(rig, {.quiet = false}), Split::fit, InputNoise::as_measured);
+    Chain chain = experiment.nominal_chain();
+    chain.joint_share = 1.;
+    chain.joint_change = {.spring = stiffness};
+    for (const PreparedRecord& record : experiment.records)
+      EXPECT_LT(relative_difference(simulate_mean(chain, record), record.moment), 2e-4)
+          << record.name;
+  }
+}
+
+TEST(SimulateChain, ASpringUnderTheJointShowsInTheRotationOnlyByThePole) {
+  Experiment experiment = experiment_of(rotation_rig());
+  const PreparedRecord& record = experiment.records.front();
+  Chain soft{.structure = experiment.nominal}, compliant = soft;
+  soft.joint_change = {.spring = 0.8, .damper = 0.8};
+  // 1 / K = 1 / K0 + 1 / (4 K0)
+  compliant.support = {[](Complex) -> Complex { return -0.2; }};
+  const std::vector<Complex> a = simulate_mean(soft, record), b = simulate_mean(compliant, record);
+  for (std::size_t k = 0; k < a.size(); k += 37)
+    EXPECT_LT(std::abs(a[k] - b[k] / 0.8), 1e-9 * std::abs(a[k]));
+}
+
+TEST(SimulateChain, ATurnedSensorReadsTheCosineOfWhatMovesIt) {
+  test::OneModeRig rig;
+  rig.rotation_deg = 60.;
+  const Experiment experiment = prepare_experiment(
+      test::nominal_of(test::OneModeRig{}, true),
+      test::rig_dataset(rig, {.wind = true, .quiet = false}), Split::fit, InputNoise::as_measured);
+  for (const PreparedRecord& record : experiment.records) {
+    EXPECT_LT(relative_difference(simulate_mean({.structure = experiment.nominal}, record),
+                                  record.moment),
+              3e-4)
+        << record.name;
+  }
+}
+
+TEST(SimulateChain, WithoutItsMagnetTheSensorReadsTheCoilAlone) {
+  signals::Dataset dataset = test::rig_dataset(test::OneModeRig{}, {.quiet = false});
+  for (signals::DatasetRecord& entry : dataset.records) entry.setup.magnet = false;
+  const Experiment experiment = prepare_experiment(test::nominal_of(test::OneModeRig{}, false),
+                                                   dataset, Split::fit, InputNoise::as_measured);
+  const PreparedRecord& record = experiment.records.front();
+  Chain chain{.structure = experiment.nominal};
+  for (const Complex& bin : simulate_mean(chain, record)) EXPECT_EQ(bin, Complex(0.));
+  chain.feedthrough = {[](Complex) -> Complex { return 1e-5; }};
+  EXPECT_LT(relative_difference(simulate_mean(chain, record),
+                                filtered(record, [](Complex) -> Complex { return 1e-5; })),
+            1e-12);
+}
+
 TEST(SimulateChain, CarriesTheNoiseOfBothChannels) {
   const Experiment experiment = experiment_of(test::noisy_rig());
   const PreparedRecord& record = experiment.records.front();

@@ -54,6 +54,39 @@ TEST(Diagnose, NamesADelayWithItsSize) {
   EXPECT_GT(diagnosis.ranking.front().held_out->overall.gap_closed.value_or(0.), 0.97);
 }
 
+TEST(Diagnose, TellsASofterJointFromASofterSupportByTheRotation) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.readout = signals::Readout::rotation;
+  rig.stiffness = 0.85;
+  const Diagnosis diagnosis = diagnosed(rig);
+  EXPECT_EQ(diagnosis.verdict, "stiffness");
+  EXPECT_GT(diagnosis.ranking.front().probability, 0.9);
+  ASSERT_FALSE(diagnosis.ranking.front().parameters.empty());
+  EXPECT_NEAR(diagnosis.ranking.front().parameters.front().value, 0.85, 0.01);
+  EXPECT_GT(diagnosis.ranking.front().held_out->overall.gap_closed.value_or(0.), 0.97);
+}
+
+TEST(Diagnose, LeavesOutWhatTheBenchDidThatCannotBeSimulatedAndSaysSo) {
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
+  signals::DatasetRecord heavier = dataset.records[1];
+  heavier.name = "heavier";
+  heavier.setup = {.added_mass_kg = 1e-4, .added_mass_height_m = 0.15};
+  dataset.records.push_back(heavier);
+  signals::DatasetRecord clamped = dataset.records[1];
+  clamped.name = "clamped";
+  clamped.setup = {.stage = signals::Stage::clamped};
+  clamped.record.set_channel(signals::channel::base_acceleration,
+                             std::vector<double>(clamped.record.n_samples(), 0.));
+  dataset.records.push_back(clamped);
+  const Diagnosis diagnosis = diagnose(test::nominal_of(test::OneModeRig{}, false), dataset,
+                                       {.search = {.max_effects = 1}});
+  EXPECT_EQ(diagnosis.verdict, "none");
+  std::vector<std::string> left_out;
+  for (const Finding& finding : diagnosis.findings)
+    if (finding.kind == FindingKind::unsimulated_setup) left_out.push_back(finding.record);
+  EXPECT_THAT(left_out, testing::ElementsAre("heavier", "clamped"));
+}
+
 TEST(Diagnose, ProbabilitiesSumToOneAndTheConfidenceSetHolds95Percent) {
   test::OneModeRig rig = test::noisy_rig();
   rig.delay_s = 1.25e-4;

@@ -17,7 +17,8 @@ namespace vibrissa::diagnosis::test {
 /// shares no code with the chain that is tested.
 ///   x'' + c0 loss x' + k0 (stiffness x + cubic x^3) = -a + drag u |u|,   M = moment_mass (k x + c
 ///   x')
-/// with the clock of the moment's channel behind by delay_s.
+/// with the clock of the moment's channel behind by delay_s. Under the readout rotation
+/// moment_mass k0 x is read; a turned rig sees the cosine of what moves it.
 struct OneModeRig {
   double frequency_hz = 35., damping_ratio = 0.05;
   double moment_mass = 6e-5;  // kg m: M / a at rest is -this
@@ -28,6 +29,8 @@ struct OneModeRig {
   double moment_noise = 0., acceleration_noise = 0.;
   double hum = 0., hum_hz = 50.1;  // N m
   double rate_hz = 500.;
+  signals::Readout readout = signals::Readout::moment;
+  double rotation_deg = 0.;
   static constexpr std::size_t n_steps = 16;
 
   using Signal = std::function<double(double t_s)>;
@@ -37,10 +40,14 @@ struct OneModeRig {
     const double w = 2. * std::numbers::pi * frequency_hz, k0 = w * w,
                  c0 = 2. * damping_ratio * w * loss;
     const double dt = 1. / (rate_hz * n_steps);
+    const double in_plane = std::cos(rotation_deg * std::numbers::pi / 180.);
     const auto elastic = [&](double x) { return k0 * (stiffness * x + cubic * x * x * x); };
     const auto slope = [&](double t, double x, double v) {
       const double wind = u(t);
-      return -elastic(x) - c0 * v - a(t) + drag * wind * std::abs(wind);
+      return -elastic(x) - c0 * v + in_plane * (drag * wind * std::abs(wind) - a(t));
+    };
+    const auto reading = [&](double x, double v) {
+      return readout == signals::Readout::rotation ? k0 * x : elastic(x) + c0 * v;
     };
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -52,7 +59,7 @@ struct OneModeRig {
     const double phase = 6.28 * std::uniform_real_distribution<double>()(random);
     for (long i = -warm; i < static_cast<long>(n * n_steps); ++i) {
       const double t = static_cast<double>(i) * dt;
-      moments.push_back(moment_mass * (elastic(x) + c0 * v));
+      moments.push_back(moment_mass * reading(x, v));
       moments.pop_front();
       if (i >= 0 && i % static_cast<long>(n_steps) == 0) {
         const auto j = static_cast<std::size_t>(i) / n_steps;
@@ -125,7 +132,11 @@ inline signals::Dataset rig_dataset(const OneModeRig& rig, const RigDatasetOptio
     const unsigned seed = options.seed + 13 * static_cast<unsigned>(out.records.size());
     out.records.push_back({name,
                            rig.record(n, period_samples > 0 ? 4.096 : 0., a, u, seed, options.wind),
-                           excitation, period_samples, split, signals::Readout::moment});
+                           excitation,
+                           period_samples,
+                           split,
+                           rig.readout,
+                           {.rotation_deg = rig.rotation_deg}});
   };
   if (options.quiet) add("quiet", {}, 0, Split::fit, no_signal, no_signal, 1024);
   const unsigned seed = options.seed;

@@ -72,8 +72,32 @@ TEST_F(DatasetFolder, TakesTheReadoutOfTheWholeDataset) {
 }
 
 TEST_F(DatasetFolder, AcceptsTheSetUpOfTheBench) {
-  describe(R"({"file": "a.csv", "excitation": "base", "setup": {"tilt_deg": 90}})");
-  EXPECT_EQ(read_dataset(folder_.path()).records.size(), 1u);
+  describe(R"({"file": "a.csv", "excitation": "base", "setup": {"tilt_deg": 90}},
+              {"file": "a.csv", "excitation": "base",
+               "setup": {"added_mass_kg": 1e-4, "added_mass_height_m": 0.15, "rotation_deg": -90,
+                         "stage": "clamped", "coil_driven": false, "magnet": false}},
+              {"file": "a.csv", "excitation": "base"})",
+           R"(, "setup": {"magnet": false})");
+  const Dataset dataset = read_dataset(folder_.path());
+  EXPECT_EQ(dataset.records[0].setup, BenchSetup{.tilt_deg = 90.});
+  EXPECT_EQ(dataset.records[1].setup,
+            (BenchSetup{1e-4, 0.15, 0., -90., Stage::clamped, false, false}));
+  EXPECT_EQ(to_string(dataset.records[1].setup),
+            "0.1 g added at 150 mm, turned by -90 degrees, stage clamped, coil not driven, magnet "
+            "removed");
+  EXPECT_EQ(dataset.records[2].setup, BenchSetup{.magnet = false});
+}
+
+TEST_F(DatasetFolder, RefusesASetUpThatIsNone) {
+  const auto refused = [&](const std::string& setup, const std::string& why) {
+    expect_refused(R"({"file": "a.csv", "excitation": "base", "setup": )" + setup + "}", why);
+  };
+  refused("90", "/records/0/setup: is no object");
+  refused(R"({"tilt": 90})", "tilt_deg");
+  refused(R"({"tilt_deg": "steep"})", "/setup/tilt_deg: is no number");
+  refused(R"({"added_mass_kg": -1})", "must not be negative");
+  refused(R"({"stage": "loose"})", "clamped");
+  refused(R"({"magnet": 1})", "true or false");
 }
 
 TEST_F(DatasetFolder, GuessesWhatNobodyDescribedAndSaysSo) {
