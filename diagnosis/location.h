@@ -5,27 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/gap_harmonics.h"
+#include "diagnosis/gap_map.h"
 #include "diagnosis/search.h"
 
 namespace vibrissa::diagnosis {
-
-/// One band of the gap map.
-struct BandGap {
-  double low_hz = 0., high_hz = 0.;
-  double nrmse = 0.;    // rms of the error over rms of the whole measured moment
-  double excess = 0.;   // whitened mean square of the error; 1 is noise alone
-  double p_value = 1.;  // after Holm's correction over all bands and kinds of records
-};
-
-/// Records of one kind of excitation.
-struct ChannelGap {
-  std::string channel{};  // base, wind or product
-  std::vector<BandGap> bands{};
-  double p_value = 1.;  // of its most significant band
-};
-
-enum class Harmonics { none, odd, even, both };
-std::string to_string(Harmonics harmonics);
 
 /// Where the gap lies, without any hypothesis about its cause.
 struct Location {
