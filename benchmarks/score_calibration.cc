@@ -12,12 +12,12 @@
 #include <string>
 
 #include "benchmarks/labelled_set.h"
+#include "diagnosis/chain_simulation.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/effect_size.h"
 #include "diagnosis/linear_response.h"
 #include "diagnosis/nominal_identification.h"
 #include "diagnosis/planned_records.h"
-#include "diagnosis/record_simulation.h"
 #include "diagnosis/spectrum.h"
 
 namespace {
@@ -37,11 +37,15 @@ class Sensor {
 
   const std::string& name() const { return name_; }
   double share() const { return share_; }
-  signals::Dataset measure(const signals::Dataset& inputs);
+  /// inputs: what moves it; clean: the same, prepared.
+  signals::Dataset measure(const signals::Dataset& inputs,
+                           const std::vector<diagnosis::PreparedRecord>& clean);
 
  private:
   void draw_retunes(const diagnosis::Experiment& experiment);
   void draw_effects(const diagnosis::Experiment& experiment);
+  std::vector<double> retuned(const diagnosis::Effect& effect);
+  double drawn(const diagnosis::Parameter& parameter);
   void add_own_noise(const diagnosis::Chain& chain, const signals::DatasetRecord& entry,
                      std::vector<double>& moment);
   std::vector<double> with_noise(std::span<const double> x, double deviation);
@@ -63,14 +67,29 @@ void Sensor::draw_retunes(const diagnosis::Experiment& experiment) {
     const diagnosis::Effect& effect = diagnosis::find_effect(id);
     if (!diagnosis::shows(experiment, effect)) continue;
     std::vector<double> values;
-    for (const diagnosis::Parameter& parameter : effect.parameters) {
-      const double step = std::student_t_distribution<double>(6.)(random_);
-      const diagnosis::Prior& prior = parameter.prior;
-      values.push_back(
-          parameter.value(std::clamp(prior.centre + prior.scale * step, prior.low, prior.high)));
-    }
+    for (const diagnosis::Parameter& parameter : effect.parameters)
+      values.push_back(drawn(parameter));
     model_.effects.push_back({id, values, experiment.scales});
   }
+}
+
+/// What is named of a retune may lie anywhere in its range.
+std::vector<double> Sensor::retuned(const diagnosis::Effect& effect) {
+  std::vector<double> values;
+  for (const diagnosis::Parameter& parameter : effect.parameters)
+    values.push_back(values.empty()
+                         ? parameter.value(uniform(parameter.prior.low, parameter.prior.high))
+                         : drawn(parameter));
+  return values;
+}
+
+/// By its tolerance.
+double Sensor::drawn(const diagnosis::Parameter& parameter) {
+  const diagnosis::Prior& prior = parameter.prior;
+  const double step = prior.kind == diagnosis::Prior::Kind::normal
+                          ? std::normal_distribution<double>()(random_)
+                          : std::student_t_distribution<double>(6.)(random_);
+  return parameter.value(std::clamp(prior.centre + prior.scale * step, prior.low, prior.high));
 }
 
 void Sensor::draw_effects(const diagnosis::Experiment& experiment) {
@@ -82,15 +101,19 @@ void Sensor::draw_effects(const diagnosis::Experiment& experiment) {
   share_ = std::exp(uniform(std::log(0.1), 0.));
   std::vector<std::string> ids;
   for (const diagnosis::Effect* effect : effects) {
+    ids.push_back(effect->id);
+    std::erase_if(model_.effects, [&](const auto& known) { return known.id == effect->id; });
+    if (effect->retune) {
+      model_.effects.push_back({effect->id, retuned(*effect), experiment.scales});
+      continue;
+    }
     const auto& starts = effect->starts;
     const std::size_t start =
         std::uniform_int_distribution<std::size_t>(0, starts.size() - 1)(random_);
     const diagnosis::EffectFamily family(*effect, diagnosis::size_parameters(*effect),
                                          starts[start]);
-    std::erase_if(model_.effects, [&](const auto& known) { return known.id == effect->id; });
     model_.effects.push_back(
         {effect->id, family.values(std::min(share_, family.largest_share())), experiment.scales});
-    ids.push_back(effect->id);
   }
   name_ = diagnosis::joined_name(ids);
 }
@@ -134,18 +157,17 @@ void Sensor::add_own_noise(const diagnosis::Chain& chain, const signals::Dataset
     moment[i] += course[i] + rise * (static_cast<double>(i) / static_cast<double>(n) - 0.5);
 }
 
-signals::Dataset Sensor::measure(const signals::Dataset& inputs) {
+signals::Dataset Sensor::measure(const signals::Dataset& inputs,
+                                 const std::vector<diagnosis::PreparedRecord>& clean) {
   const diagnosis::ChannelNoise noise = diagnosis::usual_noise();
   const diagnosis::Chain chain = model_.chain();
+  diagnosis::ChainSimulator simulator(chain);
   const double a_noise = std::hypot(noise.acceleration_m_s2, std::sqrt(chain.reference_variance));
   signals::Dataset out;
   for (const signals::DatasetRecord& entry : inputs.records) {
-    const bool moved = entry.excitation.base || entry.excitation.wind;
     std::vector<double> moment(entry.record.n_samples(), 0.);
-    if (moved)
-      moment = diagnosis::simulate_moment(
-          model_, entry.record,
-          entry.period_samples > 0 ? diagnosis::Start::periodic : diagnosis::Start::settled);
+    for (const diagnosis::PreparedRecord& record : clean)
+      if (record.name == entry.name && !record.is_still()) moment = simulator.samples(record);
     add_own_noise(chain, entry, moment);
     signals::DatasetRecord measured = entry;
     for (const std::string& name : {channel::base_acceleration, channel::cross_acceleration})
@@ -225,11 +247,15 @@ int run(int argc, char** argv) {
   const signals::Dataset inputs = inputs_of(simulation);
   const diagnosis::Experiment experiment = diagnosis::prepare_experiment(
       nominal, inputs, signals::Split::fit, diagnosis::InputNoise::as_measured);
+  std::vector<diagnosis::PreparedRecord> clean = experiment.records;
+  const diagnosis::Experiment held_out = diagnosis::prepare_experiment(
+      nominal, inputs, signals::Split::held_out, diagnosis::InputNoise::as_measured);
+  clean.insert(clean.end(), held_out.records.begin(), held_out.records.end());
   std::vector<Trial> trials;
   const auto first = static_cast<unsigned>(std::stoul(argv[3]));
   for (unsigned i = 0; i < std::stoul(argv[2]); ++i) {
     Sensor sensor(experiment, first + i);
-    const diagnosis::Diagnosis answer = diagnosis::diagnose(nominal, sensor.measure(inputs));
+    const diagnosis::Diagnosis answer = diagnosis::diagnose(nominal, sensor.measure(inputs, clean));
     Trial trial;
     for (std::size_t k = 0; k < answer.ranking.size(); ++k) {
       trial.probability.push_back(answer.ranking[k].probability);

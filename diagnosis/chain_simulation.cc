@@ -18,6 +18,15 @@ std::vector<Complex> wind_force_spectrum(const Chain& chain, const PreparedRecor
   return spectrum_of(u);
 }
 
+/// d (u - v) |u - v| / d v at rest, root mean square of the wind.
+double drag_per_velocity(const Chain& chain, const PreparedRecord& record) {
+  double sum = 0.;
+  for (const double u : record.wind) sum += u * u;
+  return record.wind.empty() ? 0.
+                             : 2. * chain.drag_factor * record.wind_share *
+                                   std::sqrt(sum / static_cast<double>(record.wind.size()));
+}
+
 Complex reading_of_source(const Chain& chain, const PreparedRecord& record, std::size_t k) {
   const Complex polled = record.acceleration[k];
   if (record.renewed.empty()) return polled;
@@ -134,12 +143,16 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
     // Both axes of an accelerometer are as noisy.
     const bool base = !record.acceleration.empty(), cross = !record.cross_acceleration.empty();
     const std::vector<LinearPart>& lines = response_.lines(record);
+    // The whisker's own velocity in the wind stems from the same noisy acceleration.
+    const double drag = base && chain_.relative_wind.on ? drag_per_velocity(chain_, record) : 0.;
     for (std::size_t b = 0; b < n_bins; ++b) {
       const std::size_t k = record.whole_line(b);
       const LinearPart& line = lines[k];
+      const Complex s = record.line_s(k);
+      const Complex felt = gives_velocity(s) ? drag * line.wind / s : 0.;
       if (base)
         prediction.acceleration_noise[b] +=
-            n * std::norm(line.base * line.sensor) * record.noise_share[k];
+            n * std::norm((line.base - felt) * line.sensor) * record.noise_share[k];
       if (cross) prediction.acceleration_noise[b] += n * std::norm(line.cross * line.sensor);
     }
   }

@@ -112,12 +112,10 @@ void fill_lane(std::vector<Lanes>& lanes, std::size_t lane, const std::vector<do
 }
 
 std::vector<Complex> base_velocity(const PreparedRecord& record) {
-  // Slower than this the base hardly moves; integrating noise there would only drift.
-  constexpr double slowest_hz = 0.5;
   std::vector<Complex> velocity(record.n_samples / 2 + 1, 0.);
   for (std::size_t k = 1; k < velocity.size() && k < record.acceleration.size(); ++k) {
     const Complex s = record.line_s(k);
-    if (s.imag() > 2. * std::numbers::pi * slowest_hz) velocity[k] = record.acceleration[k] / s;
+    if (gives_velocity(s)) velocity[k] = record.acceleration[k] / s;
   }
   return velocity;
 }
@@ -196,6 +194,11 @@ std::vector<std::vector<double>> side_by_side(const Chain& chain, const JointMod
 }
 
 }  // namespace
+
+bool gives_velocity(const Complex s) {
+  constexpr double slowest_hz = 0.5;
+  return s.imag() > 2. * std::numbers::pi * slowest_hz;
+}
 
 bool is_dynamic(const Chain& chain, const PreparedRecord& record) {
   return !chain.joint.empty() || (chain.relative_wind.on && !record.wind.empty());

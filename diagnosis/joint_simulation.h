@@ -12,6 +12,10 @@ namespace vibrissa::diagnosis {
 /// Is there anything in the chain that frequency lines cannot tell, for this record?
 bool is_dynamic(const Chain& chain, const PreparedRecord& record);
 
+/// Is the base's velocity taken from its acceleration at s? Where it hardly moves, integrated noise
+/// would only drift.
+bool gives_velocity(Complex s);
+
 /// A record with the spectrum of the linear part's elastic joint moment [N m], lines
 /// 0 .. n_samples / 2.
 struct ElasticMoment {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "diagnosis/effect.h"
+#include "diagnosis/spectrum.h"
 #include "one_mode_rig.h"
 
 namespace vibrissa::diagnosis {
@@ -209,6 +210,43 @@ TEST(SimulateChain, CarriesTheNoiseOfBothChannels) {
                 1., 1e-9);
     EXPECT_EQ(prediction.own_noise[b], 0.);
   }
+}
+
+TEST(SimulateChain, CarriesTheAccelerometersNoiseIntoTheDragOfAMovingWhisker) {
+  const Experiment experiment =
+      prepare_experiment(test::nominal_of(test::OneModeRig{}, true),
+                         test::rig_dataset(test::OneModeRig{}, {.wind = true, .quiet = false}),
+                         Split::held_out, InputNoise::as_measured);
+  ASSERT_EQ(experiment.records.size(), 1u);
+  const PreparedRecord& record = experiment.records.front();
+  Chain chain{.structure = experiment.nominal};
+  chain.structure.modes.front().wind_gain *= 50.;
+  chain.relative_wind.on = true;
+  const Prediction prediction = simulate(chain, record);
+  constexpr double deviation = 0.05;
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0., deviation);
+  // Bins of 1 to 4 Hz, where velocity is most of what the noise does.
+  const auto low = static_cast<std::size_t>(1. / record.bin_hz()),
+             high = static_cast<std::size_t>(4. / record.bin_hz());
+  double scattered = 0., foretold = 0., linear = 0.;
+  constexpr int n_draws = 40;
+  for (int draw = 0; draw < n_draws; ++draw) {
+    std::vector<double> noise(record.n_samples);
+    for (double& value : noise) value = normal(random);
+    PreparedRecord noisy = record;
+    const std::vector<Complex> spectrum = spectrum_of(noise);
+    for (std::size_t k = 0; k < spectrum.size(); ++k) noisy.acceleration[k] += spectrum[k];
+    const std::vector<Complex> mean = simulate_mean(chain, noisy);
+    for (std::size_t b = low; b < high; ++b) {
+      scattered += std::norm(mean[b] - prediction.mean[b]);
+      foretold += deviation * deviation * prediction.acceleration_noise[b];
+      linear += deviation * deviation * static_cast<double>(record.n_judged) *
+                std::norm(chain.structure.base_response(0.));
+    }
+  }
+  EXPECT_GT(scattered, 2. * linear) << "the drag must act";
+  EXPECT_NEAR(scattered / foretold, 1., 0.15);
 }
 
 TEST(SimulateChain, ARigidWhiskerOnAChangedJointIsAChangedOscillator) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
 #include <thread>
 
 #include "diagnosis/diagnosis.h"
@@ -8,7 +10,8 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Shares of 200 sensors whose noise alone differs for which an interval of 95 % holds the truth.
+/// Shares of 200 sensors and simulations, which differ in noise and joint, for which an interval of
+/// 95 % holds the truth.
 struct Coverage {
   int n = 0, delay = 0, stiffness = 0, gap_closed = 0;
 };
@@ -19,7 +22,12 @@ void add_trial(unsigned seed, Coverage& out) {
   rig.stiffness = 0.93;
   rig.delay_s = 5e-4;
   const signals::Dataset real = test::rig_dataset(rig, {.seed = 1000 + 97 * seed});
-  const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
+  NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
+  // The simulation is as wrong about the joint as it says that it may be; none holds more than all
+  // of the compliance.
+  std::mt19937 random(seed);
+  nominal.joint_share -=
+      std::abs(std::normal_distribution<double>(0., nominal.joint_share_deviation)(random));
   const Experiment fit_records =
       prepare_experiment(nominal, real, signals::Split::fit, InputNoise::reduced);
   const Experiment held_out =
@@ -55,9 +63,7 @@ TEST(Intervals, HoldTheTruthAsOftenAsTheySay) {
         std::pair{"gap_closed", &Coverage::gap_closed}}) {
     RecordProperty(name, std::to_string(share(part)));
     EXPECT_GE(share(part), 0.90) << name;
-    // A change of stiffness is known no better than the joint's share, which does not vary here.
-    const double most = part == &Coverage::stiffness ? 1. : 0.98;
-    EXPECT_LE(share(part), most) << name;
+    EXPECT_LE(share(part), 0.98) << name;
   }
 }
 
