@@ -67,6 +67,7 @@ ChainSimulator::Spectra ChainSimulator::added_moments(std::span<const PreparedRe
   std::vector<std::size_t> place;
   for (std::size_t r = 0; r < records.size(); ++r) {
     if (records[r].is_still() || !response_.joint() || !is_dynamic(chain_, records[r])) continue;
+    if (!records[r].magnet) continue;
     const std::vector<LinearPart>& lines = response_.lines(records[r]);
     place.push_back(r);
     elastic.push_back({&records[r], linear[r]});

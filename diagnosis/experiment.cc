@@ -402,8 +402,8 @@ Experiment prepare_experiment(const MendedModel& simulation, const signals::Data
     experiment.records.push_back(
         prepare_record(nominal, entry, i, noise.acceleration_m_s2, excited, treatment));
     const PreparedRecord& record = experiment.records.back();
-    experiment.has_base |= entry.excitation.base;
-    experiment.has_wind |= entry.excitation.wind;
+    experiment.has_base |= entry.excitation.base && record.magnet;
+    experiment.has_wind |= entry.excitation.wind && record.magnet;
     experiment.has_cross |= !record.cross_acceleration.empty();
     experiment.has_repeats |= !record.renewed.empty();
   }

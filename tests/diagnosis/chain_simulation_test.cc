@@ -183,13 +183,15 @@ TEST(SimulateChain, ATurnedSensorReadsTheCosineOfWhatMovesIt) {
 
 TEST(SimulateChain, WithoutItsMagnetTheSensorReadsTheCoilAlone) {
   signals::Dataset dataset = test::rig_dataset(test::OneModeRig{}, {.quiet = false});
-  for (signals::DatasetRecord& entry : dataset.records) entry.setup.magnet = false;
+  dataset.records.front().setup.magnet = false;
   const Experiment experiment = prepare_experiment(test::nominal_of(test::OneModeRig{}, false),
                                                    dataset, Split::fit, InputNoise::as_measured);
   const PreparedRecord& record = experiment.records.front();
   Chain chain{.structure = experiment.nominal};
   for (const Complex& bin : simulate_mean(chain, record)) EXPECT_EQ(bin, Complex(0.));
   chain.feedthrough = {[](Complex) -> Complex { return 1e-5; }};
+  chain.relative_wind.on = true;
+  find_effect("hardening").extend(chain, std::vector<double>{0.3}, experiment.scales);
   EXPECT_LT(relative_difference(simulate_mean(chain, record),
                                 filtered(record, [](Complex) -> Complex { return 1e-5; })),
             1e-12);
