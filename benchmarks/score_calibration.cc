@@ -1,5 +1,5 @@
 // Are the probabilities of answers as often right as they say? score_calibration SIMULATION N SEED:
-// N sensors drawn by the priors of the nominal model's own effects move as the simulation's records
+// N sensors with effects of the nominal model's own catalogue move as the simulation's records
 // do, are measured with noise and diagnosed. Prints every trial, how often answers of a probability
 // were right, and the temperature that would make them as often right as they say.
 #include <algorithm>
@@ -139,9 +139,9 @@ void Sensor::add_own_noise(const diagnosis::Chain& chain, const signals::Dataset
       .wind_speed = entry.excitation.wind ? entry.record.channel(channel::wind_speed).first(n)
                                           : std::span<const double>{},
       .wind_response = [&](std::size_t k) {
-        const diagnosis::LinearPart part =
-            response.at({0., 2. * std::numbers::pi * rate_hz * static_cast<double>(k) /
-                                 static_cast<double>(n)});
+        const diagnosis::LinearPart part = response.at(
+            {0., 2. * std::numbers::pi * rate_hz * static_cast<double>(k) / static_cast<double>(n)},
+            entry.readout);
         return part.wind * part.sensor;
       }};
   std::vector<double> variance(n / 2 - 1, 0.);

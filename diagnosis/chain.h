@@ -74,8 +74,8 @@ struct Chain {
   JointChange joint_change{};
   /// The joint's spring and damper K(s) become K(s) (1 + D(s)), D the sum of these.
   std::vector<Filter> relaxation{};
-  std::vector<Filter>
-      support{};  // likewise, by a spring under the joint, whose rotation none reads
+  /// Likewise, by a spring under the joint, whose rotation no sensor reads.
+  std::vector<Filter> support{};
   std::vector<Filter> parallel{};  // further paths base acceleration -> moment
   std::vector<JointLawMaker> joint{};
   RelativeWind relative_wind{};

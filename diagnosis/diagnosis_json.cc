@@ -55,25 +55,20 @@ json score_json(const ErrorScore& score) {
   return out;
 }
 
-json wind_speed_json(const std::optional<WindSpeedError>& error) {
-  if (!error) return nullptr;
-  return {{"before", json_number(error->before_m_s)}, {"after", json_number(error->after_m_s)}};
-}
-
-json separation_json(const std::optional<SeparationQuality>& quality) {
-  if (!quality) return nullptr;
-  return {{"before", json_number(quality->before_db)}, {"after", json_number(quality->after_db)}};
+/// The two members of a figure that the mended model changes; null where there is none.
+template <typename Figure>
+json before_after(const std::optional<Figure>& figure, double Figure::*before,
+                  double Figure::*after) {
+  if (!figure) return nullptr;
+  return {{"before", json_number((*figure).*before)}, {"after", json_number((*figure).*after)}};
 }
 
 json held_out_json(const HeldOutScore& score) {
   json out = score_json(score.overall);
   out["foretold"] = score.foretold;
   out["not_foretold"] = score.not_foretold;
-  if (score.vibration_left)
-    out["vibration_left_db"] = {{"before", json_number(score.vibration_left->before_db)},
-                                {"after", json_number(score.vibration_left->after_db)}};
-  else
-    out["vibration_left_db"] = nullptr;
+  out["vibration_left_db"] =
+      before_after(score.vibration_left, &VibrationLeft::before_db, &VibrationLeft::after_db);
   out["records"] = json::array();
   for (const ErrorScore& record : score.records) out["records"].push_back(score_json(record));
   return out;
@@ -201,27 +196,30 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
                         {"message", finding.message}});
   for (const UntestedEffect& entry : diagnosis.untested)
     untested.push_back({{"effect", entry.effect}, {"reason", entry.reason}});
-  const json document{{"schema", "vibrissa-diagnosis-1"},
-                      {"gap",
-                       {{"nrmse", json_number(diagnosis.gap.nrmse)},
-                        {"noise_floor_nrmse", json_number(diagnosis.gap.noise_floor)},
-                        {"p_value", json_number(diagnosis.gap.p_value)}}},
-                      {"location", location_json(diagnosis.location)},
-                      {"verdict", diagnosis.verdict},
-                      {"ranking", ranking},
-                      {"probability_of_unlisted", json_number(diagnosis.probability_of_unlisted)},
-                      {"confidence_set", diagnosis.confidence_set},
-                      {"indistinguishable", diagnosis.indistinguishable},
-                      {"untested", untested},
-                      {"wind_speed_error_m_s", wind_speed_json(diagnosis.wind_speed)},
-                      {"separation_sdr_db", separation_json(diagnosis.separation)},
-                      {"next_experiment",
-                       {{"name", diagnosis.next.name},
-                        {"why", diagnosis.next.why},
-                        {"would_separate", diagnosis.next.would_separate},
-                        {"split_probability", json_number(diagnosis.next.split_probability)}}},
-                      {"findings", findings},
-                      {"guesses", diagnosis.guesses}};
+  const json document{
+      {"schema", "vibrissa-diagnosis-1"},
+      {"gap",
+       {{"nrmse", json_number(diagnosis.gap.nrmse)},
+        {"noise_floor_nrmse", json_number(diagnosis.gap.noise_floor)},
+        {"p_value", json_number(diagnosis.gap.p_value)}}},
+      {"location", location_json(diagnosis.location)},
+      {"verdict", diagnosis.verdict},
+      {"ranking", ranking},
+      {"probability_of_unlisted", json_number(diagnosis.probability_of_unlisted)},
+      {"confidence_set", diagnosis.confidence_set},
+      {"indistinguishable", diagnosis.indistinguishable},
+      {"untested", untested},
+      {"wind_speed_error_m_s",
+       before_after(diagnosis.wind_speed, &WindSpeedError::before_m_s, &WindSpeedError::after_m_s)},
+      {"separation_sdr_db", before_after(diagnosis.separation, &SeparationQuality::before_db,
+                                         &SeparationQuality::after_db)},
+      {"next_experiment",
+       {{"name", diagnosis.next.name},
+        {"why", diagnosis.next.why},
+        {"would_separate", diagnosis.next.would_separate},
+        {"split_probability", json_number(diagnosis.next.split_probability)}}},
+      {"findings", findings},
+      {"guesses", diagnosis.guesses}};
   return document.dump(2) + "\n";
 }
 
