@@ -91,7 +91,7 @@ void add_diagnose_command(CLI::App& app) {
   command
       ->add_option("--max-effects", options->max_effects,
                    "Most effects that are combined beside retuned parameters")
-      ->check(CLI::Range(1, 3))
+      ->check(CLI::Range(1, 5))
       ->capture_default_str();
   add_common_options(*command, options->common);
   command->footer(

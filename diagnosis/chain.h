@@ -86,7 +86,7 @@ struct Chain {
   std::vector<Filter> cross{};        // transverse acceleration -> added moment
   std::vector<std::function<double(double moment)>> readout{};  // static law of the sensor
   std::vector<Filter> sensor{};                                 // moment -> reading
-  double clock_rate_error = 0.;    // moment channel sampled at t (1 + this)
+  double clock_rate_error = 0.;  // moment channel sampled at t (1 + this), t since the clocks began
   double reference_variance = 0.;  // of accelerometer noise beyond the usual, a sample [(m/s^2)^2]
   std::vector<NoiseSource> noise{};
   /// Of the straight line that a random walk draws from a record's start to its end: variance of

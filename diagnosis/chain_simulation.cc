@@ -92,7 +92,9 @@ std::vector<Complex> ChainSimulator::reading(const PreparedRecord& record,
   for (std::size_t k = 0; k < moment.size(); ++k) moment[k] *= lines[k].sensor;
   if (chain_.clock_rate_error == 0.) return moment;
   const std::size_t n = record.n_samples;
-  return spectrum_of(resampled(moment, n, n, 0., 1. + chain_.clock_rate_error));
+  const double error = chain_.clock_rate_error;
+  const double first = error * record.clock_start_s * record.sampling_rate_hz;
+  return spectrum_of(resampled(moment, n, n, first, 1. + error));
 }
 
 ChainSimulator::Spectra ChainSimulator::readings(std::span<const PreparedRecord> records) {

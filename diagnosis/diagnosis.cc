@@ -65,6 +65,33 @@ void score_answers(Diagnosis& out, const SearchResult& result, const Experiment&
   }
 }
 
+std::optional<RankedAnswer> nearest_known(const SearchResult& result, const Experiment& experiment,
+                                          const Experiment& held_out,
+                                          const DiagnoseOptions& options) {
+  for (const Candidate& candidate : result.refuted) {
+    if (candidate.name == "none") continue;
+    const HypothesisFit& fit = result.fits[candidate.fit];
+    RankedAnswer answer{.name = candidate.name,
+                        .parameters = parameter_estimates(fit, candidate.name)};
+    if (has_moving(held_out))
+      answer.held_out = score_held_out(experiment, held_out, fit, options.held_out);
+    return answer;
+  }
+  return std::nullopt;
+}
+
+/// A cause that does not carry over to records that it has not seen is not understood.
+std::optional<Finding> contradiction(const Diagnosis& diagnosis) {
+  const RankedAnswer& best = diagnosis.ranking.front();
+  if (diagnosis.verdict == "none" || diagnosis.verdict == outside_catalogue) return std::nullopt;
+  if (!best.held_out || !best.held_out->overall.gap_closed_ci95) return std::nullopt;
+  if ((*best.held_out->overall.gap_closed_ci95)[1] >= 0.5) return std::nullopt;
+  return Finding{.kind = FindingKind::not_confirmed,
+                 .message =
+                     "held-out records do not confirm it: less than half of their gap "
+                     "closes; the cause, or its size, does not carry over to them"};
+}
+
 void set_gap(Diagnosis& out, const MendedModel& simulation, const signals::Dataset& real,
              const SearchResult& result, const Experiment& experiment) {
   if (!out.ranking.front().held_out) {
@@ -159,6 +186,9 @@ Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
     score_answers(out, result, experiment, held_out, options);
     out.ranking.front().shares = effect_shares(experiment, held_out, result, result.fits[best.fit]);
   }
+  if (out.verdict == outside_catalogue)
+    out.nearest_known = nearest_known(result, experiment, held_out, options);
+  if (const auto finding = contradiction(out)) out.findings.push_back(*finding);
   set_gap(out, simulation, real, result, experiment);
   out.response = compare_response(experiment, result.fits[best.fit]);
   out.mended = mended_model(experiment, result.fits[best.fit]);

@@ -54,6 +54,8 @@ struct Diagnosis {
   std::string verdict = "none";
   std::vector<RankedAnswer> ranking{};  // most probable first
   double probability_of_unlisted = 0.;
+  /// The known answer that comes nearest, where the verdict is outside_catalogue.
+  std::optional<RankedAnswer> nearest_known{};
   /// Fewest answers that together have 95 %.
   std::vector<std::string> confidence_set{};
   std::vector<std::vector<std::string>> indistinguishable{};

@@ -175,6 +175,15 @@ std::string shares_line(const RankedAnswer& answer) {
   return text;
 }
 
+std::string nearest_line(const Diagnosis& diagnosis) {
+  if (!diagnosis.nearest_known) return "";
+  const RankedAnswer& nearest = *diagnosis.nearest_known;
+  std::string text = "Nearest: " + nearest.name;
+  if (nearest.held_out && nearest.held_out->overall.gap_closed)
+    text += " closes " + percent(*nearest.held_out->overall.gap_closed) + " of the gap";
+  return text + ", but leaves more than noise";
+}
+
 std::string others_line(const Diagnosis& diagnosis) {
   std::string text;
   for (std::size_t i = 1; i < std::min<std::size_t>(4, diagnosis.ranking.size()); ++i) {
@@ -206,6 +215,8 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
       {"verdict", diagnosis.verdict},
       {"ranking", ranking},
       {"probability_of_unlisted", json_number(diagnosis.probability_of_unlisted)},
+      {"nearest_known",
+       diagnosis.nearest_known ? answer_json(*diagnosis.nearest_known) : json(nullptr)},
       {"confidence_set", diagnosis.confidence_set},
       {"indistinguishable", diagnosis.indistinguishable},
       {"untested", untested},
@@ -232,6 +243,7 @@ std::string verdict_text(const Diagnosis& diagnosis) {
       if (lines.size() < most_lines) lines.push_back(std::move(part));
   };
   add(verdict_line(diagnosis));
+  add(nearest_line(diagnosis));
   add(doubt_line(diagnosis));
   if (!diagnosis.ranking.empty()) {
     add(parameters_line(diagnosis.ranking.front()));

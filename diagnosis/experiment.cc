@@ -196,6 +196,7 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   out.excitation = entry.excitation;
   out.number = number;
   out.readout = entry.readout;
+  out.clock_start_s = entry.clock_start_s;
   out.magnet = entry.setup.magnet;
   out.sampling_rate_hz = entry.record.sampling_rate_hz();
   out.n_samples = entry.record.n_samples();

@@ -19,6 +19,7 @@ struct PreparedRecord {
   bool magnet = true;      // without it the sensor reads nothing of the structure
   double wind_share = 1.;  // of the wind's force, in the plane that is read
   double sampling_rate_hz = 0.;
+  double clock_start_s = 0.;            // how long the clocks had run
   std::size_t n_samples = 0;            // of the whole record
   bool periodic = false;                // the whole record is whole periods
   std::size_t first = 0, n_judged = 0;  // samples that are judged: the start may hold transients

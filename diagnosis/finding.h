@@ -27,7 +27,8 @@ enum class FindingKind {
   no_wind,
   no_base_motion,
   no_held_out,
-  different_rate
+  different_rate,
+  not_confirmed
 };
 std::string to_string(FindingKind kind);
 

@@ -113,8 +113,8 @@ class Searcher {
       fit_all(extensions(size));
       refine_parts(size);
     }
-    std::vector<Candidate> ranked = candidates();
-    return {std::move(fits_), std::move(ranked)};
+    std::vector<Candidate> ranked = candidates(Kept::possible), out = candidates(Kept::refuted);
+    return {std::move(fits_), std::move(ranked), std::move(out)};
   }
 
  private:
@@ -245,14 +245,19 @@ class Searcher {
     return chosen;
   }
 
-  std::vector<Candidate> candidates() const {
+  enum class Kept { possible, refuted };
+
+  std::vector<Candidate> candidates(const Kept kept) const {
     std::map<std::string, Candidate> by_name;
-    for (std::size_t i = 0; i < fits_.size(); ++i) add_choices(by_name, i);
+    // As a part of a combination what leaves too much may be right all the same.
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      if (leaves_too_much(fits_[i]) == (kept == Kept::refuted)) add_choices(by_name, i);
     std::vector<Candidate> out;
     for (auto& [name, candidate] : by_name) out.push_back(candidate);
     std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
       return a.log_posterior > b.log_posterior;
     });
+    if (kept == Kept::refuted) return out;
     double total = 0.;
     for (const Candidate& c : out) total += std::exp(c.log_posterior - out.front().log_posterior);
     for (Candidate& c : out)
@@ -262,8 +267,6 @@ class Searcher {
 
   void add_choices(std::map<std::string, Candidate>& by_name, std::size_t i) const {
     const HypothesisFit& fit = fits_[i];
-    // As a part of a combination it may be right all the same.
-    if (leaves_too_much(fit)) return;
     for (const RetuneChoice& choice : fit.choices) {
       std::vector<std::string> ids = choice.named;
       if (fit.hypothesis.is_discrepancy()) ids.push_back(outside_catalogue);

@@ -20,6 +20,8 @@ struct Candidate {
 struct SearchResult {
   std::vector<HypothesisFit> fits;
   std::vector<Candidate> candidates;  // most probable first
+  /// Answers that leave too much to be the cause, or all of it: what comes nearest first.
+  std::vector<Candidate> refuted;
 };
 
 struct SearchOptions {

@@ -15,8 +15,9 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-const std::vector<std::string> record_keys{"file",  "excitation",       "period_samples", "split",
-                                           "setup", "sampling_rate_hz", "readout"};
+const std::vector<std::string> record_keys{"file",    "excitation",   "period_samples",
+                                           "split",   "setup",        "sampling_rate_hz",
+                                           "readout", "clock_start_s"};
 
 /// Where an entry of dataset.json stands, and what is wrong with it.
 [[noreturn]] void refuse(const std::string& where, const std::string& reason) {
@@ -57,6 +58,14 @@ std::size_t period_of(const json& entry, const std::string& where) {
   return period.get<std::size_t>();
 }
 
+double clock_start_of(const json& entry, const std::string& where) {
+  if (!entry.contains("clock_start_s")) return 0.;
+  const json& start = entry["clock_start_s"];
+  if (!start.is_number() || start.get<double>() < 0.)
+    refuse(where + "/clock_start_s", "is no time in seconds from 0 on");
+  return start.get<double>();
+}
+
 BenchSetup setup_of(const json& document, const json& entry, const std::string& where) {
   if (entry.contains("setup")) return read_bench_setup(entry["setup"], where + "/setup");
   return document.contains("setup") ? read_bench_setup(document["setup"], where + " of /setup")
@@ -85,7 +94,8 @@ DatasetRecord read_entry(const fs::path& folder, const json& document, const jso
       .period_samples = period_of(entry, where),
       .split = split_of(text_of(entry, "split", where, "fit"), where + "/split"),
       .readout = readout_of(text_of(entry, "readout", where, readout), where + "/readout"),
-      .setup = setup_of(document, entry, where)};
+      .setup = setup_of(document, entry, where),
+      .clock_start_s = clock_start_of(entry, where)};
   if (result.period_samples > result.record.n_samples())
     refuse(where + "/period_samples", "is longer than the record of " +
                                           std::to_string(result.record.n_samples()) + " samples");
@@ -128,9 +138,11 @@ Dataset guess(const fs::path& folder) {
     const std::size_t n_fit = record.n_samples() * 2 / 3;
     const std::string name = file.stem().string();
     dataset.records.push_back({name, record.slice(0, n_fit), excitation, 0, Split::fit});
-    dataset.records.push_back({name + "_last_third",
-                               record.slice(n_fit, record.n_samples() - n_fit), excitation, 0,
-                               Split::held_out});
+    dataset.records.push_back({.name = name + "_last_third",
+                               .record = record.slice(n_fit, record.n_samples() - n_fit),
+                               .excitation = excitation,
+                               .split = Split::held_out,
+                               .clock_start_s = record.time_s(n_fit) - record.time_s(0)});
     dataset.guesses.push_back(name + ": excitation " + to_string(excitation) +
                               ", not periodic, last third held out");
   }

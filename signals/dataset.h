@@ -34,6 +34,8 @@ struct DatasetRecord {
   Split split = Split::fit;
   Readout readout = Readout::moment;
   BenchSetup setup{};
+  /// How long both clocks had run when the record began: of a piece cut from a longer one [s].
+  double clock_start_s = 0.;
 };
 
 /// Records of one sensor, as records.md describes the folder.

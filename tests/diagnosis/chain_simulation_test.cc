@@ -62,6 +62,19 @@ TEST(SimulateChain, LinearPartsMeetTheirClosedForms) {
   EXPECT_LT(relative_difference(simulate_mean(chain, record), expected), 1e-12);
 }
 
+TEST(SimulateChain, AClockThatHadRunBeforeTheRecordIsBehindByWhatItLost) {
+  const Experiment experiment = experiment_of(test::OneModeRig{});
+  PreparedRecord late = experiment.records.front();
+  late.clock_start_s = 100.;
+  constexpr double error = 2e-5;
+  const Chain drifting{.structure = experiment.nominal, .clock_rate_error = error};
+  Chain ahead = drifting;
+  ahead.sensor = {[=](Complex s) { return std::exp(s * 100. * error); }};
+  const std::vector<Complex> there = simulate_mean(drifting, late);
+  EXPECT_LT(relative_difference(there, simulate_mean(ahead, experiment.records.front())), 1e-3);
+  EXPECT_GT(relative_difference(there, simulate_mean(drifting, experiment.records.front())), 0.1);
+}
+
 TEST(SimulateChain, RelaxationOfTheJointMeetsItsClosedForm) {
   const test::OneModeRig rig;
   const Experiment experiment = experiment_of(rig);

@@ -134,6 +134,17 @@ TEST(VerdictText, SaysFirstWhatMakesTheAnswerDoubtful) {
               testing::StartsWith("Doubtful: high: is clipped (and 1 more)\n"));
 }
 
+TEST(VerdictText, TellsWhatComesNearest) {
+  Diagnosis diagnosis = example();
+  EXPECT_TRUE(nlohmann::json::parse(diagnosis_json(diagnosis))["nearest_known"].is_null());
+  diagnosis.nearest_known = diagnosis.ranking.front();
+  diagnosis.verdict = "outside_catalogue";
+  EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["nearest_known"]["effect"],
+            "delay+stiffness");
+  EXPECT_THAT(verdict_text(diagnosis),
+              HasSubstr("Nearest: delay+stiffness closes 98 % of the gap, but leaves more than"));
+}
+
 TEST(DiagnosisJson, ProbabilitiesSumToOne) {
   const auto json = nlohmann::json::parse(diagnosis_json(example()));
   double sum = json["probability_of_unlisted"];

@@ -54,6 +54,34 @@ TEST(Diagnose, NamesADelayWithItsSize) {
   EXPECT_GT(diagnosis.ranking.front().held_out->overall.gap_closed.value_or(0.), 0.97);
 }
 
+TEST(Diagnose, DoubtsACauseThatRecordsItHasNotSeenDoNotConfirm) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.stiffness = 0.9;
+  signals::Dataset dataset = test::rig_dataset(rig);
+  const auto not_confirmed = Contains(testing::Field(&Finding::kind, FindingKind::not_confirmed));
+  const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
+  const DiagnoseOptions options{.search = {.max_effects = 1}};
+  EXPECT_THAT(diagnose(nominal, dataset, options).findings, testing::Not(not_confirmed));
+  rig.stiffness = 1.1;
+  dataset.records.back() = test::rig_dataset(rig).records.back();
+  const Diagnosis diagnosis = diagnose(nominal, dataset, options);
+  EXPECT_EQ(diagnosis.verdict, "stiffness");
+  EXPECT_THAT(diagnosis.findings, not_confirmed);
+}
+
+TEST(Diagnose, TellsWhatComesNearestWhereNothingKnownExplainsTheGap) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.cubic = 1e7;
+  const Diagnosis diagnosis =
+      diagnose(test::nominal_of(test::OneModeRig{}, false), test::rig_dataset(rig),
+               {.search = {.max_effects = 1, .left_out = {"hardening"}}});
+  EXPECT_EQ(diagnosis.verdict, outside_catalogue);
+  ASSERT_TRUE(diagnosis.nearest_known);
+  ASSERT_TRUE(diagnosis.nearest_known->held_out);
+  EXPECT_GT(diagnosis.nearest_known->held_out->overall.gap_closed.value_or(0.), 0.3);
+  EXPECT_EQ(diagnosis.nearest_known->probability, 0.);
+}
+
 TEST(Diagnose, TellsASofterJointFromASofterSupportByTheRotation) {
   test::OneModeRig rig = test::noisy_rig();
   rig.readout = signals::Readout::rotation;

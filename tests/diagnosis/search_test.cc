@@ -45,8 +45,13 @@ TEST(Search, AnAnswerThatLeavesMoreThanNoiseIsNone) {
   // Other joints come near a hard spring, but not down to the noise.
   test::OneModeRig rig = test::noisy_rig();
   rig.cubic = 1e7;
-  EXPECT_EQ(search(experiment_of(rig), {.left_out = {"hardening"}}).candidates.front().name,
-            outside_catalogue);
+  const SearchResult result = search(experiment_of(rig), {.left_out = {"hardening"}});
+  EXPECT_EQ(result.candidates.front().name, outside_catalogue);
+  ASSERT_FALSE(result.refuted.empty());
+  EXPECT_TRUE(std::is_sorted(
+      result.refuted.begin(), result.refuted.end(),
+      [](const Candidate& a, const Candidate& b) { return a.log_posterior > b.log_posterior; }));
+  for (const Candidate& candidate : result.refuted) EXPECT_EQ(candidate.probability, 0.);
 }
 
 TEST(Search, ASensorThatIsMerelyOffIsNoAnswerWhereMuchIsLeft) {

@@ -109,6 +109,17 @@ TEST_F(DatasetFolder, GuessesWhatNobodyDescribedAndSaysSo) {
   EXPECT_EQ(dataset.records[0].record.n_samples(), 85u);
   EXPECT_EQ(dataset.records[1].record.n_samples(), 43u);
   EXPECT_EQ(dataset.records[1].split, Split::held_out);
+  EXPECT_EQ(dataset.records[0].clock_start_s, 0.);
+  EXPECT_DOUBLE_EQ(dataset.records[1].clock_start_s, 85 / 500.);
+}
+
+TEST_F(DatasetFolder, TakesWhenThePieceOfALongerRecordBegan) {
+  describe(R"({"file": "a.csv", "excitation": "base", "clock_start_s": 120.5})");
+  EXPECT_EQ(read_dataset(folder_.path()).records[0].clock_start_s, 120.5);
+  expect_refused(R"({"file": "a.csv", "excitation": "base", "clock_start_s": -1})",
+                 "/records/0/clock_start_s: is no time");
+  expect_refused(R"({"file": "a.csv", "excitation": "base", "clock_start_s": "late"})",
+                 "/records/0/clock_start_s: is no time");
 }
 
 TEST_F(DatasetFolder, RefusesUnknownWordsAndListsTheKnown) {
