@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
   vibrissa::apps::add_plan_command(app);
   vibrissa::apps::add_diagnose_command(app);
   vibrissa::apps::add_reproduce_command(app);
+  vibrissa::apps::add_trial_command(app);
   vibrissa::apps::add_benchmark_command(app);
   vibrissa::apps::add_draw_command(app);
   try {

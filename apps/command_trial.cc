@@ -1,0 +1,136 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "apps/command.h"
+#include "apps/trial_files.h"
+#include "apps/trial_run.h"
+#include "apps/trial_score.h"
+#include "report/child_process.h"
+#include "report/pictures.h"
+#include "report/run_folder.h"
+#include "signals/error.h"
+
+namespace vibrissa::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TrialCommand {
+  CommonOptions common;
+  fs::path folder;
+  std::size_t n_cases = 20, first = 0;
+  std::uint64_t seed = 1;
+  TrialRunOptions run;
+  std::optional<fs::path> key, out;
+};
+
+/// The generator is a program of its own, beside this one: it shares no code with the diagnosis.
+void make(const TrialCommand& options) {
+  const fs::path generator = fs::read_symlink("/proc/self/exe").parent_path() / "generate_trial";
+  if (!fs::exists(generator))
+    throw signals::UserError(generator.string() + " is missing: build the target generate_trial");
+  constexpr double a_day_s = 86400.;
+  const report::ChildResult child = report::run_child(
+      {generator.string(), std::to_string(options.seed), std::to_string(options.first),
+       std::to_string(options.n_cases), options.folder.string()},
+      a_day_s);
+  if (!child.succeeded())
+    throw signals::UserError("the generator " + child.what_happened() + ": " + child.output);
+  const TrialIndex trial = read_trial(options.folder);
+  if (options.common.json)
+    return print_json({{"folder", options.folder.string()},
+                       {"cases", trial.cases.size()},
+                       {"labels_commitment_sha256", trial.commitment}});
+  std::cout << trial.cases.size() << " sensors in " << options.folder.string()
+            << "; their labels are sealed, the key is " << options.folder.string()
+            << ".key.\nLabels are bound to (SHA-256, salted): " << trial.commitment << "\n";
+}
+
+void run(const TrialCommand& options) {
+  TrialRunOptions settings = options.run;
+  settings.show_progress = options.common.is_talkative();
+  const TrialRunSummary done = run_trial(options.folder, settings);
+  if (options.common.json)
+    return print_json({{"answered", done.answered},
+                       {"refused", done.refused},
+                       {"failed", done.failed},
+                       {"there_before", done.there_before}});
+  if (!options.common.quiet)
+    std::cout << done.answered << " answered, " << done.refused << " refused, " << done.failed
+              << " failed, " << done.there_before << " were there before\n";
+}
+
+void score(const TrialCommand& options) {
+  const TrialIndex trial = read_trial(options.folder);
+  const fs::path key = options.key.value_or(fs::path(options.folder.string() + ".key"));
+  const TrialScore score = score_trial(trial, open_labels(trial, key));
+  if (options.common.json) return print_json(to_json(score));
+  std::cout << "Labels open and are those that were bound to " << trial.commitment << ".\n\n"
+            << summary_table(score).to_text() << "\nWrong answers\n"
+            << confusion_table(score).to_text();
+  if (score.unanswered > 0)
+    std::cout << score.unanswered << " cases have no answer yet: vibrissa trial run "
+              << options.folder.string() << "\n";
+  const auto folder = report::RunFolder::given_or_free(options.out, options.folder / "score");
+  folder.write_run({.command_line = given_command_line()});
+  folder.write_text("score.json", to_json(score).dump(1) + "\n");
+  folder.write_text("cases.csv", case_table(score).to_csv());
+  folder.write_text("summary.csv", summary_table(score).to_csv());
+  folder.write_text("confusion.csv", confusion_table(score).to_csv());
+  for (const report::Figure& figure : trial_figures(score))
+    report::write_figure(folder.path(), figure);
+  const auto pictures = report::draw_pictures(folder.path());
+  std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
+}
+
+void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
+  auto* command = trial.add_subcommand("make", "Write records of sensors whose effect is sealed");
+  command->add_option("--cases", options->n_cases, "How many")->check(CLI::PositiveNumber);
+  command->add_option("--first", options->first, "Number of the first, to go on with a seed");
+  command->add_option("--seed", options->seed, "All sensors follow from it");
+  command->add_option("-o,--out", options->folder, "New folder")->required();
+  add_common_options(*command, options->common);
+  command->callback([options] { make(*options); });
+}
+
+void add_run(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
+  auto* command = trial.add_subcommand(
+      "run", "Diagnose what has no answer yet; under mpirun all ranks take from one queue");
+  command->add_option("folder", options->folder, "The trial")->required();
+  command->add_option("--max-effects", options->run.max_effects, "Most effects that are combined")
+      ->check(CLI::Range(1, 5))
+      ->capture_default_str();
+  command->add_option("--threads", options->run.n_threads, "Of each rank")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->callback([options] { run(*options); });
+}
+
+void add_score(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
+  auto* command = trial.add_subcommand("score", "Open the labels and compare");
+  command->add_option("folder", options->folder, "The trial")->required();
+  command->add_option("--key", options->key, "Key of the labels; else FOLDER.key");
+  command->add_option("-o,--out", options->out,
+                      "New folder for tables and pictures; else FOLDER/score");
+  add_common_options(*command, options->common);
+  command->callback([options] { score(*options); });
+}
+
+}  // namespace
+
+void add_trial_command(CLI::App& app) {
+  const auto options = std::make_shared<TrialCommand>();
+  auto* command = app.add_subcommand(
+      "trial", "Blind trials: how often diagnoses are right about sensors whose effect is sealed");
+  command->require_subcommand(1);
+  add_make(*command, options);
+  add_run(*command, options);
+  add_score(*command, options);
+  command->footer(
+      "Example:\n  vibrissa trial make --cases 40 --seed 5 --out trial5\n"
+      "  mpirun -np 2 vibrissa trial run trial5 --threads 1\n  vibrissa trial score trial5");
+}
+
+}  // namespace vibrissa::apps

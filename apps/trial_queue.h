@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace vibrissa::apps {
+
+/// Numbers 0 .. n-1, each handed to one of the ranks that ask (one counter on rank 0, fetched and
+/// raised in one step). Collective: every rank makes and ends it. MPI must have been started.
+/// Proven by tests/apps/trial_test.cc.
+class TrialQueue {
+ public:
+  TrialQueue();
+  ~TrialQueue();
+  TrialQueue(const TrialQueue&) = delete;
+  TrialQueue& operator=(const TrialQueue&) = delete;
+
+  std::size_t next();
+  int rank() const;
+  int n_ranks() const;
+  /// Waits for all ranks.
+  void barrier() const;
+
+ private:
+  struct Counter;
+  std::unique_ptr<Counter> counter_;
+};
+
+}  // namespace vibrissa::apps

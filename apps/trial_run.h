@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace vibrissa::apps {
+
+struct TrialRunOptions {
+  std::size_t max_effects = 3;
+  std::size_t n_threads = 2;  // of each rank
+  bool show_progress = true;
+};
+
+struct TrialRunSummary {
+  std::size_t answered = 0, refused = 0, failed = 0, there_before = 0;
+};
+
+/// Diagnoses every case of a trial that has no answer yet, all ranks from one queue, and leaves
+/// caseNNNNN/answer.json ("vibrissa-trial-answer-1": exit_status, seconds, diagnosis or message).
+/// The labels stay sealed: the key is not here. A case that fails is written down and does not stop
+/// the others. Gives this rank's share.
+TrialRunSummary run_trial(const std::filesystem::path& folder, const TrialRunOptions& options);
+
+}  // namespace vibrissa::apps

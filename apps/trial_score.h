@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/trial_files.h"
+#include "apps/trial_statistics.h"
+#include "report/figure.h"
+#include "report/table.h"
+
+namespace vibrissa::apps {
+
+/// One case: what was there and what was said.
+struct ScoredCase {
+  std::string name, kind, truth, verdict;  // truth: as a diagnosis would name it
+  double size_in_limits = 0.;              // of the smallest effect; 0 without one
+  int exit_status = 0;
+  double probability = 0., outside_probability = 0., seconds = 0.;
+  bool right = false, right_within_set = false, in_top_three = false, in_confidence_set = false;
+  bool links_right = false;
+  std::size_t confidence_set_size = 0;
+  std::optional<double> gap_closed{}, transfer_gap_closed{};
+  std::vector<double> parameter_errors{};  // over the deviation that was said
+};
+
+/// What a trial shows; each share with its exact interval.
+struct TrialScore {
+  std::vector<ScoredCase> cases;  // those with an answer
+  std::size_t unanswered = 0;
+  std::map<std::string, Share> shares;    // by what is counted
+  std::map<std::string, double> figures;  // medians, errors, areas
+  std::vector<ReliabilityBin> reliability;
+};
+
+/// Compares answers with opened labels. Proven by tests/apps/trial_test.cc.
+TrialScore score_trial(const TrialIndex& trial, const nlohmann::json& labels);
+
+nlohmann::json to_json(const TrialScore& score);
+report::Table case_table(const TrialScore& score);
+report::Table summary_table(const TrialScore& score);
+/// Truth against verdict, counted.
+report::Table confusion_table(const TrialScore& score);
+/// Accuracy against size, and said against right.
+std::vector<report::Figure> trial_figures(const TrialScore& score);
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+
+#include "benchmarks/trial/world.h"
+
+namespace vibrissa::trial {
+
+/// What the hinge adds to its linear spring [N m], with its memory. Proven by
+/// tests/benchmarks/trial/joint_test.cc.
+class Joint {
+ public:
+  Joint(const JointWorld& world, double stiffness_n_m, double step_s);
+
+  /// The moment when the hinge stands at phi and turns with rate; the memory stays.
+  double moment(double phi, double rate, double acceleration) const;
+  /// Time goes on by a step that ends there.
+  void advance(double phi, double rate);
+  void set_parametric(double per_acceleration) { parametric_ = per_acceleration; }
+  void set_quadratic_damping(double per_speed) { quadratic_ = per_speed; }
+
+ private:
+  double spring_loss() const;
+  double next_friction(double phi) const;
+
+  JointWorld world_;
+  double k_, step_s_;
+  double parametric_ = 0., quadratic_ = 0.;
+  double phi_ = 0., peak_ = 0., age_s_ = 0., friction_ = 0.;  // friction_: of its slip moment
+  std::array<double, 5> branch_{};
+};
+
+}  // namespace vibrissa::trial

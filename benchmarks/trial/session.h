@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "benchmarks/trial/world.h"
+#include "signals/dataset.h"
+
+namespace vibrissa::trial {
+
+/// One record of a session on the bench.
+struct Take {
+  std::string name{};
+  double base_rms = 0.;   // m/s^2; 0: the stage is at rest
+  double wind_mean = 0.;  // m/s; 0: the fan is off
+  std::size_t n_samples = 0, period_samples = 0;
+  signals::Split split = signals::Split::fit;
+  std::uint64_t drive = 0;  // takes with the same number are driven alike
+  double low_hz = 3., high_hz = 110.;
+};
+
+/// At rest, two levels, the higher one twice, wind, both; two more are held out.
+std::vector<Take> usual_takes();
+/// Another level and another wind, to see how far an answer carries.
+std::vector<Take> transfer_takes();
+
+constexpr double rate_hz = 500.;
+
+struct Session {
+  std::vector<Take> takes;
+  std::uint64_t seed = 1;
+  bool noise = true, quiet = true;  // quiet: the take at rest is recorded, too
+};
+
+/// The records that the bench writes. Modes and the hinge are integrated at 16 times the sampling
+/// rate; both sensors sample that on their own clocks. The hinge remembers from take to take.
+signals::Dataset record_session(const Structure& structure, const World& world,
+                                const Session& session);
+
+}  // namespace vibrissa::trial

@@ -1,0 +1,149 @@
+#include "benchmarks/trial/trial_case.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "benchmarks/trial/detection_limit.h"
+
+namespace vibrissa::trial {
+namespace {
+
+constexpr double smallest_in_limits = 1., largest_in_limits = 30.;
+
+using enum CaseClass;
+/// Twenty turns; single effects are what most people come with.
+constexpr std::array turns{single,   pair,     none,           single,   nameless,
+                           single,   left_out, single,         pair,     single,
+                           triple,   single,   retune_only,    single,   none,
+                           left_out, single,   wrong_metadata, nameless, below_limit};
+
+World plain_world(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform;
+  World world;
+  world.joint.scale = 9.4e-3;
+  world.moment_noise = 1e-6 * (0.7 + 0.8 * uniform(random));
+  world.acceleration_noise = 0.03 + 0.03 * uniform(random);
+  world.noise_colour = 0.15 * uniform(random);
+  return world;
+}
+
+/// Something else in the catalogue does the very same: without its name it is not outside.
+bool has_exact_alias(const std::string& id) {
+  static const std::set<std::string> aliased{"stiffness",      "base_compliance", "mass",
+                                             "reference_gain", "sensor_gain",     "drag_error"};
+  return aliased.count(id) != 0;
+}
+
+/// Draws one of the list with a size; adds it to the case.
+void add_effect(TrialCase& out, const World& plain, const std::vector<Unknown>& list,
+                std::mt19937_64& random, double low, double high) {
+  std::uniform_real_distribution<double> uniform;
+  for (;;) {
+    const Unknown& unknown = list[random() % list.size()];
+    const double sign = unknown.either_sign && uniform(random) < 0.5 ? -1. : 1.;
+    const double shape = uniform(random), place = uniform(random);
+    if (out.kind == left_out && has_exact_alias(unknown.id)) continue;
+    if (std::any_of(out.effects.begin(), out.effects.end(),
+                    [&](const CaseEffect& there) { return there.id == unknown.id; }))
+      continue;
+    const std::optional<double> limit = detection_limit(plain, unknown, sign, shape, out.session);
+    if (!limit || (unknown.fixed_size && high < 1.)) continue;
+    const double largest = std::min(high, unknown.largest / *limit);
+    if (largest < low) continue;
+    const double size =
+        unknown.fixed_size ? unknown.largest : *limit * low * std::pow(largest / low, place);
+    unknown.apply(out.world, sign * size, shape);
+    out.effects.push_back({unknown.id, sign * size, *limit});
+    return;
+  }
+}
+
+void take_as_built(World& world, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  const auto off = [&](double deviation) {
+    return 1. + deviation * std::clamp(normal(random), -2., 2.);
+  };
+  world.solid.silicone_modulus = off(0.02);
+  world.damping = off(0.08);
+  world.sensor_gain = off(0.015);
+  world.drag = off(0.05);
+}
+
+}  // namespace
+
+std::string to_string(const CaseClass kind) {
+  switch (kind) {
+    case single:
+      return "single";
+    case pair:
+      return "pair";
+    case triple:
+      return "triple";
+    case none:
+      return "none";
+    case retune_only:
+      return "retune_only";
+    case nameless:
+      return "nameless";
+    case left_out:
+      return "left_out";
+    case below_limit:
+      return "below_limit";
+    case wrong_metadata:
+      return "wrong_metadata";
+  }
+  return "";
+}
+
+TrialCase draw_case(const std::uint64_t seed, const std::size_t number) {
+  TrialCase out;
+  out.kind = turns[number % turns.size()];
+  out.seed = seed * 100000 + number;
+  std::mt19937_64 random(out.seed);
+  out.session = {.takes = usual_takes(), .seed = out.seed};
+  for (const Take& take : transfer_takes()) out.session.takes.push_back(take);
+  out.world = plain_world(random);
+  const World plain = out.world;
+  const auto add = [&](const std::vector<Unknown>& list, double low, double high) {
+    add_effect(out, plain, list, random, low, high);
+  };
+  const std::size_t n_named = out.kind == triple                           ? 3
+                              : out.kind == pair                           ? 2
+                              : out.kind == single || out.kind == left_out ? 1
+                                                                           : 0;
+  for (std::size_t i = 0; i < n_named; ++i)
+    add(named_unknowns(), smallest_in_limits, largest_in_limits);
+  if (out.kind == nameless) add(nameless_unknowns(), smallest_in_limits, largest_in_limits);
+  if (out.kind == below_limit) add(named_unknowns(), 0.25, 0.2500001);
+  if (out.kind == left_out) out.left_out = {out.effects.front().id};
+  if (out.kind == retune_only) take_as_built(out.world, random);
+  return out;
+}
+
+signals::Dataset records_of(const TrialCase& trial_case) {
+  signals::Dataset out =
+      record_session(structure_of(trial_case.world.solid), trial_case.world, trial_case.session);
+  if (trial_case.kind != wrong_metadata) return out;
+  // By turns: a fan that was off, and a period that is not the drive's.
+  if (trial_case.seed / turns.size() % 2 == 0) {
+    for (signals::DatasetRecord& entry : out.records)
+      if (entry.name == "base_low") entry.excitation.wind = true;
+  } else {
+    for (signals::DatasetRecord& entry : out.records)
+      if (entry.name == "base_high") entry.period_samples = 1500;
+  }
+  return out;
+}
+
+signals::Dataset simulated_records(const std::uint64_t seed) {
+  World world;
+  Session session{
+      .takes = usual_takes(), .seed = seed * 100000 + 99999, .noise = false, .quiet = false};
+  std::erase_if(session.takes, [](const Take& take) { return take.split != signals::Split::fit; });
+  return record_session(structure_of({}), world, session);
+}
+
+}  // namespace vibrissa::trial

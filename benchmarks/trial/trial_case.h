@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "benchmarks/trial/session.h"
+
+namespace vibrissa::trial {
+
+/// What kind of question a case asks.
+enum class CaseClass {
+  single,
+  pair,
+  triple,
+  none,
+  retune_only,    // a little off in modulus, damping, gains and drag, as every built sensor
+  nameless,       // something that no catalogue has
+  left_out,       // one effect that the diagnoser's catalogue is told to lack
+  below_limit,    // a quarter of the detection limit
+  wrong_metadata  // a take that says wind was on, or another period
+};
+std::string to_string(CaseClass kind);
+
+struct CaseEffect {
+  std::string id;
+  double size = 0.;   // signed, in the unit of unknowns.h
+  double limit = 0.;  // detection limit, positive
+};
+
+/// One sensor to be diagnosed, with the truth about it.
+struct TrialCase {
+  CaseClass kind = CaseClass::none;
+  std::vector<CaseEffect> effects;
+  std::vector<std::string> left_out;  // of the catalogue; public
+  std::uint64_t seed = 0;
+  World world;
+  Session session;
+};
+
+/// Case number of a trial's seed: its class by turns, all else by chance. Sizes are log-uniform
+/// from 1 to 30 detection limits, within the usual range. Proven by
+/// tests/benchmarks/trial/trial_case_test.cc.
+TrialCase draw_case(std::uint64_t seed, std::size_t number);
+
+/// The records of a case, its takes labelled as the bench's log says, which may be wrong.
+signals::Dataset records_of(const TrialCase& trial_case);
+
+/// The simulation of the sensor as designed: the same takes without one at rest, free of noise.
+signals::Dataset simulated_records(std::uint64_t seed);
+
+}  // namespace vibrissa::trial

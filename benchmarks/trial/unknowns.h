@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/trial/world.h"
+
+namespace vibrissa::trial {
+
+/// One thing that the bench may do and the simulation does not. size: how strong, in the unit said;
+/// shape in 0..1: whatever else may vary (a frequency, a share).
+struct Unknown {
+  std::string id;
+  std::string unit;
+  double start = 0.;    // where the search for the detection limit begins
+  double largest = 0.;  // usual range
+  bool either_sign = false;
+  bool random = false;      // changes variances, not means
+  bool fixed_size = false;  // is there or not
+  std::function<void(World&, double size, double shape)> apply;
+};
+
+/// Those that have a name, in the words of effects.md.
+const std::vector<Unknown>& named_unknowns();
+/// Those that have none.
+const std::vector<Unknown>& nameless_unknowns();
+/// Throws UserError for an id that neither list has.
+const Unknown& find_unknown(const std::string& id);
+
+}  // namespace vibrissa::trial
