@@ -147,6 +147,7 @@ ScoredCase scored(const std::string& name, const json& label, const json& answer
   const json& effects = label.at("effects");
   out.truth = truth_of(out.kind, effects);
   for (const json& effect : effects) {
+    out.effects += (out.effects.empty() ? "" : "+") + effect.at("id").get<std::string>();
     const double ratio =
         std::abs(effect.at("size").get<double>()) / effect.at("limit").get<double>();
     out.size_in_limits = out.size_in_limits == 0. ? ratio : std::min(out.size_in_limits, ratio);
@@ -266,6 +267,7 @@ report::Table case_table(const TrialScore& score) {
   report::Table table({{"case", ""},
                        {"class", ""},
                        {"size", "limits", 3},
+                       {"effects", ""},
                        {"truth", ""},
                        {"verdict", ""},
                        {"probability", "", 3},
@@ -274,8 +276,9 @@ report::Table case_table(const TrialScore& score) {
                        {"time", "s", 3}});
   for (const ScoredCase& c : score.cases)
     table.add_row({c.name, c.kind,
-                   c.size_in_limits > 0. ? std::optional(c.size_in_limits) : std::nullopt, c.truth,
-                   c.verdict, c.probability, c.right ? "yes" : "no", c.gap_closed, c.seconds});
+                   c.size_in_limits > 0. ? std::optional(c.size_in_limits) : std::nullopt,
+                   c.effects, c.truth, c.verdict, c.probability, c.right ? "yes" : "no",
+                   c.gap_closed, c.seconds});
   return table;
 }
 

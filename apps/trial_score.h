@@ -16,6 +16,7 @@ namespace vibrissa::apps {
 /// One case: what was there and what was said.
 struct ScoredCase {
   std::string name, kind, truth, verdict;  // truth: as a diagnosis would name it
+  std::string effects{};                   // what the generator calls them
   double size_in_limits = 0.;              // of the smallest effect; 0 without one
   int exit_status = 0;
   double probability = 0., outside_probability = 0., seconds = 0.;

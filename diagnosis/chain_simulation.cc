@@ -140,7 +140,10 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
   prediction.mean = std::move(mean);
   const std::size_t n_bins = record.n_bins();
   const double n = static_cast<double>(record.n_judged);
-  prediction.moment_noise.assign(n_bins, n);
+  prediction.moment_noise.resize(n_bins);
+  for (std::size_t b = 0; b < n_bins; ++b)
+    prediction.moment_noise[b] =
+        n * record.colours.moment.density(record.bin_hz() * static_cast<double>(b + 1));
   prediction.acceleration_noise.assign(n_bins, 0.);
   if (!record.is_still()) {
     // Both axes of an accelerometer are as noisy.
@@ -157,6 +160,8 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
         prediction.acceleration_noise[b] +=
             n * std::norm((line.base - felt) * line.sensor) * record.noise_share[k];
       if (cross) prediction.acceleration_noise[b] += n * std::norm(line.cross * line.sensor);
+      prediction.acceleration_noise[b] *=
+          record.colours.acceleration.density(record.bin_hz() * static_cast<double>(b + 1));
     }
   }
   prediction.own_noise.assign(n_bins, 0.);

@@ -397,12 +397,14 @@ Experiment prepare_experiment(const MendedModel& simulation, const signals::Data
   experiment.moment_noise = noise.moment_n_m;
   experiment.acceleration_noise = noise.acceleration_m_s2;
   const ExcitedHarmonics excited = excited_harmonics(dataset, split, noise.acceleration_m_s2);
+  const ChannelColours colours = channel_colours(dataset);
   for (std::size_t i = 0; i < dataset.records.size(); ++i) {
     const DatasetRecord& entry = dataset.records[i];
     if (entry.split != split || !is_comparable(nominal, entry)) continue;
     experiment.records.push_back(
         prepare_record(nominal, entry, i, noise.acceleration_m_s2, excited, treatment));
-    const PreparedRecord& record = experiment.records.back();
+    PreparedRecord& record = experiment.records.back();
+    record.colours = colours;
     experiment.has_base |= entry.excitation.base && record.magnet;
     experiment.has_wind |= entry.excitation.wind && record.magnet;
     experiment.has_cross |= !record.cross_acceleration.empty();

@@ -1,5 +1,6 @@
 #include "benchmarks/trial/drive.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -51,6 +52,18 @@ std::vector<double> band_noise(const std::size_t n, const double rate_hz, const 
     fft.spectrum()[k] = inside ? std::complex<double>(re, im) : 0.;
   }
   return scaled(fft, rms);
+}
+
+std::vector<double> below(std::vector<double> x, const double rate_hz, const double high_hz) {
+  signals::RealFft fft(x.size());
+  std::copy(x.begin(), x.end(), fft.time().begin());
+  fft.forward();
+  const double line_hz = rate_hz / static_cast<double>(x.size());
+  for (std::size_t k = 0; k < fft.n_bins(); ++k)
+    if (static_cast<double>(k) * line_hz > high_hz) fft.spectrum()[k] = 0.;
+  fft.inverse();
+  std::copy(fft.time().begin(), fft.time().end(), x.begin());
+  return x;
 }
 
 }  // namespace vibrissa::trial

@@ -15,4 +15,7 @@ std::vector<double> odd_multisine(std::size_t n, double rate_hz, double low_hz, 
 std::vector<double> band_noise(std::size_t n, double rate_hz, double low_hz, double high_hz,
                                double rms, std::uint64_t seed);
 
+/// The part of a signal below a frequency, as a filter without delay leaves it.
+std::vector<double> below(std::vector<double> x, double rate_hz, double high_hz);
+
 }  // namespace vibrissa::trial

@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::size_t fine_factor = 16, margin = 512;
 constexpr double fine_hz = rate_hz * fine_factor, run_up_s = 1.5;
+/// Eddies smaller than fin and probe are averaged by both.
+constexpr double smallest_eddy_hz = 150.;
 
 std::size_t run_up(const Take& take) {
   const std::size_t n =
@@ -43,7 +45,7 @@ std::vector<double> gusty(const double mean, const double intensity, const doubl
   wind.turbulence_intensity = intensity;
   wind.length_scale = length_scale;
   wind.maximum_speed = 10. * mean;
-  return flow::make_wind(wind, fine_hz, n, seed);
+  return below(flow::make_wind(wind, fine_hz, n, seed), fine_hz, smallest_eddy_hz);
 }
 
 std::vector<double> wind_at_probe(const Take& take, const std::size_t n, const std::uint64_t seed) {

@@ -1,0 +1,175 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "apps/trial_score.h"
+#include "apps/trial_statistics.h"
+#include "report/child_process.h"
+#include "tests/apps/program.h"
+
+namespace vibrissa::apps {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+TEST(TrialStatistics, IntervalsOfSharesAreThoseOfClopperAndPearson) {
+  const Share none{.hits = 0, .of = 10}, half{.hits = 5, .of = 10};
+  EXPECT_NEAR(none.ci95()[1], 1. - std::pow(0.025, 0.1), 1e-12);
+  EXPECT_EQ(none.ci95()[0], 0.);
+  // Clopper and Pearson's chart, 5 of 10.
+  EXPECT_NEAR(half.ci95()[0], 0.1871, 1e-4);
+  EXPECT_NEAR(half.ci95()[1], 0.8129, 1e-4);
+}
+
+TEST(TrialStatistics, AreaUnderTheCurve) {
+  const std::vector<double> low{0.1, 0.2, 0.3}, high{0.7, 0.8}, mixed{0.2, 0.4};
+  EXPECT_EQ(auroc(low, high), 1.);
+  EXPECT_EQ(auroc(high, low), 0.);
+  EXPECT_EQ(auroc(low, low), 0.5);
+  EXPECT_NEAR(auroc(low, mixed), (1.5 + 3.) / 6., 1e-15);
+}
+
+TEST(TrialStatistics, CalibrationErrorIsTheWeightedDistance) {
+  // Ten answers of 0.95, of which six are right; ten of 0.35, of which three are.
+  std::vector<std::pair<double, bool>> answers;
+  for (int i = 0; i < 10; ++i) {
+    answers.emplace_back(0.95, i < 6);
+    answers.emplace_back(0.35, i < 3);
+  }
+  const auto bins = reliability(answers);
+  ASSERT_EQ(bins.size(), 2u);
+  EXPECT_NEAR(expected_calibration_error(bins), 0.5 * 0.35 + 0.5 * 0.05, 1e-12);
+}
+
+/// A trial of which only names, labels and answers exist.
+class WrittenTrial : public testing::Test {
+ protected:
+  void add(const std::string& kind, const json& effects, const json& answer) {
+    const std::string name = "case" + std::to_string(labels_.size());
+    labels_[name] = {{"class", kind}, {"effects", effects}, {"seed", 1}};
+    fs::create_directories(folder_.file(name));
+    std::ofstream(folder_.file(name + "/answer.json")) << answer.dump();
+    trial_.folder = folder_.file("");
+    trial_.cases.push_back({name, {}});
+  }
+  static json answer(const std::string& verdict, double probability) {
+    return {{"exit_status", 0},
+            {"seconds", 1.},
+            {"diagnosis",
+             {{"verdict", verdict},
+              {"ranking",
+               {{{"effect", verdict},
+                 {"probability", probability},
+                 {"parameters",
+                  {{{"effect", "delay"},
+                    {"name", "tau"},
+                    {"value", 1.1e-3},
+                    {"ci95", {1.1e-3 - 1.959964e-4, 1.1e-3 + 1.959964e-4}}}}},
+                 {"held_out", nullptr}}}},
+              {"indistinguishable", json::array()},
+              {"confidence_set", {verdict}},
+              {"location", {{"links", {"clock"}}}},
+              {"findings", json::array()}}}};
+  }
+  Folder folder_;
+  TrialIndex trial_;
+  json labels_ = json::object();
+};
+
+TEST_F(WrittenTrial, CountsWhatWasRight) {
+  const json delay = {{{"id", "delay"}, {"size", 1e-3}, {"limit", 1e-4}}};
+  const json small = {{{"id", "delay"}, {"size", 2e-4}, {"limit", 1e-4}}};
+  add("single", delay, answer("delay", 0.9));
+  add("single", delay, answer("sensor_lowpass", 0.9));
+  add("single", small, answer("none", 0.7));
+  add("none", json::array(), answer("none", 0.9));
+  add("retune_only", json::array(), answer("damping", 0.9));
+  add("nameless", {{{"id", "x"}, {"size", 1.}, {"limit", 0.1}}}, answer("hum", 0.95));
+  const TrialScore score = score_trial(trial_, labels_);
+  const auto share = [&](const std::string& name) {
+    const Share& found = score.shares.at(name);
+    return std::pair(found.hits, found.of);
+  };
+  using Pair = std::pair<std::size_t, std::size_t>;
+  EXPECT_EQ(share("single at 3 limits, right"), Pair(1, 2));
+  EXPECT_EQ(share("single of all sizes, right"), Pair(1, 3));
+  EXPECT_EQ(share("none, false alarm"), Pair(0, 1));
+  EXPECT_EQ(share("retune_only, false alarm"), Pair(0, 1));
+  EXPECT_EQ(share("nameless, wrong name above 0.8"), Pair(1, 1));
+  EXPECT_EQ(share("wrong name above 0.8"), Pair(1, 5));
+  // The one delay that was found: 0.1 ms off, said to be known to 0.1 ms.
+  EXPECT_NEAR(score.figures.at("parameter error over its deviation, median"), 1., 1e-6);
+}
+
+TEST_F(WrittenTrial, SaysWhatHasNoAnswerYet) {
+  add("none", json::array(), answer("none", 0.9));
+  trial_.cases.push_back({"case77", {}});
+  labels_["case77"] = labels_["case0"];
+  EXPECT_EQ(score_trial(trial_, labels_).unanswered, 1u);
+}
+
+/// Ten sensors, from records to score, as a user would.
+TEST(Trial, OfTenSensorsIsMadeRunAndScored) {
+  const Folder folder;
+  const std::string trial = folder.file("trial");
+  ASSERT_EQ(vibrissa("trial make --quiet --cases 10 --seed 4021 --out '" + trial + "'").status, 0);
+  EXPECT_EQ(content(trial + "/trial.json").find("\"class\""), std::string::npos)
+      << "labels can be read before the score";
+  // The key is gone while the diagnosis runs.
+  fs::rename(trial + ".key", folder.file("elsewhere"));
+  const auto run = vibrissa("trial run --json --max-effects 2 '" + trial + "'");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(json::parse(run.output)["failed"], 0);
+  EXPECT_NE(vibrissa("trial score --json '" + trial + "'").status, 0) << "without its key";
+  const auto scored =
+      vibrissa("trial score --json --key '" + folder.file("elsewhere") + "' '" + trial + "'");
+  ASSERT_EQ(scored.status, 0) << scored.errors;
+  const json score = json::parse(scored.output);
+  EXPECT_EQ(score["unanswered"], 0);
+  const json& shares = score["shares"];
+  // Five single effects, one sensor with nothing: bounds for so few.
+  EXPECT_EQ(shares["none, false alarm"]["hits"], 0);
+  EXPECT_GE(shares["single of all sizes, right"]["hits"], 2);
+  EXPECT_LE(shares["wrong name above 0.8"]["hits"], 3);
+  // Answers that are there are not made again.
+  const auto again = vibrissa("trial run --json --max-effects 2 '" + trial + "'");
+  EXPECT_EQ(json::parse(again.output)["there_before"], 10);
+  EXPECT_EQ(json::parse(again.output)["answered"], 0);
+}
+
+TEST(Trial, RanksShareOneQueue) {
+  const std::string mpirun = report::find_program("mpirun");
+  if (mpirun.empty()) GTEST_SKIP() << "no mpirun";
+  const Folder folder;
+  const std::string trial = folder.file("trial");
+  // The third case is a sensor as designed; none of the four takes long with single effects.
+  ASSERT_EQ(vibrissa("trial make --quiet --cases 4 --seed 9 --out '" + trial + "'").status, 0);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  const auto child =
+      report::run_child({mpirun, "-np", "2", "--oversubscribe", VIBRISSA_PROGRAM, "trial", "run",
+                         "--json", "--max-effects", "1", "--threads", "1", trial},
+                        900.);
+  ASSERT_TRUE(child.succeeded()) << child.output;
+  for (int i = 0; i < 4; ++i)
+    EXPECT_TRUE(fs::exists(trial + "/case0000" + std::to_string(i) + "/answer.json")) << i;
+  // Each rank says what it did; together they did each case once.
+  int answered = 0;
+  for (std::size_t at = child.output.find("\"answered\": "); at != std::string::npos;
+       at = child.output.find("\"answered\": ", at + 1))
+    answered += std::stoi(child.output.substr(at + 12));
+  EXPECT_EQ(answered, 4);
+}
+
+TEST(Trial, RefusesAFolderThatIsNone) {
+  const auto run = vibrissa("trial run /nonexistent");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.errors, HasSubstr("trial make"));
+}
+
+}  // namespace
+}  // namespace vibrissa::apps
