@@ -7,26 +7,30 @@ Effect damping() {
   return Effect{
       .id = "damping",
       .link = Link::structure,
-      .equation = "c = r c0 where most of the damping is, r^q c0 in the rest: joint, whisker",
+      .equation = "c = r c0: r^s in each mode by itself; r^(1 - s) where most of the damping is, its "
+                  "power q in the rest: joint, whisker",
       .source = "effects.md",
       .confused_with = "viscoelastic; second mode, level",
       .retune = true,
       .form_error = 0.02,
       .parameters = {ratio_near_one("ratio", 0.1, 0.2, 4.),
-                     normal("rest_exponent", "1", 0.5, 0.5, 0., 1., 0.5)},
-      .starts = {{0.9, 0.5}, {1.1, 0.5}},
+                     normal("rest_exponent", "1", 0.5, 0.5, 0., 1., 0.5),
+                     normal("modal_share", "1", 0.5, 0.5, 0., 1., 0.5)},
+      .starts = {{0.9, 0.5, 0.5}, {1.1, 0.5, 0.5}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         const std::optional<JointModel> joint = joint_of(chain);
         if (!joint) return;
         const bool joint_damps_most = 0.5 * joint->share * joint->loss >= joint->damping;
-        const double most = v[0], least = std::pow(v[0], v[1]);
+        const double modal = std::pow(v[0], v[2]);
+        const double most = v[0] / modal, least = std::pow(most, v[1]);
         chain.joint_change.damper *= joint_damps_most ? most : least;
         chain.joint_change.rest_damping *= joint_damps_most ? least : most;
-        for (std::size_t i = 1; i < chain.structure.modes.size(); ++i) {
+        for (std::size_t i = 0; i < chain.structure.modes.size(); ++i) {
           StructuralMode& mode = chain.structure.modes[i];
-          mode.damping_ratio *= v[0];
-          mode.base_rate *= v[0];
-          mode.wind_rate *= v[0];
+          const double factor = i == 0 ? modal : v[0];
+          mode.damping_ratio *= factor;
+          mode.base_rate *= factor;
+          mode.wind_rate *= factor;
         }
       }};
 }
