@@ -12,7 +12,7 @@ namespace vibrissa::diagnosis {
 /// that they were found in.
 struct KnownEffect {
   std::string id{};
-  std::vector<double> values{};
+  std::vector<double> values{};  // of every parameter
   Scales scales{};
 };
 

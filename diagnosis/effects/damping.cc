@@ -7,8 +7,9 @@ Effect damping() {
   return Effect{
       .id = "damping",
       .link = Link::structure,
-      .equation = "c = r c0: r^s in each mode by itself; r^(1 - s) where most of the damping is, its "
-                  "power q in the rest: joint, whisker",
+      .equation =
+          "c = r c0: r^s in each mode by itself; r^(1 - s) where most of the damping is, its "
+          "power q in the rest: joint, whisker",
       .source = "effects.md",
       .confused_with = "viscoelastic; second mode, level",
       .retune = true,
