@@ -107,11 +107,12 @@ std::optional<double> gap_closed(const json& held_out, bool transfer) {
   return before > 0. ? std::optional(1. - after / before) : std::nullopt;
 }
 
-/// Before the model's own error counts as a gap it must stand out of the noise.
+/// The gap stands out of the noise, and is none that noise of its own makes, which no answer
+/// closes.
 bool is_reducible(const json& held_out) {
   const auto before = number_of(held_out.at("nrmse_before")),
              floor = number_of(held_out.at("noise_floor_nrmse"));
-  return before && floor && *before > 1.2 * *floor;
+  return before && floor && *before > 1.2 * *floor && held_out.at("not_foretold").empty();
 }
 
 void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {

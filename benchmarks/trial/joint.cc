@@ -56,8 +56,7 @@ double Joint::moment(const double phi, const double rate, const double accelerat
   return sum;
 }
 
-void Joint::advance(const double phi, const double rate) {
-  static_cast<void>(rate);
+void Joint::advance(const double phi) {
   friction_ = next_friction(phi);
   for (std::size_t i = 0; i < branch_.size(); ++i) {
     const double late = std::exp(-step_s_ / branch_times_s[i]);

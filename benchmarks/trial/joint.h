@@ -15,7 +15,7 @@ class Joint {
   /// The moment when the hinge stands at phi and turns with rate; the memory stays.
   double moment(double phi, double rate, double acceleration) const;
   /// Time goes on by a step that ends there.
-  void advance(double phi, double rate);
+  void advance(double phi);
   void set_parametric(double per_acceleration) { parametric_ = per_acceleration; }
   void set_quadratic_damping(double per_speed) { quadratic_ = per_speed; }
 

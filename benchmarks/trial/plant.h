@@ -17,7 +17,7 @@ enum : Eigen::Index { moment, hinge_turn, hinge_rate, wind_velocity, n };
 /// that moves on its mount, one more oscillator. Inputs: axial [m/s^2] and rotational [rad/s^2]
 /// acceleration of the stage, wind u|u| [m^2/s^2], moment of the hinge beyond its spring [N m].
 /// Outputs: base moment on the support [N m], turn [rad] and rate of the hinge, mean velocity of
-/// what the wind meets [m/s]. Proven by tests/benchmarks/trial/plant_test.cc.
+/// what the wind meets [m/s]. Proven by tests/benchmarks/trial/structure_test.cc.
 StateSpace make_plant(const Structure& structure, const World& world);
 
 }  // namespace vibrissa::trial

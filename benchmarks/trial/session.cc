@@ -160,7 +160,7 @@ class Bench {
           y = plant_.c * there + plant_.d * next;
         }
       }
-      joint_.advance(y(output::hinge_turn), y(output::hinge_rate));
+      joint_.advance(y(output::hinge_turn));
       x = there;
       f = next;
       out[i] = y(output::moment);

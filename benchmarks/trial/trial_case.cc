@@ -30,10 +30,12 @@ World plain_world(std::mt19937_64& random) {
   return world;
 }
 
-/// Something else in the catalogue does the very same: without its name it is not outside.
+/// Something else in the catalogue does the very same, or every hypothesis has it free: without its
+/// name it is not outside.
 bool has_exact_alias(const std::string& id) {
-  static const std::set<std::string> aliased{"stiffness",      "base_compliance", "mass",
-                                             "reference_gain", "sensor_gain",     "drag_error"};
+  static const std::set<std::string> aliased{"stiffness",  "base_compliance", "mass",
+                                             "damping",    "reference_gain",  "sensor_gain",
+                                             "drag_error", "reference_noise"};
   return aliased.count(id) != 0;
 }
 

@@ -40,7 +40,7 @@ struct TrialCase {
 
 /// Case number of a trial's seed: its class by turns, all else by chance. Sizes are log-uniform
 /// from 1 to 30 detection limits, within the usual range. Proven by
-/// tests/benchmarks/trial/trial_case_test.cc.
+/// tests/benchmarks/trial/detection_limit_test.cc.
 TrialCase draw_case(std::uint64_t seed, std::size_t number);
 
 /// The records of a case, its takes labelled as the bench's log says, which may be wrong.
