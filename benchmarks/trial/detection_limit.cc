@@ -34,29 +34,38 @@ const Structure& structure_of(const SolidChange& change) {
   return solved.front().second;
 }
 
-double noncentrality(const World& plain, const World& world, const Session& session,
-                     const bool random) {
-  Session bare = session;
-  bare.noise = false;
-  std::erase_if(bare.takes, [](const Take& take) { return take.split != signals::Split::fit; });
-  const Structure& nominal = structure_of(plain.solid);
-  const signals::Dataset without = record_session(nominal, plain, bare);
-  const signals::Dataset with = record_session(structure_of(world.solid), world, bare);
-  const StateSpace plant = make_plant(nominal, plain);
-  double sum = 0.;
-  for (std::size_t r = 0; r < without.records.size(); ++r) {
-    const signals::Record &a = without.records[r].record, &b = with.records[r].record;
-    const auto moment = change_of(a, b, signals::channel::base_moment);
-    const auto motion = change_of(a, b, signals::channel::base_acceleration);
-    const double n = static_cast<double>(a.n_samples());
-    for (std::size_t k = 1; k + 1 < moment.size(); ++k) {
+LikelihoodRatio::LikelihoodRatio(const World& plain, const Session& session)
+    : plain_(plain), bare_(session) {
+  bare_.noise = false;
+  std::erase_if(bare_.takes, [](const Take& take) { return take.split != signals::Split::fit; });
+  const Structure& structure = structure_of(plain.solid);
+  records_ = record_session(structure, plain, bare_);
+  const StateSpace plant = make_plant(structure, plain);
+  for (const signals::DatasetRecord& entry : records_.records) {
+    const std::size_t n_bins = entry.record.n_samples() / 2 + 1;
+    const double n = static_cast<double>(entry.record.n_samples());
+    std::vector<Line>& lines = lines_.emplace_back(n_bins);
+    for (std::size_t k = 1; k + 1 < n_bins; ++k) {
       const std::complex<double> s(0.,
                                    2. * std::numbers::pi * static_cast<double>(k) * rate_hz / n);
-      const std::complex<double> gain = plant.response(s)(output::moment, input::acceleration);
-      const double noise =
+      lines[k].gain = plant.response(s)(output::moment, input::acceleration);
+      lines[k].noise =
           n * (plain.moment_noise * plain.moment_noise +
-               std::norm(gain) * plain.acceleration_noise * plain.acceleration_noise);
-      const double share = std::norm(moment[k] - gain * motion[k]) / noise;
+               std::norm(lines[k].gain) * plain.acceleration_noise * plain.acceleration_noise);
+    }
+  }
+}
+
+double LikelihoodRatio::noncentrality(const World& world, const bool random) const {
+  const signals::Dataset with = record_session(structure_of(world.solid), world, bare_);
+  double sum = 0.;
+  for (std::size_t r = 0; r < records_.records.size(); ++r) {
+    const signals::Record &a = records_.records[r].record, &b = with.records[r].record;
+    const auto moment = change_of(a, b, signals::channel::base_moment);
+    const auto motion = change_of(a, b, signals::channel::base_acceleration);
+    for (std::size_t k = 1; k + 1 < moment.size(); ++k) {
+      const Line& line = lines_[r][k];
+      const double share = std::norm(moment[k] - line.gain * motion[k]) / line.noise;
       // One draw of a variance has twice its square's mean.
       sum += random ? 0.5 * share * share : 2. * share;
     }
@@ -64,12 +73,12 @@ double noncentrality(const World& plain, const World& world, const Session& sess
   return sum;
 }
 
-std::optional<double> detection_limit(const World& plain, const Unknown& unknown, const double sign,
-                                      const double shape, const Session& session) {
+std::optional<double> detection_limit(const LikelihoodRatio& test, const Unknown& unknown,
+                                      const double sign, const double shape) {
   const auto seen = [&](double size) {
-    World world = plain;
+    World world = test.plain();
     unknown.apply(world, sign * size, shape);
-    return noncentrality(plain, world, session, unknown.random);
+    return test.noncentrality(world, unknown.random);
   };
   if (unknown.fixed_size)
     return unknown.largest * std::sqrt(half_power_at_one_percent / seen(unknown.largest));

@@ -13,7 +13,8 @@ constexpr double forgetting_s = 20., warming_s = 30.;
 
 bool JointWorld::is_linear() const {
   return stiffening == 0. && branches == 0. && softening == 0. && warming == 0. &&
-         friction_moment == 0. && dead_zone == 0. && std::isinf(stop);
+         friction_moment == 0. && dead_zone == 0. && std::isinf(stop) && parametric == 0. &&
+         quadratic_damping == 0.;
 }
 
 Joint::Joint(const JointWorld& world, const double stiffness_n_m, const double step_s)
@@ -37,8 +38,8 @@ double Joint::next_friction(const double phi) const {
 }
 
 double Joint::moment(const double phi, const double rate, const double acceleration) const {
-  double sum = -k_ * spring_loss() * phi + parametric_ * k_ * acceleration * phi +
-               quadratic_ * k_ * std::abs(rate) * rate;
+  double sum = -k_ * spring_loss() * phi + world_.parametric * k_ * acceleration * phi +
+               world_.quadratic_damping * k_ * std::abs(rate) * rate;
   if (world_.stiffening != 0.) {
     const double s = world_.scale / std::sqrt(6. * std::abs(world_.stiffening));
     const double x = phi / s;

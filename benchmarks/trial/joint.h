@@ -16,8 +16,6 @@ class Joint {
   double moment(double phi, double rate, double acceleration) const;
   /// Time goes on by a step that ends there.
   void advance(double phi);
-  void set_parametric(double per_acceleration) { parametric_ = per_acceleration; }
-  void set_quadratic_damping(double per_speed) { quadratic_ = per_speed; }
 
  private:
   double spring_loss() const;
@@ -25,7 +23,6 @@ class Joint {
 
   JointWorld world_;
   double k_, step_s_;
-  double parametric_ = 0., quadratic_ = 0.;
   double phi_ = 0., peak_ = 0., age_s_ = 0., friction_ = 0.;  // friction_: of its slip moment
   std::array<double, 5> branch_{};
 };

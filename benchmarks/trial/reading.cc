@@ -94,7 +94,7 @@ signals::Record read_out(const World& world, const Structure& structure, const F
   const auto signal = [&](const std::vector<double>& values) {
     return FineSignal{values, fine.rate_hz, fine.first_s};
   };
-  const std::vector<double> moment_at = moment_times(world, rate_hz, n, clock_random);
+  const std::vector<double> moment_at = moment_times(world, rate_hz, n);
   const std::vector<double> reference_at = acceleration_times(world, rate_hz, n, clock_random);
   const double quiet = noise ? 1. : 0.;
   const double own = std::hypot(world.acceleration_noise * quiet, world.reference_noise);

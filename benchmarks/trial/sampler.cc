@@ -28,13 +28,10 @@ double FineSignal::converted(const double t_s, const double conversion_s) const 
   return sum / n;
 }
 
-std::vector<double> moment_times(const World& world, const double rate_hz, const std::size_t n,
-                                 std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
+std::vector<double> moment_times(const World& world, const double rate_hz, const std::size_t n) {
   std::vector<double> out(n);
   for (std::size_t k = 0; k < n; ++k)
-    out[k] = static_cast<double>(k) / rate_hz * (1. + world.rate_error) - world.delay_s +
-             (world.jitter_s > 0. ? world.jitter_s * normal(random) : 0.);
+    out[k] = static_cast<double>(k) / rate_hz * (1. + world.rate_error) - world.delay_s;
   return out;
 }
 

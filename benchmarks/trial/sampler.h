@@ -21,9 +21,8 @@ struct FineSignal {
   double converted(double t_s, double conversion_s) const;
 };
 
-/// When the moment's converter samples: its own rate, jitter and delay.
-std::vector<double> moment_times(const World& world, double rate_hz, std::size_t n,
-                                 std::mt19937_64& random);
+/// When the moment's converter samples: its own rate and delay.
+std::vector<double> moment_times(const World& world, double rate_hz, std::size_t n);
 
 /// What the accelerometer says when asked: the last of its own conversions, if it has a clock.
 std::vector<double> acceleration_times(const World& world, double rate_hz, std::size_t n,

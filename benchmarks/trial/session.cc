@@ -98,10 +98,7 @@ class Bench {
         plant_(make_plant(structure, world)),
         step_(plant_, 1. / fine_hz),
         hinge_effect_(plant_.c * step_.next.col(input::hinge) + plant_.d.col(input::hinge)),
-        joint_(world.joint, structure.joint_stiffness_n_m, 1. / fine_hz) {
-    joint_.set_parametric(world.parametric);
-    joint_.set_quadratic_damping(world.speed_gap);
-  }
+        joint_(world.joint, structure.joint_stiffness_n_m, 1. / fine_hz) {}
 
   signals::DatasetRecord record(const Take& take, std::uint64_t number) {
     const std::size_t before = run_up(take), length = take.n_samples * fine_factor;
@@ -134,8 +131,7 @@ class Bench {
     const std::size_t n = a.size();
     std::mt19937_64 random(seed);
     Wake wake(world_.shedding, 6.28 * std::uniform_real_distribution<double>()(random));
-    const bool free = world_.joint.is_linear() && world_.parametric == 0. &&
-                      world_.speed_gap == 0. && world_.own_motion == 0.;
+    const bool free = world_.joint.is_linear();
     const int n_passes = world_.own_motion == 0. ? 1 : 3;
     const std::vector<double> tilt = stage_tilt(a);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(plant_.a.rows());
@@ -258,12 +254,7 @@ signals::Dataset record_session(const Structure& structure, const World& world,
   Bench bench(structure, world, session);
   signals::Dataset out;
   std::uint64_t number = 0;
-  for (const Take& take : session.takes) {
-    ++number;
-    const bool still = take.base_rms == 0. && take.wind_mean == 0.;
-    if (still && !session.quiet) continue;
-    out.records.push_back(bench.record(take, number));
-  }
+  for (const Take& take : session.takes) out.records.push_back(bench.record(take, ++number));
   return out;
 }
 

@@ -18,6 +18,8 @@ struct Take {
   signals::Split split = signals::Split::fit;
   std::uint64_t drive = 0;  // takes with the same number are driven alike
   double low_hz = 3., high_hz = 110.;
+
+  bool is_at_rest() const { return base_rms == 0. && wind_mean == 0.; }
 };
 
 /// At rest, two levels, the higher one twice, wind, both; two more are held out.
@@ -30,7 +32,7 @@ constexpr double rate_hz = 500.;
 struct Session {
   std::vector<Take> takes;
   std::uint64_t seed = 1;
-  bool noise = true, quiet = true;  // quiet: the take at rest is recorded, too
+  bool noise = true;
 };
 
 /// The records that the bench writes. Modes and the hinge are integrated at 16 times the sampling

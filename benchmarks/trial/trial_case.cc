@@ -40,7 +40,7 @@ bool has_exact_alias(const std::string& id) {
 }
 
 /// Draws one of the list with a size; adds it to the case.
-void add_effect(TrialCase& out, const World& plain, const std::vector<Unknown>& list,
+void add_effect(TrialCase& out, const LikelihoodRatio& test, const std::vector<Unknown>& list,
                 std::mt19937_64& random, double low, double high) {
   std::uniform_real_distribution<double> uniform;
   for (;;) {
@@ -51,7 +51,7 @@ void add_effect(TrialCase& out, const World& plain, const std::vector<Unknown>& 
     if (std::any_of(out.effects.begin(), out.effects.end(),
                     [&](const CaseEffect& there) { return there.id == unknown.id; }))
       continue;
-    const std::optional<double> limit = detection_limit(plain, unknown, sign, shape, out.session);
+    const std::optional<double> limit = detection_limit(test, unknown, sign, shape);
     if (!limit || (unknown.fixed_size && high < 1.)) continue;
     const double largest = std::min(high, unknown.largest / *limit);
     if (largest < low) continue;
@@ -109,8 +109,9 @@ TrialCase draw_case(const std::uint64_t seed, const std::size_t number) {
   for (const Take& take : transfer_takes()) out.session.takes.push_back(take);
   out.world = plain_world(random);
   const World plain = out.world;
+  const LikelihoodRatio test(plain, out.session);
   const auto add = [&](const std::vector<Unknown>& list, double low, double high) {
-    add_effect(out, plain, list, random, low, high);
+    add_effect(out, test, list, random, low, high);
   };
   const std::size_t n_named = out.kind == triple                           ? 3
                               : out.kind == pair                           ? 2
@@ -142,9 +143,10 @@ signals::Dataset records_of(const TrialCase& trial_case) {
 
 signals::Dataset simulated_records(const std::uint64_t seed) {
   World world;
-  Session session{
-      .takes = usual_takes(), .seed = seed * 100000 + 99999, .noise = false, .quiet = false};
-  std::erase_if(session.takes, [](const Take& take) { return take.split != signals::Split::fit; });
+  Session session{.takes = usual_takes(), .seed = seed * 100000 + 99999, .noise = false};
+  std::erase_if(session.takes, [](const Take& take) {
+    return take.split != signals::Split::fit || take.is_at_rest();
+  });
   return record_session(structure_of({}), world, session);
 }
 

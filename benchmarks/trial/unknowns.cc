@@ -266,7 +266,7 @@ const std::vector<Unknown>& nameless_unknowns() {
        .start = 0.02,
        .largest = 0.5,
        .either_sign = true,
-       .apply = [](World& w, double s, double) { w.parametric = s / 13.; }},
+       .apply = [](World& w, double s, double) { w.joint.parametric = s / 13.; }},
       {.id = "soft_glue",
        .unit = "of the gain at 70 Hz",
        .start = 0.05,
@@ -279,7 +279,7 @@ const std::vector<Unknown>& nameless_unknowns() {
        .largest = 0.5,
        .apply = [](World& w, double s, double) {
          const double rate = 235. * w.joint.scale;
-         w.speed_gap = s * w.joint.scale / (rate * rate);
+         w.joint.quadratic_damping = s * w.joint.scale / (rate * rate);
        }}};
   return all;
 }

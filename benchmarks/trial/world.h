@@ -16,7 +16,9 @@ struct JointWorld {
   double friction_stiffness = 0.;                         // over k
   double dead_zone = 0.;                                  // rad, no restoring moment within +- this
   double stop = std::numeric_limits<double>::infinity();  // rad, from which a stop is touched
-  double scale = 1.;                                      // rad, a usual peak
+  double parametric = 0.;         // s^2/m, share of k per axial acceleration
+  double quadratic_damping = 0.;  // s^2/rad, share of k per rate squared
+  double scale = 1.;              // rad, a usual peak
   bool is_linear() const;
 };
 
@@ -45,16 +47,14 @@ struct World {
   double ramp = 0., walk = 0.;  // N m/s, N m/sqrt(s)
   double hum = 0., hum_hz = 50.03;
 
-  double delay_s = 0., conversion_s = 0., rate_error = 0., jitter_s = 0.;
+  double delay_s = 0., conversion_s = 0., rate_error = 0.;
   double polled_hz = 0.;  // of the accelerometer's own conversions; 0: sampled when asked
 
   double loose_gain = 0.;   // what the gain loses at a contact that opens and closes
   double wind_pickup = 0.;  // N m per m/s
   double step_size = 0.;    // N m, of a coarse converter
   double slew = 0.;         // N m/s, fastest that the amplifier follows; 0: any
-  double parametric = 0.;   // s^2/m, spring per axial acceleration
   double cable_peak = 0.;   // height of a resonance of the accelerometer's glue at 70 Hz
-  double speed_gap = 0.;    // quadratic damping of air beside a wall, s^2
 
   double moment_noise = 0., acceleration_noise = 0., noise_colour = 0.;
 };

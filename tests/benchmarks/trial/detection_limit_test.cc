@@ -23,11 +23,11 @@ TEST(DetectionLimit, OfAFeedthroughMeetsTheClosedForm) {
   // M + beta a: the non-centrality is beta^2 sum |a|^2 / noise, nearly all of it where the
   // accelerometer's noise, carried through the sensor, is small.
   const Unknown& feedthrough = find_unknown("coil_feedthrough");
-  const auto limit = detection_limit(noisy(), feedthrough, 1., 0.5, usual());
+  const auto limit = detection_limit(LikelihoodRatio(noisy(), usual()), feedthrough, 1., 0.5);
   ASSERT_TRUE(limit);
   World there = noisy();
   feedthrough.apply(there, *limit, 0.5);
-  EXPECT_NEAR(noncentrality(noisy(), there, usual(), false), 6.63, 1.5);
+  EXPECT_NEAR(LikelihoodRatio(noisy(), usual()).noncentrality(there, false), 6.63, 1.5);
   const double beta = there.feedthrough;
   double energy = 0.;
   for (const Take& take : usual_takes())
@@ -43,8 +43,8 @@ TEST(DetectionLimit, GoesWithTheNoise) {
   World louder = noisy();
   louder.moment_noise *= 3.;
   louder.acceleration_noise *= 3.;
-  const auto quiet = detection_limit(noisy(), delay, 1., 0.5, usual());
-  const auto loud = detection_limit(louder, delay, 1., 0.5, usual());
+  const auto quiet = detection_limit(LikelihoodRatio(noisy(), usual()), delay, 1., 0.5);
+  const auto loud = detection_limit(LikelihoodRatio(louder, usual()), delay, 1., 0.5);
   ASSERT_TRUE(quiet && loud);
   EXPECT_NEAR(*loud / *quiet, 3., 0.4);
 }
