@@ -112,7 +112,7 @@ Parameter ratio_near_one(std::string name, const double relative_scale, const do
   return {.name = std::move(name),
           .unit = "1",
           .logarithmic = true,
-          .prior = {.kind = Prior::Kind::student,
+          .prior = {.kind = Prior::Kind::normal,
                     .centre = 0.,
                     .scale = relative_scale,
                     .low = std::log(low),

@@ -45,7 +45,7 @@ Parameter log_uniform(std::string name, std::string unit, double low, double hig
 Parameter log_usual(std::string name, std::string unit, double usual_low, double usual_high,
                     double low, double high, double neutral);
 Parameter uniform(std::string name, std::string unit, double low, double high, double neutral);
-/// Ratio or offset near its neutral value with heavy tails (Student, six degrees of freedom).
+/// Ratio that is near one, as built (normal, of its logarithm).
 Parameter ratio_near_one(std::string name, double relative_scale, double low, double high);
 Parameter normal(std::string name, std::string unit, double centre, double scale, double low,
                  double high, double neutral);

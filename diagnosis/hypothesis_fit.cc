@@ -282,7 +282,7 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   fit.log_evidence = fit.log_likelihood + posterior.log_prior(fit.x) - 0.5 * log_determinant +
                      0.5 * static_cast<double>(fit.x.size()) * std::log(2. * std::numbers::pi);
   if (!std::isfinite(fit.log_evidence)) fit.log_evidence = -std::numeric_limits<double>::infinity();
-  fit.choices = retune_choices(fit);
+  fit.choices = retune_choices(experiment.nominal, fit);
   fit.records = fitted_records(experiment, posterior, fit, climb.predictions, actions);
   fit.goodness = goodness_of_fit(experiment, whitened_residual(experiment, fit));
   return fit;

@@ -9,19 +9,24 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A retune parameter within this of nominal is nominal: the simulation is not known better.
-double negligible(const std::string& id) {
-  return id == "damping" ? 0.01 : 0.002;
+/// A retune parameter within this of nominal is nominal: the simulation is not known better than
+/// its form follows its own records.
+double negligible(const NominalModel& nominal, const std::string& id) {
+  constexpr double least = 1e-4, damping_factor = 5.;
+  const double misfit =
+      std::max(least, id == "drag_error" ? nominal.wind_misfit : nominal.base_misfit);
+  return id == "damping" ? damping_factor * misfit : misfit;
 }
 
 /// Log density at zero of the marginal of the chosen figures, widened by what is negligible.
-double log_density_at_nominal(const HypothesisFit& fit, const std::vector<Eigen::Index>& places) {
+double log_density_at_nominal(const NominalModel& nominal, const HypothesisFit& fit,
+                              const std::vector<Eigen::Index>& places) {
   const auto n = static_cast<Eigen::Index>(places.size());
   if (n == 0) return 0.;
   Eigen::MatrixXd covariance = fit.covariance(places, places);
   for (Eigen::Index i = 0; i < n; ++i) {
     const FreeFigure& figure = fit.figures[static_cast<std::size_t>(places[i])];
-    const double width = negligible(figure.effect->id);
+    const double width = negligible(nominal, figure.effect->id);
     // A shift that moves the prediction no more than the effects' form errors may stem from them.
     const double information = fit.information(places[i], places[i]);
     covariance(i, i) += width * width + 0.5 * fit.form_energy(figure.effect) / information;
@@ -40,7 +45,7 @@ double log_mean(double a, double b) {
 
 }  // namespace
 
-std::vector<RetuneChoice> retune_choices(const HypothesisFit& fit) {
+std::vector<RetuneChoice> retune_choices(const NominalModel& nominal, const HypothesisFit& fit) {
   std::vector<Eigen::Index> ratios;
   for (std::size_t i = 0; i < fit.figures.size() && !fit.hypothesis.is_discrepancy(); ++i)
     if (fit.figures[i].nuisance && fit.figures[i].parameter == 0)
@@ -63,7 +68,8 @@ std::vector<RetuneChoice> retune_choices(const HypothesisFit& fit) {
       as_built -=
           tolerance.log_density(fit.x(ratios[i])) + std::log(tolerance.high - tolerance.low);
     }
-    const double exact = as_built - tolerance_at_nominal + log_density_at_nominal(fit, others);
+    const double exact =
+        as_built - tolerance_at_nominal + log_density_at_nominal(nominal, fit, others);
     choice.log_evidence = log_mean(exact, as_built);
     // Where the retuned sensor is unstable there is no answer.
     if (!std::isfinite(choice.log_evidence))

@@ -25,7 +25,7 @@ Effect backlash() {
       .confused_with = "joint_friction; threshold, odd lines at low level",
       .form_error = 0.1,
       .needs = {.base = true},
-      .parameters = {log_uniform("gap", "1", 0.002, 0.6, 0.), uniform("loss", "1", 0.1, 1., 0.)},
+      .parameters = {log_uniform("gap", "1", 5e-4, 0.6, 0.), uniform("loss", "1", 0.1, 1., 0.)},
       .starts = {{0.02, 0.6}, {0.1, 0.6}, {0.005, 0.6}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         chain.joint.push_back([gap = v[0] * scales.joint_moment_n_m, loss = v[1]](const Lanes&) {

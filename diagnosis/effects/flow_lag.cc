@@ -10,7 +10,7 @@ Effect flow_lag() {
                 .confused_with = "drag_error; frequency",
                 .form_error = 0.02,
                 .needs = {.wind = true},
-                .parameters = {log_uniform("tau", "s", 1e-3, 0.4, 0.)},
+                .parameters = {log_uniform("tau", "s", 2e-5, 0.4, 0.)},
                 .starts = {{0.01}, {0.05}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
                   chain.wind.push_back([tau = v[0]](std::span<double> u, double dt) {

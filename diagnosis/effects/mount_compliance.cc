@@ -13,7 +13,7 @@ Effect mount_compliance() {
                 .confused_with = "extra_mode, stage_rocking; wide band",
                 .form_error = 0.03,
                 .needs = {.base = true},
-                .parameters = {log_uniform("frequency", "Hz", 45., 450., 1e9),
+                .parameters = {log_uniform("frequency", "Hz", 45., 1500., 1e9),
                                log_uniform("damping_ratio", "1", 0.005, 0.12, 0.02),
                                uniform("mass_ratio", "1", 0., 0.4, 0.)},
                 .starts = {{60., 0.025, 0.05},

@@ -12,7 +12,7 @@ Effect reference_highpass() {
       .confused_with = "sensor_drift; lower lines",
       .form_error = 0.01,
       .needs = {.base = true},
-      .parameters = {log_uniform("corner", "Hz", 0.02, 6., 0.)},
+      .parameters = {log_uniform("corner", "Hz", 0.002, 6., 0.)},
       .starts = {{0.1}, {1.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         chain.reference.push_back([w = 2. * std::numbers::pi * v[0]](Complex s) -> Complex {

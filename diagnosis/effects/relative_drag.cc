@@ -11,7 +11,7 @@ Effect relative_drag() {
       .confused_with = "damping; wind ladder",
       .form_error = 0.1,
       .needs = {.base = true, .wind = true},
-      .parameters = {log_uniform("tip_speed", "m/s", 0.003, 3., 0.)},
+      .parameters = {log_uniform("tip_speed", "m/s", 3e-4, 3., 0.)},
       .starts = {{0.05}, {0.3}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         chain.relative_wind = {

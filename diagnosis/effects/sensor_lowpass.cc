@@ -1,4 +1,6 @@
+#include <cmath>
 #include <numbers>
+
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
@@ -7,16 +9,25 @@ Effect sensor_lowpass() {
   return Effect{
       .id = "sensor_lowpass",
       .link = Link::sensor,
-      .equation = "M_read = M exp(s h) / (1 + s / w), h the half step of a filter that is sampled",
-      .source = "effects.md",
+      .equation =
+          "M_read = M exp(s h) / (1 + s / (n w))^n, corner at -3 dB; h the half step of a filter "
+          "that is sampled",
+      .source =
+          "effects.md; n = 1 is one lag, and three droop and delay as an average over time "
+          "does (to third order of its length)",
       .confused_with = "delay; droop",
       .form_error = 0.02,
-      .parameters = {log_usual("corner", "Hz", 30., 250., 10., 3000., 1e100),
-                     normal("half_step", "s", 0., 5e-5, -2e-4, 2e-4, 0.)},
-      .starts = {{200., 0.}, {60., 0.}},
+      .parameters = {log_usual("corner", "Hz", 30., 250., 10., 3e4, 1e100),
+                     normal("half_step", "s", 0., 5e-5, -2e-4, 2e-4, 0.),
+                     uniform("lags", "1", 1., 3., 1.)},
+      .starts = {{200., 0., 1.5}, {60., 0., 1.5}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
-        chain.sensor.push_back([w = 2. * std::numbers::pi * v[0], h = v[1]](Complex s) -> Complex {
-          return std::exp(s * h) / (1. + s / w);
+        const double n = v[2], corner = 2. * std::numbers::pi * v[0];
+        const double w = corner / (n * std::sqrt(std::exp2(1. / n) - 1.));
+        // Steps are a small part of the delay that they filter.
+        const double most = 0.3 / w, h = most * std::tanh(v[1] / most);
+        chain.sensor.push_back([n, w, h](Complex s) -> Complex {
+          return std::exp(s * h) * std::pow(1. + s / (n * w), -n);
         });
       }};
 }

@@ -31,7 +31,7 @@ Effect softening_history() {
       .confused_with = "hardening < 0; up/down ladder",
       .form_error = 0.1,
       .needs = {.base = true},
-      .parameters = {log_uniform("softening", "1", 0.01, 0.6, 0.),
+      .parameters = {log_uniform("softening", "1", 3e-4, 0.6, 0.),
                      log_uniform("level", "1", 0.02, 3., 1.)},
       .starts = {{0.1, 0.3}, {0.1, 1.}, {0.1, 0.08}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {

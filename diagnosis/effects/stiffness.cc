@@ -1,24 +1,48 @@
+#include <algorithm>
+
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
+namespace {
+
+/// Spring of a joint that makes the mode's stiffness so many times what it was; a joint with a
+/// small share in the compliance cannot stiffen it at will.
+double spring_ratio(const double mode_ratio, const double joint_share) {
+  constexpr double least_compliance = 1e-3;
+  return joint_share / std::max(least_compliance, 1. / mode_ratio - 1. + joint_share);
+}
+
+}  // namespace
 
 Effect stiffness() {
-  return Effect{.id = "stiffness",
-                .link = Link::structure,
-                .equation = "k = r k0, c = r^p c0",
-                .source =
-                    "effects.md; p: a loss factor keeps to 1, a damper to 0, a mode that leaves "
-                    "the joint below",
-                .confused_with = "mass (gain), base_compliance; added known mass, static pull",
-                .retune = true,
-                .form_error = 0.01,
-                .parameters = {ratio_near_one("ratio", 0.03, 0.3, 1.6),
-                               normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.)},
-                .starts = {{0.97, 0.}, {1.03, 0.}},
-                .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
-                  chain.joint_change.spring *= v[0];
-                  chain.joint_change.damper *= std::pow(v[0], v[1]);
-                }};
+  return Effect{
+      .id = "stiffness",
+      .link = Link::structure,
+      .equation =
+          "k = r k0 of the first mode: r^s by itself, r^(1 - s) by its joint's spring K, "
+          "p / (K / K0) + 1 - p = r^(s - 1); dampers c = (k / k0)^q c0",
+      .source = "effects.md; q: a loss factor keeps to 1, a damper to 0, modal damping to 1/2",
+      .confused_with = "mass (gain), base_compliance; added known mass, static pull",
+      .retune = true,
+      .form_error = 0.01,
+      .parameters = {ratio_near_one("ratio", 0.03, 0.3, 1.6),
+                     normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.),
+                     normal("modal_share", "1", 0.5, 0.5, 0., 1., 0.5)},
+      .starts = {{0.97, 0., 0.5}, {1.03, 0., 0.5}},
+      .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+        if (chain.structure.modes.empty()) return;
+        StructuralMode& mode = chain.structure.modes.front();
+        const double modal = std::pow(v[0], v[2]);
+        const double joint = spring_ratio(v[0] / modal, chain.joint_share);
+        chain.joint_change.spring *= joint;
+        chain.joint_change.damper *= std::pow(joint, v[1]);
+        mode.frequency_rad_s *= std::sqrt(modal);
+        // zeta = c / (2 sqrt(k m)); so is the viscous moment over the elastic one.
+        const double damping = std::pow(modal, v[1] - 0.5);
+        mode.damping_ratio *= damping;
+        mode.base_rate *= damping;
+        mode.wind_rate *= damping;
+      }};
 }
 
 }  // namespace vibrissa::diagnosis::effects

@@ -11,7 +11,7 @@ Effect turbulence() {
                 .irreducible = true,
                 .form_error = 0.01,
                 .needs = {.wind = true},
-                .parameters = {log_uniform("intensity", "1", 0.003, 0.6, 0.),
+                .parameters = {log_uniform("intensity", "1", 0.001, 0.6, 0.),
                                log_uniform("corner", "Hz", 0.5, 60., 5.)},
                 .starts = {{0.03, 3.}, {0.03, 20.}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {

@@ -30,7 +30,7 @@ Effect viscoelastic() {
       .confused_with = "damping, stiffness; several octaves, second mode, creep",
       .form_error = 0.08,
       .needs = {.base = true},
-      .parameters = {log_uniform("strength", "1", 0.01, 1.5, 0.),
+      .parameters = {log_uniform("strength", "1", 2e-4, 1.5, 0.),
                      log_uniform("tau", "s", 1e-3, 10., 0.01), uniform("decades", "1", 0., 3., 0.)},
       .starts =
           {{0.1, 3e-3, 1.}, {0.1, 0.05, 1.}, {0.3, 1.5e-3, 1.}, {0.5, 3e-3, 1.}, {0.5, 3e-3, 2.5}},

@@ -31,7 +31,7 @@ Effect vortex_shedding() {
       .irreducible = true,
       .form_error = 0.01,
       .needs = {.wind = true},
-      .parameters = {log_uniform("level", "1", 0.003, 1., 0.),
+      .parameters = {log_uniform("level", "1", 0.001, 1., 0.),
                      log_uniform("strouhal_over_diameter", "1/m", 8., 180., 10.),
                      log_uniform("spread", "1", 0.01, 0.2, 0.03)},
       .starts = {{0.05, 12., 0.03},

@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/effect.h"
+#include "diagnosis/linear_response.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+Chain with(const std::string& id, const std::vector<double>& values, double joint_share = 0.7) {
+  Chain chain{.structure = {.modes = {{.frequency_rad_s = 220.,
+                                       .damping_ratio = 0.02,
+                                       .base_gain = -2e-5,
+                                       .base_rate = -2e-5 * 0.04}},
+                            .has_base = true}};
+  chain.joint_share = joint_share;
+  find_effect(id).extend(chain, values, {});
+  return chain;
+}
+
+double resonance_rad_s(const Chain& chain) {
+  const LinearResponse response(chain);
+  const auto height = [&](double w) { return std::abs(response.at(Complex(0., w)).base); };
+  double best = 0., where = 0.;
+  for (double w = 120.; w < 320.; w += 0.01)
+    if (height(w) > best) best = height(where = w);
+  return where;
+}
+
+TEST(Stiffness, IsThatOfTheFirstModeWhateverShareOfItTheJointHas) {
+  for (const double ratio : {0.6, 0.95, 1.2})
+    for (const double joint_share : {0.5, 0.7, 1.})
+      for (const double modal_share : {0., 0.4, 1.}) {
+        const Chain chain = with("stiffness", {ratio, 0.5, modal_share}, joint_share);
+        // Light damping moves the peak by a few ten-thousandths.
+        EXPECT_NEAR(resonance_rad_s(chain) / (220. * std::sqrt(ratio)), 1., 2e-3)
+            << ratio << " " << joint_share << " " << modal_share;
+      }
+}
+
+TEST(Stiffness, LeavesTheStaticMomentAlone) {
+  const double nominal = std::abs(LinearResponse(with("stiffness", {1., 0., 0.5})).at(0.).base);
+  for (const double modal_share : {0., 1.}) {
+    const Chain softer = with("stiffness", {0.6, 0., modal_share});
+    EXPECT_NEAR(std::abs(LinearResponse(softer).at(0.).base) / nominal, 1., 1e-12);
+  }
+}
+
+Complex lowpass(double corner_hz, double n_lags, double f_hz) {
+  const Chain chain = with("sensor_lowpass", {corner_hz, 0., n_lags});
+  return LinearResponse(chain).at(Complex(0., 2. * std::numbers::pi * f_hz)).sensor;
+}
+
+TEST(SensorLowpass, HasItsCornerAtMinusThreeDecibels) {
+  for (const double n_lags : {1., 1.7, 3.})
+    EXPECT_NEAR(std::abs(lowpass(80., n_lags, 80.)), std::sqrt(0.5), 1e-12) << n_lags;
+}
+
+TEST(SensorLowpass, OfOneLagIsOneLag) {
+  const Complex expected = 1. / Complex(1., 50. / 80.);
+  EXPECT_LT(std::abs(lowpass(80., 1., 50.) - expected), 1e-12);
+}
+
+TEST(SensorLowpass, OfThreeLagsIsAnAverageOverTimeToThirdOrder) {
+  // (1 - exp(-s T)) / (s T), which is (1 + s T / 6)^-3 but for (s T)^3 / 216 and higher powers.
+  constexpr double length_s = 2e-3;
+  constexpr double w = 3. / (0.5 * length_s);
+  const double corner_hz = w * std::sqrt(std::exp2(1. / 3.) - 1.) / (2. * std::numbers::pi);
+  for (const double f_hz : {10., 20., 40.}) {
+    const Complex st(0., 2. * std::numbers::pi * f_hz * length_s);
+    const Complex average = (1. - std::exp(-st)) / st;
+    EXPECT_LT(std::abs(lowpass(corner_hz, 3., f_hz) - average), std::pow(std::abs(st), 3) / 200.);
+  }
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis
