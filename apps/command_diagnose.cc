@@ -23,6 +23,7 @@ struct DiagnoseCommand {
   std::optional<std::string> real;
   std::optional<std::filesystem::path> folder;
   std::size_t max_effects = 3;
+  std::vector<std::string> possible_experiments;
 };
 
 void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& diagnosis) {
@@ -54,6 +55,7 @@ void diagnose_records(const DiagnoseCommand& options) {
   diagnosis::DiagnoseOptions settings;
   settings.simulated_rate_hz = rate_hz;
   settings.search.max_effects = options.max_effects;
+  settings.possible_experiments = options.possible_experiments;
   settings.search.on_fit = [&] { progress.advance(); };
   const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(model, real, settings);
   if (options.common.json)
@@ -93,6 +95,10 @@ void add_diagnose_command(CLI::App& app) {
                    "Most effects that are combined beside retuned parameters")
       ->check(CLI::Range(1, 5))
       ->capture_default_str();
+  command
+      ->add_option("--bench-can", options->possible_experiments,
+                   "Experiments to choose the next one from, comma-separated; else all of the menu")
+      ->delimiter(',');
   add_common_options(*command, options->common);
   command->footer(
       "Examples:\n  vibrissa diagnose --sim simulated --real bench --out diagnosis\n"

@@ -19,11 +19,13 @@ TrialIndex read_trial(const fs::path& folder) {
   try {
     if (document.at("schema") != "vibrissa-trial-1")
       throw signals::UserError(file.string() + ": /schema: must be \"vibrissa-trial-1\"");
-    TrialIndex out{.folder = folder,
-                   .seed = document.at("seed").get<std::uint64_t>(),
-                   .cases = {},
-                   .commitment = document.at("labels_commitment_sha256").get<std::string>(),
-                   .sealed_labels = document.at("labels_sealed").get<std::string>()};
+    TrialIndex out{
+        .folder = folder,
+        .seed = document.at("seed").get<std::uint64_t>(),
+        .cases = {},
+        .further_experiments = document.at("further_experiments").get<std::vector<std::string>>(),
+        .commitment = document.at("labels_commitment_sha256").get<std::string>(),
+        .sealed_labels = document.at("labels_sealed").get<std::string>()};
     for (const auto& entry : document.at("cases"))
       out.cases.push_back({entry.at("name").get<std::string>(),
                            entry.at("left_out").get<std::vector<std::string>>()});

@@ -8,7 +8,8 @@
 
 namespace vibrissa::apps {
 
-/// One sensor of a trial: caseNNNNN/real holds its records, answer.json what was said of them.
+/// One sensor of a trial: caseNNNNN/real holds its records, further/EXPERIMENT what the bench can
+/// do besides, answer.json what was said of them.
 struct TrialEntry {
   std::string name;
   std::vector<std::string> left_out;  // effects that the catalogue is to lack
@@ -19,6 +20,7 @@ struct TrialIndex {
   std::filesystem::path folder;
   std::uint64_t seed = 0;
   std::vector<TrialEntry> cases;
+  std::vector<std::string> further_experiments;
   std::string commitment, sealed_labels;
 
   std::filesystem::path answer_file(const TrialEntry& entry) const {

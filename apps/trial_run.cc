@@ -17,7 +17,35 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+using Clock = std::chrono::steady_clock;
 constexpr int bad_input = 2, too_poor_data = 3, fault = 70;
+
+double seconds_since(const Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What is said once the records of a further experiment are there, too.
+json answer_after(const std::string& experiment, const fs::path& folder, signals::Dataset real,
+                  const diagnosis::NominalModel& nominal,
+                  const diagnosis::DiagnoseOptions& settings) {
+  for (signals::DatasetRecord& entry :
+       signals::read_dataset(folder / "further" / experiment).records)
+    real.records.push_back(std::move(entry));
+  const diagnosis::Diagnosis said = diagnosis::diagnose(nominal, real, settings);
+  return {{"experiment", experiment},
+          {"verdict", said.verdict},
+          {"probability", said.ranking.front().probability},
+          {"confidence_set", said.confidence_set}};
+}
+
+/// Another one than the recommended, as the name of the case has it.
+std::string by_chance(std::vector<std::string> experiments, const std::string& recommended,
+                      const std::string& name) {
+  std::erase(experiments, recommended);
+  std::uint64_t hash = 1469598103934665603u;  // FNV-1a: alike on all machines
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return experiments.empty() ? "" : experiments[(hash >> 32) % experiments.size()];
+}
 
 json answer(const TrialIndex& trial, const TrialEntry& entry,
             const diagnosis::NominalModel& nominal, const TrialRunOptions& options) {
@@ -25,18 +53,25 @@ json answer(const TrialIndex& trial, const TrialEntry& entry,
   settings.search = {.max_effects = options.max_effects,
                      .n_threads = options.n_threads,
                      .left_out = entry.left_out};
+  settings.possible_experiments = trial.further_experiments;
   json out{{"schema", "vibrissa-trial-answer-1"}};
   const auto failed = [&](int status, const std::string& message) {
     out["exit_status"] = status;
     out["message"] = message;
     return out;
   };
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
   try {
-    const auto real = signals::read_dataset(trial.folder / entry.name / "real");
-    out["diagnosis"] =
-        json::parse(diagnosis::diagnosis_json(diagnosis::diagnose(nominal, real, settings)));
+    const fs::path folder = trial.folder / entry.name;
+    const auto real = signals::read_dataset(folder / "real");
+    const diagnosis::Diagnosis said = diagnosis::diagnose(nominal, real, settings);
+    out["diagnosis"] = json::parse(diagnosis::diagnosis_json(said));
     out["exit_status"] = 0;
+    out["seconds"] = seconds_since(start);
+    if (!options.further || said.confidence_set.size() < 2 || said.next.name == "none") return out;
+    out["recommended"] = answer_after(said.next.name, folder, real, nominal, settings);
+    const std::string other = by_chance(trial.further_experiments, said.next.name, entry.name);
+    if (!other.empty()) out["by_chance"] = answer_after(other, folder, real, nominal, settings);
   } catch (const diagnosis::TooPoorData& error) {
     return failed(too_poor_data, error.what());
   } catch (const signals::UserError& error) {
@@ -44,8 +79,6 @@ json answer(const TrialIndex& trial, const TrialEntry& entry,
   } catch (const std::exception& error) {
     return failed(fault, error.what());
   }
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  out["seconds"] = taken.count();
   return out;
 }
 

@@ -8,6 +8,8 @@ namespace vibrissa::apps {
 struct TrialRunOptions {
   std::size_t max_effects = 3;
   std::size_t n_threads = 2;  // of each rank
+  /// Where more than one answer is left, the recommended experiment is done, and one by chance.
+  bool further = false;
   bool show_progress = true;
 };
 
@@ -16,7 +18,9 @@ struct TrialRunSummary {
 };
 
 /// Diagnoses every case of a trial that has no answer yet, all ranks from one queue, and leaves
-/// caseNNNNN/answer.json ("vibrissa-trial-answer-1": exit_status, seconds, diagnosis or message).
+/// caseNNNNN/answer.json ("vibrissa-trial-answer-1": exit_status, seconds, diagnosis or message;
+/// after further experiments "recommended" and "by_chance", each with experiment, verdict,
+/// probability and confidence_set).
 /// The labels stay sealed: the key is not here. A case that fails is written down and does not stop
 /// the others. Gives this rank's share.
 TrialRunSummary run_trial(const std::filesystem::path& folder, const TrialRunOptions& options);

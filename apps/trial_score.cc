@@ -143,6 +143,12 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
   if (out.right) out.parameter_errors = parameter_errors(ranking[0], effects);
 }
 
+std::optional<bool> resolved(const ScoredCase& c, const json& answer, const char* which) {
+  if (!answer.contains(which)) return std::nullopt;
+  const json& after = answer.at(which);
+  return after.at("confidence_set").size() == 1 && is_right(c.kind, c.truth, after.at("verdict"));
+}
+
 ScoredCase scored(const std::string& name, const json& label, const json& answer) {
   ScoredCase out{.name = name, .kind = label.at("class"), .truth = {}, .verdict = {}};
   const json& effects = label.at("effects");
@@ -161,6 +167,8 @@ ScoredCase scored(const std::string& name, const json& label, const json& answer
   }
   out.seconds = answer.at("seconds");
   read_answer(out, answer.at("diagnosis"), effects);
+  out.resolved_as_recommended = resolved(out, answer, "recommended");
+  out.resolved_by_chance = resolved(out, answer, "by_chance");
   if (out.kind == "wrong_metadata")
     out.right = !answer.at("diagnosis").at("findings").empty() && out.verdict == "none";
   return out;
@@ -197,6 +205,10 @@ void count(TrialScore& out, const ScoredCase& c) {
     out.shares["95 % set holds the truth"].add(c.in_confidence_set);
   }
   if (named) out.shares["links right"].add(c.links_right);
+  if (in_catalogue && c.resolved_as_recommended)
+    out.shares["undecided, the recommended experiment resolves"].add(*c.resolved_as_recommended);
+  if (in_catalogue && c.resolved_by_chance)
+    out.shares["undecided, another one resolves"].add(*c.resolved_by_chance);
 }
 
 void measure(TrialScore& out) {

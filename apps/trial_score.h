@@ -25,6 +25,8 @@ struct ScoredCase {
   std::size_t confidence_set_size = 0;
   std::optional<double> gap_closed{}, transfer_gap_closed{};
   std::vector<double> parameter_errors{};  // over the deviation that was said
+  /// Is one answer left, and right, after a further experiment? Nothing where none was done.
+  std::optional<bool> resolved_as_recommended{}, resolved_by_chance{};
 };
 
 /// What a trial shows; each share with its exact interval.

@@ -164,6 +164,7 @@ MendedModel mended_model(const Experiment& experiment, const HypothesisFit& fit)
 
 Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
                    const DiagnoseOptions& options) {
+  check_menu_names(options.possible_experiments);
   const NominalModel& nominal = simulation.nominal;
   Diagnosis out;
   out.guesses = real.guesses;
@@ -196,7 +197,8 @@ Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
   out.separation = separation_quality(simulation, out.mended, real);
   out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);
   out.indistinguishable = indistinguishable_sets(experiment, result);
-  out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable);
+  out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable,
+                             options.possible_experiments);
   return out;
 }
 

@@ -80,6 +80,8 @@ struct DiagnoseOptions {
   std::size_t n_scored = 3;       // answers with a held-out score
   std::size_t n_ranked = 12;      // answers listed
   double simulated_rate_hz = 0.;  // 0: the simulation has none
+  /// Experiments of the menu that the bench can do; empty: all.
+  std::vector<std::string> possible_experiments = {};
 };
 
 /// Compares a simulation with records: noise, where, what, how far, how sure and what next. Throws

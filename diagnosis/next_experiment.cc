@@ -5,6 +5,7 @@
 #include <set>
 
 #include "diagnosis/location.h"
+#include "signals/error.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -187,12 +188,16 @@ const std::vector<MenuEntry>& experiment_menu() {
 
 NextExperiment next_experiment(const std::vector<Candidate>& candidates,
                                const std::vector<std::string>& confidence_set,
-                               const std::vector<std::vector<std::string>>& indistinguishable) {
+                               const std::vector<std::vector<std::string>>& indistinguishable,
+                               const std::vector<std::string>& possible) {
   const std::vector<Answer> answers = answers_left(candidates, confidence_set, indistinguishable);
   NextExperiment out;
   const MenuEntry* best = nullptr;
   double best_worth = 0.;
   for (const MenuEntry& entry : experiment_menu()) {
+    if (!possible.empty() &&
+        std::find(possible.begin(), possible.end(), entry.name) == possible.end())
+      continue;
     const double value = split(entry, answers);
     const double worth = value * (0.5 + 0.5 * shown_share(entry, answers));
     if (worth <= best_worth + 1e-9) continue;
@@ -212,6 +217,16 @@ NextExperiment next_experiment(const std::vector<Candidate>& candidates,
   out.would_separate.assign(ids.begin(), ids.end());
   out.why = best->what + " (" + what_it_shows(*best, out.would_separate) + ")";
   return out;
+}
+
+void check_menu_names(const std::vector<std::string>& names) {
+  std::string known;
+  for (const MenuEntry& entry : experiment_menu())
+    known += (known.empty() ? "" : ", ") + entry.name;
+  for (const std::string& name : names)
+    if (std::none_of(experiment_menu().begin(), experiment_menu().end(),
+                     [&](const MenuEntry& entry) { return entry.name == name; }))
+      throw signals::UserError("unknown experiment '" + name + "'; known are " + known);
 }
 
 }  // namespace vibrissa::diagnosis

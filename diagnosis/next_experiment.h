@@ -28,9 +28,14 @@ struct NextExperiment {
 };
 
 /// The entry that best splits the probability left in the confidence set and in the sets that this
-/// experiment cannot tell apart. Proven by tests/diagnosis/next_experiment_test.cc.
+/// experiment cannot tell apart. possible: names of the entries that the bench can do; empty: all.
+/// Proven by tests/diagnosis/next_experiment_test.cc.
 NextExperiment next_experiment(const std::vector<Candidate>& candidates,
                                const std::vector<std::string>& confidence_set,
-                               const std::vector<std::vector<std::string>>& indistinguishable);
+                               const std::vector<std::vector<std::string>>& indistinguishable,
+                               const std::vector<std::string>& possible = {});
+
+/// Throws UserError, with the known names, when one of them is no entry of the menu.
+void check_menu_names(const std::vector<std::string>& names);
 
 }  // namespace vibrissa::diagnosis

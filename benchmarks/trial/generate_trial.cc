@@ -58,12 +58,16 @@ void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs
   const fs::path making = folder.string() + ".making", key_file = folder.string() + ".key";
   fs::remove_all(making);
   write_dataset(making / "sim", trial::simulated_records(seed));
-  json labels = json::object(), cases = json::array();
+  json labels = json::object(), cases = json::array(), further = json::array();
+  for (const trial::FurtherExperiment& experiment : trial::further_experiments())
+    further.push_back(experiment.name);
   signals::Progress progress("sensors", count, true);
   for (std::size_t i = first; i < first + count; ++i) {
     const trial::TrialCase trial_case = trial::draw_case(seed, i);
     const std::string name = case_name(i);
     write_dataset(making / name / "real", trial::records_of(trial_case));
+    for (const auto& [experiment, records] : trial::further_records_of(trial_case))
+      write_dataset(making / name / "further" / experiment, records);
     cases.push_back({{"name", name}, {"left_out", trial_case.left_out}});
     labels[name] = label_of(trial_case);
     progress.advance();
@@ -73,6 +77,7 @@ void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs
                                      {"seed", seed},
                                      {"first", first},
                                      {"cases", cases},
+                                     {"further_experiments", further},
                                      {"labels_commitment_sha256", seal.commitment},
                                      {"labels_sealed", seal.cipher}});
   signals::write_file(key_file, [&](std::ostream& out) { out << seal.key << "\n"; });

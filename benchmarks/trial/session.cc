@@ -50,7 +50,7 @@ std::vector<double> gusty(const double mean, const double intensity, const doubl
 
 std::vector<double> wind_at_probe(const Take& take, const std::size_t n, const std::uint64_t seed) {
   if (take.wind_mean == 0.) return std::vector<double>(n, 0.);
-  return gusty(take.wind_mean, 0.35, 0.15, n, seed);
+  return gusty(take.wind_mean, take.gustiness, 0.15, n, seed);
 }
 
 /// The wind that the sensor feels: delayed, with gusts that the probe does not see.
@@ -247,6 +247,35 @@ std::vector<Take> transfer_takes() {
            .n_samples = 4000,
            .split = Split::held_out,
            .drive = 22}};
+}
+
+std::vector<FurtherExperiment> further_experiments() {
+  const auto multisine = [](const std::string& name, double rms, std::uint64_t drive) {
+    return Take{
+        .name = name, .base_rms = rms, .n_samples = 4096, .period_samples = 2048, .drive = drive};
+  };
+  FurtherExperiment levels{.name = "level_ladder", .takes = {}}, winds{"wind_ladder", {}},
+      wide{"wide_band", {multisine("wide_band", 4.4, 51)}};
+  for (const double factor : {0.25, 0.5, 1., 2.})
+    levels.takes.push_back(
+        multisine("level_" + std::to_string(levels.takes.size() + 1), 4.4 * factor, 41));
+  for (const int speed : {1, 2, 3, 4}) {
+    const std::string name = "wind_" + std::to_string(speed);
+    const auto drive = static_cast<std::uint64_t>(60 + speed);
+    winds.takes.push_back(
+        {.name = name, .wind_mean = speed + 0., .n_samples = 2500, .drive = drive});
+    winds.takes.push_back({.name = name + "_base",
+                           .base_rms = 2.5,
+                           .wind_mean = speed + 0.,
+                           .n_samples = 2500,
+                           .drive = drive + 10});
+  }
+  wide.takes.front().low_hz = 1.;
+  wide.takes.front().high_hz = 0.45 * rate_hz;
+  const Take steady{
+      .name = "steady_wind", .wind_mean = 2., .n_samples = 10000, .drive = 81, .gustiness = 0.01},
+      quiet{.name = "quiet_long", .n_samples = 10000, .drive = 82};
+  return {levels, winds, wide, {"steady_wind", {steady}}, {"quiet_record", {quiet}}};
 }
 
 signals::Dataset record_session(const Structure& structure, const World& world,

@@ -18,6 +18,7 @@ struct Take {
   signals::Split split = signals::Split::fit;
   std::uint64_t drive = 0;  // takes with the same number are driven alike
   double low_hz = 3., high_hz = 110.;
+  double gustiness = 0.35;  // turbulence intensity of the wind
 
   bool is_at_rest() const { return base_rms == 0. && wind_mean == 0.; }
 };
@@ -26,6 +27,13 @@ struct Take {
 std::vector<Take> usual_takes();
 /// Another level and another wind, to see how far an answer carries.
 std::vector<Take> transfer_takes();
+
+/// What the bench can do besides, under the names of the menu of experiments that are recommended.
+struct FurtherExperiment {
+  std::string name;
+  std::vector<Take> takes;
+};
+std::vector<FurtherExperiment> further_experiments();
 
 constexpr double rate_hz = 500.;
 

@@ -146,6 +146,18 @@ signals::Dataset records_of(const TrialCase& trial_case) {
   return out;
 }
 
+std::vector<std::pair<std::string, signals::Dataset>> further_records_of(
+    const TrialCase& trial_case) {
+  constexpr std::uint64_t another_day = 50000;
+  std::vector<std::pair<std::string, signals::Dataset>> out;
+  for (const FurtherExperiment& experiment : further_experiments())
+    out.emplace_back(
+        experiment.name,
+        record_session(structure_of(trial_case.world.solid), trial_case.world,
+                       {.takes = experiment.takes, .seed = trial_case.seed + another_day}));
+  return out;
+}
+
 signals::Dataset simulated_records(const std::uint64_t seed) {
   World world;
   Session session{.takes = usual_takes(), .seed = seed * 100000 + 99999, .noise = false};

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/trial/session.h"
@@ -45,6 +46,10 @@ TrialCase draw_case(std::uint64_t seed, std::size_t number);
 
 /// The records of a case, its takes labelled as the bench's log says, which may be wrong.
 signals::Dataset records_of(const TrialCase& trial_case);
+
+/// What further experiments would show of it, on another day: their records by name.
+std::vector<std::pair<std::string, signals::Dataset>> further_records_of(
+    const TrialCase& trial_case);
 
 /// The simulation of the sensor as designed: the same takes without one at rest, free of noise.
 signals::Dataset simulated_records(std::uint64_t seed);

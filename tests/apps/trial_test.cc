@@ -105,6 +105,28 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
   EXPECT_NEAR(score.figures.at("parameter error over its deviation, median"), 1., 1e-6);
 }
 
+TEST_F(WrittenTrial, CountsWhatFurtherExperimentsResolve) {
+  const json delay = {{{"id", "delay"}, {"size", 1e-3}, {"limit", 1e-4}}};
+  const auto after = [](const std::string& verdict, const json& set) {
+    return json{{"experiment", "wide_band"},
+                {"verdict", verdict},
+                {"probability", 0.9},
+                {"confidence_set", set}};
+  };
+  json undecided = answer("sensor_lowpass", 0.6);
+  undecided["recommended"] = after("delay", {"delay"});
+  undecided["by_chance"] = after("delay", {"delay", "sensor_lowpass"});
+  add("single", delay, undecided);
+  undecided["recommended"] = after("sensor_lowpass", {"sensor_lowpass"});
+  undecided.erase("by_chance");
+  add("single", delay, undecided);
+  const TrialScore score = score_trial(trial_, labels_);
+  const Share recommended = score.shares.at("undecided, the recommended experiment resolves"),
+              by_chance = score.shares.at("undecided, another one resolves");
+  EXPECT_EQ(std::pair(recommended.hits, recommended.of), std::pair(std::size_t{1}, std::size_t{2}));
+  EXPECT_EQ(std::pair(by_chance.hits, by_chance.of), std::pair(std::size_t{0}, std::size_t{1}));
+}
+
 TEST_F(WrittenTrial, SaysWhatHasNoAnswerYet) {
   add("none", json::array(), answer("none", 0.9));
   trial_.cases.push_back({"case77", {}});
@@ -124,6 +146,7 @@ TEST(Trial, OfTenSensorsIsMadeRunAndScored) {
   const auto run = vibrissa("trial run --json --max-effects 2 '" + trial + "'");
   ASSERT_EQ(run.status, 0) << run.errors;
   EXPECT_EQ(json::parse(run.output)["failed"], 0);
+  EXPECT_EQ(json::parse(run.output)["refused"], 0);
   EXPECT_NE(vibrissa("trial score --json '" + trial + "'").status, 0) << "without its key";
   const auto scored =
       vibrissa("trial score --json --key '" + folder.file("elsewhere") + "' '" + trial + "'");

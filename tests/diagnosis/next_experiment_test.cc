@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "signals/error.h"
+
 namespace vibrissa::diagnosis {
 namespace {
 
@@ -44,6 +46,25 @@ TEST(NextExperiment, SplitsAnIndistinguishableSetOfACertainAnswer) {
       next_experiment(candidates({{"stiffness", 1.}}), {"stiffness"}, {{"stiffness", "mass"}});
   EXPECT_NE(next.name, "none");
   EXPECT_THAT(next.would_separate, Contains("mass"));
+}
+
+TEST(NextExperiment, AsksForWhatTheBenchCanDo) {
+  const auto left = candidates({{"delay", 0.5}, {"sensor_lowpass", 0.5}});
+  const std::vector<std::string> set{"delay", "sensor_lowpass"};
+  EXPECT_EQ(next_experiment(left, set, {}, {"tilt", "other_sampling_rate"}).name,
+            "other_sampling_rate");
+  EXPECT_EQ(next_experiment(left, set, {}, {"tilt"}).name, "none");
+}
+
+TEST(NextExperiment, KnowsTheNamesOfItsMenu) {
+  EXPECT_NO_THROW(check_menu_names({"tilt", "wide_band"}));
+  try {
+    check_menu_names({"wide_bend"});
+    FAIL();
+  } catch (const signals::UserError& error) {
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("'wide_bend'"), testing::HasSubstr("wide_band")));
+  }
 }
 
 TEST(NextExperiment, AsksForNothingWhenNothingIsLeftToSplit) {
