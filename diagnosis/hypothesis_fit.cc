@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/climb.h"
 #include "diagnosis/fit_posterior.h"
 #include "diagnosis/ramp_share.h"
 #include "diagnosis/retune_choices.h"
@@ -12,14 +13,6 @@
 
 namespace vibrissa::diagnosis {
 namespace {
-
-void clamp(const std::vector<FreeFigure>& figures, Eigen::VectorXd& x) {
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    const Prior& prior = figures[i].description.prior;
-    double& value = x(static_cast<Eigen::Index>(i));
-    value = std::clamp(value, prior.low, prior.high);
-  }
-}
 
 /// Coordinates to start from: noise as guessed, nuisances nominal or as in start, effects at one of
 /// their own starts or as in start.
@@ -79,33 +72,15 @@ std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
   return starts;
 }
 
-/// Step of the figures that are not held at a bound.
-Eigen::VectorXd damped_step(const std::vector<FreeFigure>& figures, const Eigen::VectorXd& x,
-                            const Eigen::VectorXd& gradient, const Eigen::MatrixXd& information,
-                            double damping) {
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Prior& prior = figures[static_cast<std::size_t>(i)].description.prior;
-    const bool at_low = x(i) <= prior.low && gradient(i) < 0.;
-    const bool at_high = x(i) >= prior.high && gradient(i) > 0.;
-    if (!at_low && !at_high) free.push_back(i);
+/// The one effect that start does not hold; nothing where there are more or none.
+const Effect* only_new_effect(const Hypothesis& hypothesis, const HypothesisFit* start) {
+  const Effect* found = nullptr;
+  for (const Effect* effect : hypothesis.effects()) {
+    if (start != nullptr && start->hypothesis.contains(effect->id)) continue;
+    if (found != nullptr) return nullptr;
+    found = effect;
   }
-  Eigen::MatrixXd matrix = information(free, free);
-  matrix.diagonal() *= 1. + damping;
-  const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-  const Eigen::VectorXd part =
-      scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * gradient(free));
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(x.size());
-  for (std::size_t i = 0; i < free.size(); ++i) step(free[i]) = part(static_cast<Eigen::Index>(i));
-  // Fisher scoring far from the optimum overshoots in logarithms.
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Parameter& parameter = figures[static_cast<std::size_t>(i)].description;
-    const double range = parameter.prior.high - parameter.prior.low;
-    const double most = std::min(0.25 * range, parameter.largest_step);
-    step(i) = std::clamp(step(i), -most, most);
-  }
-  return step;
+  return found;
 }
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix, double& log_determinant) {
@@ -116,75 +91,6 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix, double& log_determinant) 
   log_determinant = values.array().log().sum() - 2. * scale.array().log().sum();
   return scale.asDiagonal() * solver.eigenvectors() * values.cwiseInverse().asDiagonal() *
          solver.eigenvectors().transpose() * scale.asDiagonal();
-}
-
-/// Where a climb stands.
-struct Climb {
-  Eigen::VectorXd x;
-  std::vector<Prediction> predictions;
-  double log_posterior = -std::numeric_limits<double>::infinity();
-  double damping = 1e-3;
-  bool ended = false;
-  int n_iterations = 0;
-};
-
-Climb begin_climb(FitPosterior& posterior, const Eigen::VectorXd& x) {
-  Climb climb{.x = x, .predictions = posterior.predict(x)};
-  posterior.renew_slow_variance(x, climb.predictions);
-  climb.log_posterior = posterior.log_likelihood(x, climb.predictions) + posterior.log_prior(x);
-  return climb;
-}
-
-void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, Climb& climb,
-              int n_iterations, const FitOptions& options) {
-  // This many further gains like the last one would not do.
-  constexpr double n_hopeful_gains = 15.;
-  Eigen::VectorXd gradient;
-  Eigen::MatrixXd information;
-  for (int i = 0; i < n_iterations && !climb.ended; ++i, ++climb.n_iterations) {
-    posterior.renew_slow_variance(climb.x, climb.predictions);
-    climb.log_posterior =
-        posterior.log_likelihood(climb.x, climb.predictions) + posterior.log_prior(climb.x);
-    posterior.linearise(climb.x, climb.predictions, gradient, information);
-    climb.ended = true;
-    for (int attempt = 0; attempt < 5; ++attempt) {
-      Eigen::VectorXd x =
-          climb.x + damped_step(figures, climb.x, gradient, information, climb.damping);
-      clamp(figures, x);
-      std::vector<Prediction> there = posterior.predict(x);
-      const double value = posterior.log_likelihood(x, there) + posterior.log_prior(x);
-      if (!(value > climb.log_posterior)) {
-        climb.damping = std::max(1e-2, climb.damping * 8.);
-        continue;
-      }
-      const double gain = value - climb.log_posterior;
-      const bool hopeless =
-          climb.n_iterations >= 3 && value + n_hopeful_gains * gain < options.to_beat;
-      climb.ended = gain < options.tolerance || hopeless;
-      climb.x = x;
-      climb.predictions = std::move(there);
-      climb.log_posterior = value;
-      climb.damping = std::max(1e-6, climb.damping * 0.2);
-      break;
-    }
-  }
-}
-
-/// A few iterations from the most promising starts tell which basin is the best.
-Climb best_start(FitPosterior& posterior, const std::vector<FreeFigure>& figures,
-                 const std::vector<Eigen::VectorXd>& starts, const FitOptions& options) {
-  constexpr std::size_t n_promising = 2;
-  constexpr int n_first_iterations = 3;
-  std::vector<Climb> climbs;
-  for (const Eigen::VectorXd& x : starts) climbs.push_back(begin_climb(posterior, x));
-  const auto better = [](const Climb& a, const Climb& b) {
-    return a.log_posterior > b.log_posterior;
-  };
-  std::sort(climbs.begin(), climbs.end(), better);
-  climbs.resize(std::min(climbs.size(), n_promising));
-  for (Climb& climb : climbs) climb_on(posterior, figures, climb, n_first_iterations, options);
-  std::sort(climbs.begin(), climbs.end(), better);
-  return std::move(climbs.front());
 }
 
 /// Of each record.
@@ -256,10 +162,11 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   fit.figures = make_figures(experiment, hypothesis);
   FitPosterior posterior(experiment, fit.figures, fit.hypothesis);
   // Retunes of another fit may have taken up what an effect does: both basins are looked at.
+  const Effect* started = only_new_effect(hypothesis, start);
   const auto climb_from = [&](bool nominal_nuisances) {
-    return best_start(posterior, fit.figures,
+    return best_start(experiment, posterior, fit.figures,
                       start_vectors(experiment, fit.figures, hypothesis, start, nominal_nuisances),
-                      options);
+                      started, options);
   };
   Climb climb = climb_from(true);
   if (start != nullptr) {

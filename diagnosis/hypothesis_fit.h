@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/climb.h"
 #include "diagnosis/experiment.h"
 #include "diagnosis/fit_figures.h"
 #include "diagnosis/fit_posterior.h"
@@ -57,14 +58,6 @@ struct HypothesisFit {
   /// Value and standard deviation of an effect's parameter (of x).
   std::optional<std::size_t> place(const std::string& effect, std::size_t parameter) const;
   Chain chain(const Experiment& experiment) const;
-};
-
-struct FitOptions {
-  int max_iterations = 14;
-  /// Ends when an iteration gains less log posterior than this.
-  double tolerance = 0.1;
-  /// Log posterior that another hypothesis has reached: a climb that is hopelessly below gives up.
-  double to_beat = -std::numeric_limits<double>::infinity();
 };
 
 /// Maximum posterior fit to all records of the experiment by Fisher scoring: DFT bins are

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "diagnosis/fit_figures.h"
+#include "diagnosis/fit_posterior.h"
+
+namespace vibrissa::diagnosis {
+
+struct FitOptions {
+  int max_iterations = 14;
+  /// Ends when an iteration gains less log posterior than this.
+  double tolerance = 0.1;
+  /// Log posterior that another hypothesis has reached: a climb that is hopelessly below gives up.
+  double to_beat = -std::numeric_limits<double>::infinity();
+};
+
+/// Sets coordinates that lie outside their prior's bounds to these.
+void clamp(const std::vector<FreeFigure>& figures, Eigen::VectorXd& x);
+
+/// Where a climb stands.
+struct Climb {
+  Eigen::VectorXd x;
+  std::vector<Prediction> predictions;
+  double log_posterior = -std::numeric_limits<double>::infinity();
+  double damping = 1e-3;
+  bool ended = false;
+  int n_iterations = 0;
+};
+
+/// Fisher scoring with damping (Levenberg and Marquardt) from where the climb stands. Proven by
+/// tests/diagnosis/search_test.cc.
+void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, Climb& climb,
+              int n_iterations, const FitOptions& options);
+
+/// A few iterations from the most promising starts, and from that of the best shape, tell which
+/// basin is the best. started: the one effect whose starts these are; nothing: several.
+Climb best_start(const Experiment& experiment, FitPosterior& posterior,
+                 const std::vector<FreeFigure>& figures, const std::vector<Eigen::VectorXd>& starts,
+                 const Effect* started, const FitOptions& options);
+
+}  // namespace vibrissa::diagnosis
