@@ -107,7 +107,7 @@ void ElementMatrices::stiffness(const materials::Material& material, CellMatrix&
       }
     }
   }
-  matrix.noalias() += material.volumetric.tangent() * divergence_.transpose() *
+  matrix.noalias() += material.volumetric.tangent(0.) * divergence_.transpose() *
                       projection_mass_.llt().solve(divergence_);
 }
 

@@ -8,7 +8,7 @@ InternalForce::InternalForce(const SolidSpace& space,
                              const std::map<std::string, materials::Material>& materials)
     : space_(space) {
   for (const auto& [name, material] : materials) {
-    laws_[name] = {ElementMatrices::isochoric_tangent(material), material.volumetric.tangent()};
+    laws_[name] = {ElementMatrices::isochoric_tangent(material), material.volumetric.tangent(0.)};
   }
   cells_.reserve(space.dofs().get_triangulation().n_active_cells());
 }
