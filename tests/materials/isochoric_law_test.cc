@@ -221,6 +221,33 @@ TYPED_TEST(IsochoricLaws, TangentAtRestIsTwoShearModuliOnTheDeviator) {
   EXPECT_EQ(this->law.energy(Strain()), 0.);
 }
 
+TYPED_TEST(IsochoricLaws, ManyPointsAtOnceAreTheSameAsOneByOne) {
+  auto strains = finite_strains();
+  strains.push_back(Strain());
+  strains.push_back(Strain({-1., 0., 0., 0., 0., 0.}));
+  ASSERT_EQ(strains.size(), static_cast<std::size_t>(n_lanes));
+  Lanes e[6], energy, stress[6], tangent[21];
+  for (unsigned int q = 0; q < n_lanes; ++q)
+    for (unsigned int m = 0; m < 6; ++m) e[m][q] = strains[q].access_raw_entry(m);
+  isochoric_stress(this->law, e, energy, stress);
+  isochoric_tangent(this->law, e, tangent);
+  for (unsigned int q = 0; q < n_lanes; ++q) {
+    const Stress s = this->law.stress(strains[q]);
+    const Tangent t = this->law.tangent(strains[q]);
+    if (q + 1 == n_lanes) {
+      EXPECT_TRUE(std::isnan(energy[q]) && std::isnan(stress[0][q]) && std::isnan(tangent[0][q]));
+      continue;
+    }
+    EXPECT_NEAR(energy[q], this->law.energy(strains[q]), 1e-14 * energy[q]);
+    unsigned int entry = 0;
+    for (unsigned int m = 0; m < 6; ++m) {
+      EXPECT_NEAR(stress[m][q], s.access_raw_entry(m), 1e-14 * s.norm());
+      for (unsigned int n = m; n < 6; ++n)
+        EXPECT_NEAR(tangent[entry++][q], t.access_raw_entry(6 * m + n), 1e-14 * t.norm());
+    }
+  }
+}
+
 TYPED_TEST(IsochoricLaws, AStrainOfNoDeformationGivesNotANumber) {
   const auto diagonal_c = [](const double c0, const double c1, const double c2) {
     return Strain({0.5 * (c0 - 1.), 0.5 * (c1 - 1.), 0.5 * (c2 - 1.), 0., 0., 0.});
