@@ -18,7 +18,8 @@ TangentMatrix::TangentMatrix(const SolidSpace& space, const Matrix& mass,
     }
     start_.push_back(columns_.size());
   }
-  values_.assign(9 * columns_.size(), 0.);
+  own_values_.assign(9 * columns_.size(), 0.);
+  values_ = own_values_.data();
   make_matrix(pattern);
   find_places(pattern);
   find_held(held);
@@ -46,6 +47,10 @@ void TangentMatrix::make_matrix(const NodePattern& pattern) {
   check_petsc(MatSetOption(raw, MAT_ROW_ORIENTED, PETSC_FALSE), "MatSetOption");
   matrix_ = wrapped(raw, communicator);
   finish();
+  PetscBool alone = PETSC_FALSE;
+  check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(raw), MATSEQSBAIJ, &alone),
+              "PetscObjectTypeCompare");
+  if (alone) own_values_.clear();
 }
 
 void TangentMatrix::find_places(const NodePattern& pattern) {
@@ -108,8 +113,16 @@ void TangentMatrix::read_mass(const NodePattern& pattern, const Matrix& mass) {
   }
 }
 
+// One process works on PETSc's own memory, whose blocks lie in the same order.
+void TangentMatrix::open_values() {
+  if (!own_values_.empty()) return;
+  const Mat raw = *matrix_;
+  check_petsc(MatSeqSBAIJGetArray(raw, &values_), "MatSeqSBAIJGetArray");
+}
+
 void TangentMatrix::start(const double mass_factor) {
-  double* to = values_.data();
+  open_values();
+  double* to = values_;
   for (const double mass : mass_) {
     for (std::size_t entry = 0; entry < 9; ++entry) {
       to[entry] = entry % 4 == 0 ? mass_factor * mass : 0.;
@@ -133,7 +146,7 @@ void TangentMatrix::add(const std::size_t cell, const double factor,
       const double below[3] = {lower[n_nodes], lower[2 * n_nodes], lower[4 * n_nodes]};
       const double* const right = place->transposed ? below : above;
       const double* const left = place->transposed ? above : below;
-      double* const to = values_.data() + 9 * static_cast<std::size_t>(place->block);
+      double* const to = values_ + 9 * static_cast<std::size_t>(place->block);
       to[0] += factor * upper[0];
       to[1] += factor * left[0];
       to[2] += factor * left[1];
@@ -151,11 +164,16 @@ void TangentMatrix::finish(const double diagonal_of_held) {
   for (const auto place : held_) values_[place] = 0.;
   for (const auto place : diagonal_of_held_) values_[place] = diagonal_of_held;
   const Mat raw = *matrix_;
+  if (own_values_.empty()) {
+    check_petsc(MatSeqSBAIJRestoreArray(raw, &values_), "MatSeqSBAIJRestoreArray");
+    matrix_->compress(dealii::VectorOperation::insert);
+    return;
+  }
   for (std::size_t row = 0; row + 1 < start_.size(); ++row) {
     const PetscInt node = first_row_ + static_cast<PetscInt>(row);
     const auto n = static_cast<PetscInt>(start_[row + 1] - start_[row]);
     check_petsc(MatSetValuesBlocked(raw, 1, &node, n, columns_.data() + start_[row],
-                                    values_.data() + 9 * start_[row], INSERT_VALUES),
+                                    values_ + 9 * start_[row], INSERT_VALUES),
                 "MatSetValuesBlocked");
   }
   matrix_->compress(dealii::VectorOperation::insert);

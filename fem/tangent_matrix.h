@@ -43,6 +43,7 @@ class TangentMatrix {
   void make_matrix(const NodePattern& pattern);
   void find_places(const NodePattern& pattern);
   void find_held(const dealii::IndexSet& held);
+  void open_values();
   void read_mass(const NodePattern& pattern, const Matrix& mass);
 
   const SolidSpace& space_;
@@ -53,7 +54,8 @@ class TangentMatrix {
   std::vector<std::array<Place, n_pairs>> cells_;
   std::vector<double> mass_;  // of one component, of each block
   std::vector<std::size_t> held_, diagonal_of_held_;
-  std::vector<double> values_;  // [block][3 component of the column + component of the row]
+  std::vector<double> own_values_;  // with several processes
+  double* values_ = nullptr;        // [block][3 component of the column + component of the row]
 };
 
 }  // namespace vibrissa::fem
