@@ -1,7 +1,11 @@
 #include <benchmark/benchmark.h>
 #include <deal.II/base/parameter_handler.h>
 
+#include <cmath>
+#include <vector>
+
 #include "fem/internal_force.h"
+#include "fem/nonlinear_transient.h"
 #include "fem/sensor.h"
 #include "fem/solver_session.h"
 #include "meshes/sensor_mesh.h"
@@ -24,7 +28,7 @@ struct Problem {
     u = space->make_vector();
     for (const auto i : u.locally_owned_elements()) {
       const double z = space->rotation(1)[i];
-      u[i] = 0.5 * z * z;
+      u[i] = 1e-3 * z * z;
     }
     u.compress(dealii::VectorOperation::insert);
     fem::zero_entries(u, space->clamped());
@@ -62,8 +66,72 @@ void tangent(benchmark::State& state) {
   problem.count(state);
 }
 
+void factorisation(benchmark::State& state) {
+  Problem problem;
+  problem.tangent->start(1e6);
+  problem.operators.internal_force->add_tangent(1., problem.u, *problem.tangent);
+  problem.tangent->finish();
+  fem::CholeskySolver solver(problem.tangent->matrix());
+  for (auto _ : state) {
+    state.PauseTiming();
+    problem.tangent->start(1e6);
+    problem.operators.internal_force->add_tangent(1., problem.u, *problem.tangent);
+    problem.tangent->finish();
+    state.ResumeTiming();
+    solver.refactor();
+  }
+  problem.count(state);
+}
+
+void solution(benchmark::State& state) {
+  Problem problem;
+  problem.tangent->start(1e6);
+  problem.operators.internal_force->add_tangent(1., problem.u, *problem.tangent);
+  problem.tangent->finish();
+  const fem::CholeskySolver solver(problem.tangent->matrix());
+  fem::Vector x(problem.u);
+  for (auto _ : state) solver.solve_once(problem.u, x);
+  problem.count(state);
+}
+
+/// The whisker sensor at 1.2 g and 27.2 Hz, 1 ms a step, from rest.
+void step_at_resonance(benchmark::State& state) {
+  dealii::ParameterHandler prm;
+  fem::SensorParameters parameters;
+  materials::SensorMaterials::declare(prm);
+  parameters.materials.parse(prm);
+  const fem::Sensor sensor(parameters);
+  const auto n_samples = static_cast<std::size_t>(state.range(0));
+  std::vector<double> a(n_samples);
+  for (std::size_t i = 0; i < n_samples; ++i) {
+    a[i] = 1.2 * 9.81 * std::sin(2. * 3.14159265358979 * 27.2e-3 * static_cast<double>(i));
+  }
+  fem::NonlinearOutput output;
+  for (auto _ : state) {
+    output = fem::simulate_nonlinear(sensor, {1000., n_samples, a, {}, {}});
+  }
+  const auto per_step = [&](const std::size_t n) {
+    return static_cast<double>(n) / static_cast<double>(output.n_steps);
+  };
+  double work = 0., error = 0.;
+  for (const auto& energy : output.energy) {
+    work = std::max(work, std::abs(energy.work_j));
+    error = std::max(error, std::abs(energy.error_j(output.energy.front())));
+  }
+  state.counters["unknowns"] = static_cast<double>(sensor.space().n_dofs());
+  state.counters["iterations_a_step"] = per_step(output.n_iterations);
+  state.counters["factorisations_a_step"] = per_step(output.n_factorisations);
+  state.counters["energy_error"] = error / work;
+  state.counters["s_a_step"] =
+      benchmark::Counter(static_cast<double>(state.iterations() * output.n_steps),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 BENCHMARK(residual)->Unit(benchmark::kMillisecond);
 BENCHMARK(tangent)->Unit(benchmark::kMillisecond);
+BENCHMARK(factorisation)->Unit(benchmark::kMillisecond);
+BENCHMARK(solution)->Unit(benchmark::kMillisecond);
+BENCHMARK(step_at_resonance)->Arg(200)->Iterations(1)->Unit(benchmark::kSecond);
 
 }  // namespace
 

@@ -2,6 +2,9 @@
 
 #include <Eigen/Dense>
 
+#include "signals/error.h"
+#include "signals/number_text.h"
+
 namespace vibrissa::fem {
 
 namespace {
@@ -32,6 +35,14 @@ Eigen::Matrix<double, 3, CellIntegrals::n_points> whitened(const dealii::FEValue
 }  // namespace
 
 void CellIntegrals::fill(const dealii::FEValues<3>& values) {
+  for (const unsigned int q : values.quadrature_point_indices()) {
+    if (values.JxW(q) > 0.) continue;
+    const auto& x = values.quadrature_point(q);
+    throw signals::UserError("the mesh has a cell that is turned inside out or flat, near x = " +
+                             signals::to_text(x[0]) + ", y = " + signals::to_text(x[1]) +
+                             ", z = " + signals::to_text(x[2]) +
+                             " m; mend the mesh (check the order of its vertices)");
+  }
   gradient.fill(0.);
   weight.fill(0.);
   psi.fill(0.);

@@ -23,7 +23,8 @@ struct CellIntegrals {
   alignas(64) std::array<double, n_linear * row> psi;           // [m][point]
   double volume;                                                // m^3
 
-  /// values: of the cell, with gradients, points and weights at QGauss(3).
+  /// values: of the cell, with gradients, points and weights at QGauss(3). Throws UserError for a
+  /// cell that is turned inside out, with its place.
   void fill(const dealii::FEValues<3>& values);
 };
 

@@ -26,8 +26,8 @@ bool evaluate(BalanceProblem& problem, Point& point) {
   return std::isfinite(point.scale) && std::isfinite(point.force.l2_norm());
 }
 
-/// Moves `next` along the step until the force along it has fallen enough; false when it never does.
-/// The force is a decreasing function of the length at first: false position with bisection
+/// Moves `next` along the step until the force along it has fallen enough; false when it never
+/// does. The force is a decreasing function of the length at first: false position with bisection
 /// (Illinois), bisection alone out of states without energy.
 bool search(BalanceProblem& problem, const Point& at, const Vector& step, Point& next,
             double& length) {
@@ -65,9 +65,27 @@ bool search(BalanceProblem& problem, const Point& at, const Vector& step, Point&
   return false;
 }
 
+/// The tangent at u, or where that will not do, of the state in balance.
+bool renew_tangent(BalanceProblem& problem, const Vector& in_balance, const Vector& u,
+                   NewtonReport& report) {
+  const bool first = report.n_factorisations == 0;
+  for (const Vector* at : {first ? &in_balance : &u, &in_balance}) {
+    try {
+      ++report.n_factorisations;
+      problem.factorise(*at);
+      return true;
+    } catch (const IndefiniteMatrix&) {
+      if (first) break;
+    }
+  }
+  report.failure = "the tangent stiffness is not positive definite";
+  return false;
+}
+
 }  // namespace
 
-NewtonReport solve_balance(BalanceProblem& problem, Vector& u, const NewtonOptions& options) {
+NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Vector& u,
+                           const NewtonOptions& options) {
   // Steps this small next to the displacement are rounding.
   constexpr double rounding = 1e-12;
   NewtonReport report;
@@ -81,15 +99,7 @@ NewtonReport solve_balance(BalanceProblem& problem, Vector& u, const NewtonOptio
   bool fresh = false, renew = !problem.is_factorised();
   for (unsigned int i = 0; i < options.max_iterations; ++i) {
     if (at.residual() <= options.tolerance) break;
-    if (renew) {
-      try {
-        problem.factorise(at.u);
-      } catch (const IndefiniteMatrix&) {
-        report.failure = "the tangent stiffness is not positive definite";
-        return report;
-      }
-      ++report.n_factorisations;
-    }
+    if (renew && !renew_tangent(problem, in_balance, at.u, report)) return report;
     fresh = renew;
     problem.solve(at.force, step);
     double length = 0.;
@@ -111,9 +121,9 @@ NewtonReport solve_balance(BalanceProblem& problem, Vector& u, const NewtonOptio
   }
   u = at.u;
   constexpr double of_rounding = 1e-6;
-  report.converged = at.residual() <= options.tolerance ||
-                     (step.linfty_norm() <= rounding * at.u.linfty_norm() &&
-                      at.residual() <= of_rounding);
+  report.converged =
+      at.residual() <= options.tolerance ||
+      (step.linfty_norm() <= rounding * at.u.linfty_norm() && at.residual() <= of_rounding);
   if (!report.converged) report.failure = "the iteration ran out";
   return report;
 }

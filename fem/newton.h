@@ -36,10 +36,11 @@ struct NewtonReport {
   std::string history() const;
 };
 
-/// Newton's iteration from u, which it changes. The tangent of an earlier call is used as long as it
-/// converges. Steps are shortened until the force along them has fallen (T13.1), and out of states
-/// that have no energy; u is left at the last state that has one.
-/// Proven by tests/fem/newton_test.cc and static_solution_test.cc.
-NewtonReport solve_balance(BalanceProblem& problem, Vector& u, const NewtonOptions& options = {});
+/// Newton's iteration from u, which it changes. The tangent of an earlier call is used as long as
+/// it converges. Steps are shortened until the force along them has fallen (T13.1), and out of
+/// states that have no energy; u is left at the last state that has one. Proven by
+/// tests/fem/newton_test.cc and static_solution_test.cc.
+NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Vector& u,
+                           const NewtonOptions& options = {});
 
 }  // namespace vibrissa::fem

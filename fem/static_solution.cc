@@ -86,7 +86,8 @@ class StaticProblem : public BalanceProblem {
       "the static load does not come to balance: " + signals::to_text(100. * share) +
       " % of it do, an increment of " + signals::to_text(100. * increment) + " % more does not (" +
       report.failure + "; out-of-balance force over force: " + report.history() +
-      "). Lower the load, look for a material that is too soft for it or for distorted cells of the "
+      "). Lower the load, look for a material that is too soft for it or for distorted cells of "
+      "the "
       "mesh, or allow smaller increments");
 }
 
@@ -104,7 +105,7 @@ StaticSolution solve_static(const SolidSpace& space, const SolidOperators& opera
     Vector next(u);
     next.add(target - share, rate);
     problem.set_share(target);
-    const NewtonReport report = solve_balance(problem, next, options.newton);
+    const NewtonReport report = solve_balance(problem, u, next, options.newton);
     solution.n_iterations += static_cast<unsigned int>(report.residuals.size());
     solution.n_factorisations += report.n_factorisations;
     if (!report.converged) {

@@ -36,8 +36,8 @@ struct StaticSolution {
 
 /// Equilibrium at finite strain by Newton's iteration (newton.h) in increments of the load, which
 /// are halved on failure and doubled on success, each begun from the extrapolation of those before.
-/// Throws UserError with the share of the load reached, the last residuals and advice when the least
-/// increment fails. Proven by tests/fem/static_solution_test.cc.
+/// Throws UserError with the share of the load reached, the last residuals and advice when the
+/// least increment fails. Proven by tests/fem/static_solution_test.cc.
 StaticSolution solve_static(const SolidSpace& space, const SolidOperators& operators,
                             const StaticLoad& load, const StaticOptions& options = {});
 
