@@ -14,7 +14,7 @@ namespace {
 
 using namespace vibrissa;
 
-/// The whisker sensor at resolution 2 (22k unknowns), bent.
+/// The whisker sensor at resolution 2 (22k unknowns), bent a little (more would buckle it).
 struct Problem {
   Problem() {
     dealii::ParameterHandler prm;
@@ -28,7 +28,7 @@ struct Problem {
     u = space->make_vector();
     for (const auto i : u.locally_owned_elements()) {
       const double z = space->rotation(1)[i];
-      u[i] = 1e-3 * z * z;
+      u[i] = 1e-6 * z * z;
     }
     u.compress(dealii::VectorOperation::insert);
     fem::zero_entries(u, space->clamped());
@@ -131,7 +131,7 @@ BENCHMARK(residual)->Unit(benchmark::kMillisecond);
 BENCHMARK(tangent)->Unit(benchmark::kMillisecond);
 BENCHMARK(factorisation)->Unit(benchmark::kMillisecond);
 BENCHMARK(solution)->Unit(benchmark::kMillisecond);
-BENCHMARK(step_at_resonance)->Arg(200)->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK(step_at_resonance)->Arg(30)->Iterations(1)->Unit(benchmark::kSecond);
 
 }  // namespace
 
