@@ -21,19 +21,26 @@ struct SolidLoad {
 };
 
 /// Moment that the sensor exerts on the support about the base centre, components along x, y, z
-/// [N m]; reference configuration (small rotations).
+/// [N m]; in the reference configuration (small rotations) unless stated.
 class BaseMoment {
  public:
   BaseMoment(const SolidSpace& space, const SolidOperators& operators);
 
   /// By the clamp's reactions: -sum over clamp nodes of X x (K u + C v + M (u'' + r a_b) - f).
   std::array<double, 3> by_reactions(const SolidState& state, const SolidLoad& load) const;
+  /// At finite strain: with the elastic forces of all rows, and by balance about the base centre in
+  /// the deformed state, X + u for X.
+  std::array<double, 3> by_reactions(const SolidState& state, const SolidLoad& load,
+                                     const Vector& elastic_force) const;
+  std::array<double, 3> by_balance_when_deformed(const SolidState& state,
+                                                 const SolidLoad& load) const;
   /// By the balance of angular momentum: sum over all nodes of X x (f - M (u'' + r a_b) - C v); the
   /// last term is the moment of damping forces that act from outside, zero for material damping.
   std::array<double, 3> by_balance(const SolidState& state, const SolidLoad& load) const;
 
  private:
   Vector inertia_force(const SolidState& state, const SolidLoad& load) const;
+  Vector force_from_outside(const SolidState& state, const SolidLoad& load) const;
 
   const SolidSpace& space_;
   const SolidOperators& operators_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -14,5 +15,13 @@ namespace vibrissa::fem {
 void write_calculix(const std::filesystem::path& file, const SolidSpace& space,
                     const std::map<std::string, materials::Material>& materials,
                     unsigned int n_modes);
+
+/// The same mesh at finite strain (*HYPERELASTIC, NLGEOM) under a body force: a *STATIC step that
+/// prints the displacements [mm] of all nodes and the clamp's reactions [N]. Quadratic volumetric
+/// laws only.
+void write_calculix_static(const std::filesystem::path& file, const SolidSpace& space,
+                           const std::map<std::string, materials::Material>& materials,
+                           const std::array<double, 3>& body_acceleration_m_s2,
+                           double first_increment);
 
 }  // namespace vibrissa::fem

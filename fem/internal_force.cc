@@ -1,67 +1,102 @@
 #include "fem/internal_force.h"
 
-#include "fem/element_matrices.h"
+#include <deal.II/dofs/dof_tools.h>
+
+#include <limits>
 
 namespace vibrissa::fem {
 
 InternalForce::InternalForce(const SolidSpace& space,
                              const std::map<std::string, materials::Material>& materials)
-    : space_(space) {
-  for (const auto& [name, material] : materials) {
-    laws_[name] = {ElementMatrices::isochoric_tangent(material), material.volumetric.tangent()};
-  }
+    : space_(space), materials_(materials) {
+  dealii::DoFTools::extract_locally_relevant_dofs(space.dofs(), relevant_);
+  relevant_.fill_index_vector(local_dofs_);
   cells_.reserve(space.dofs().get_triangulation().n_active_cells());
 }
 
 void InternalForce::append(const CellNodes& nodes, const std::string& region,
-                           const ElementMatrices& element) {
-  Cell& data = cells_.emplace_back();
-  for (unsigned int node = 0; node < nodes.size(); ++node) {
-    for (unsigned int c = 0; c < 3; ++c) {
-      data.unknowns[3 * node + c] =
-          3 * static_cast<dealii::types::global_dof_index>(nodes[node]) + c;
+                           const CellIntegrals& integrals, const bool owned) {
+  Cell& cell = cells_.emplace_back();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto first = 3 * static_cast<dealii::types::global_dof_index>(nodes[i]);
+    cell.nodes[i] = static_cast<unsigned int>(relevant_.index_within_set(first));
+  }
+  cell.global_nodes = nodes;
+  cell.integrals = integrals;
+  cell.material = &materials_.at(region);
+  cell.owned = owned;
+}
+
+InternalForce::Values InternalForce::known_values(const Vector& u) const {
+  Values values(local_dofs_.size());
+  if (local_dofs_.size() == u.size()) {
+    u.extract_subvector_to(local_dofs_.begin(), local_dofs_.end(), values.begin());
+  } else {
+    const Vector ghosted = space_.make_ghosted(u);
+    ghosted.extract_subvector_to(local_dofs_.begin(), local_dofs_.end(), values.begin());
+  }
+  return values;
+}
+
+CellElasticity::Nodal InternalForce::nodal_values(const Cell& cell, const Values& values) {
+  CellElasticity::Nodal nodal;
+  for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) nodal[3 * i + c] = values[cell.nodes[i] + c];
+  }
+  return nodal;
+}
+
+template <typename CellForce>
+void InternalForce::add_forces(const double factor, const Vector& u, Vector& force,
+                               const CellForce& cell_force) const {
+  const Values known = known_values(u);
+  Values sum(known.size(), 0.);
+  CellElasticity::Nodal out;
+  for (const Cell& cell : cells_) {
+    if (!cell.owned) continue;
+    cell_force(cell, nodal_values(cell, known), out);
+    for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) sum[cell.nodes[i] + c] += factor * out[3 * i + c];
     }
   }
-  for (int q = 0; q < n_points; ++q) {
-    const auto point = static_cast<unsigned int>(q);
-    data.weight[q] = element.values().JxW(point);
-    for (int node = 0; node < n_nodes; ++node) {
-      const auto& g = element.values().shape_grad(static_cast<unsigned int>(node), point);
-      for (int d = 0; d < 3; ++d) data.gradient(3 * q + d, node) = g[static_cast<unsigned>(d)];
-    }
-  }
-  data.divergence = element.divergence();
-  data.inverse_projection = element.projection_mass().inverse();
-  data.law = &laws_.at(region);
+  force.add(local_dofs_, sum);
+  force.compress(dealii::VectorOperation::add);
 }
 
 void InternalForce::add(const double factor, const Vector& u, Vector& force) const {
-  using Nodal = Eigen::Matrix<double, n_nodes, 3, Eigen::RowMajor>;
-  const Vector ghosted = space_.make_ghosted(u);
-  Nodal local, out;
-  Eigen::Matrix<double, 3 * n_points, 3> slope, traction;
-  std::array<double, SolidSpace::dofs_per_cell> buffer{};
-  for (const Cell& cell : cells_) {
-    ghosted.extract_subvector_to(cell.unknowns.begin(), cell.unknowns.end(), local.data());
-    slope.noalias() = cell.gradient * local;  // [3 q + direction][component]
-    for (int q = 0; q < n_points; ++q) {
-      const auto g = slope.middleRows<3>(3 * q);
-      Eigen::Matrix<double, 6, 1> strain;
-      strain << g(0, 0), g(1, 1), g(2, 2), g(0, 1) + g(1, 0), g(0, 2) + g(2, 0), g(1, 2) + g(2, 1);
-      const Eigen::Matrix<double, 6, 1> s = cell.weight[q] * (cell.law->isochoric * strain);
-      traction.middleRows<3>(3 * q) << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
-    }
-    out.noalias() = cell.gradient.transpose() * traction;
-    Eigen::Map<Eigen::Matrix<double, SolidSpace::dofs_per_cell, 1>> flat(out.data());
-    const Eigen::Map<const Eigen::Matrix<double, SolidSpace::dofs_per_cell, 1>> flat_u(
-        local.data());
-    flat.noalias() +=
-        cell.divergence.transpose() *
-        (cell.law->bulk_modulus * (cell.inverse_projection * (cell.divergence * flat_u)));
-    for (std::size_t i = 0; i < buffer.size(); ++i) buffer[i] = factor * out.data()[i];
-    force.add(buffer.size(), cell.unknowns.data(), buffer.data());
+  CellElasticity elasticity;
+  add_forces(factor, u, force,
+             [&](const Cell& cell, const CellElasticity::Nodal& nodal, CellElasticity::Nodal& out) {
+               elasticity.force_of_linear_model(cell.integrals, *cell.material, nodal, out);
+             });
+}
+
+double InternalForce::add_finite(const double factor, const Vector& u, Vector& force) const {
+  CellElasticity elasticity;
+  double energy = 0.;
+  add_forces(factor, u, force,
+             [&](const Cell& cell, const CellElasticity::Nodal& nodal, CellElasticity::Nodal& out) {
+               const double part = elasticity.deform(cell.integrals, *cell.material, nodal);
+               energy += part;
+               if (part == part) {
+                 elasticity.force(out);
+               } else {
+                 out.fill(std::numeric_limits<double>::quiet_NaN());
+               }
+             });
+  return dealii::Utilities::MPI::sum(energy, space_.dofs().get_communicator());
+}
+
+void InternalForce::add_tangent(const double factor, const Vector& u,
+                                TangentMatrix& tangent) const {
+  const Values known = known_values(u);
+  CellElasticity elasticity;
+  CellElasticity::Blocks blocks;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    elasticity.deform(cells_[c].integrals, *cells_[c].material, nodal_values(cells_[c], known));
+    elasticity.tangent(blocks);
+    tangent.add(c, factor, blocks);
   }
-  force.compress(dealii::VectorOperation::add);
 }
 
 }  // namespace vibrissa::fem

@@ -1,53 +1,62 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include <deal.II/base/index_set.h>
+
 #include <array>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "fem/cell_elasticity.h"
 #include "fem/node_rows.h"
 #include "fem/solid_space.h"
+#include "fem/tangent_matrix.h"
 #include "materials/material.h"
 
 namespace vibrissa::fem {
 
-/// Elastic nodal forces K u at rest, cell by cell as B^T (C B u): the forces of a cell balance each
-/// other to the rounding of its stress. The assembled matrix loses that where a stiff, slender body
-/// turns almost rigidly (its rounding is that of |K| |u|, and long lever arms add it up to a
-/// millionth of the base moment). About as fast as the assembled product. Proven by
-/// tests/fem/base_moment_test.cc.
+/// The elastic body, cell by cell (cell_elasticity.h): nodal forces, energy and tangent at finite
+/// strain, and its linearisation at rest. The forces of a cell balance each other to the rounding
+/// of its stress; an assembled matrix loses that where a stiff, slender body turns almost rigidly
+/// (its rounding is that of |K| |u|, and long lever arms add it up to a millionth of the base
+/// moment). Proven by tests/fem/base_moment_test.cc and tests/fem/internal_force_test.cc.
 class InternalForce {
  public:
   /// Without cells yet.
   InternalForce(const SolidSpace& space,
                 const std::map<std::string, materials::Material>& materials);
 
-  /// Takes over a cell of this process to which the element's integrals belong.
-  void append(const CellNodes& nodes, const std::string& region, const ElementMatrices& element);
-  /// force += factor * K u, all rows.
+  /// Takes over a cell that this process knows, to which the integrals belong.
+  void append(const CellNodes& nodes, const std::string& region, const CellIntegrals& integrals,
+              bool owned);
+
+  /// force += factor * K u, all rows; K the tangent at rest.
   void add(double factor, const Vector& u, Vector& force) const;
+  /// force += factor * dW/du, all rows; returns the energy W [J] of the whole body. Where a cell is
+  /// turned inside out or strained beyond its law both are NaN.
+  double add_finite(double factor, const Vector& u, Vector& force) const;
+  /// tangent += factor * d2W/du2; u must be a state of finite energy.
+  void add_tangent(double factor, const Vector& u, TangentMatrix& tangent) const;
 
  private:
-  static constexpr int n_nodes = SolidSpace::nodes_per_cell;
-  static constexpr int n_points = 27;
-
-  struct Law {
-    Eigen::Matrix<double, 6, 6> isochoric;  // Voigt, engineering shear strains
-    double bulk_modulus;
-  };
-
   struct Cell {
-    std::array<dealii::types::global_dof_index, SolidSpace::dofs_per_cell> unknowns;
-    Eigen::Matrix<double, 3 * n_points, n_nodes> gradient;  // [3 q + direction][node]
-    Eigen::Matrix<double, 1, n_points> weight;
-    Eigen::Matrix<double, 4, 3 * n_nodes> divergence;  // int psi div, [psi][3 node + component]
-    Eigen::Matrix4d inverse_projection;                // (int psi psi)^-1
-    const Law* law;
+    std::array<unsigned int, SolidSpace::nodes_per_cell> nodes;  // in local_dofs_, by threes
+    CellNodes global_nodes;
+    CellIntegrals integrals;
+    const materials::Material* material;
+    bool owned;
   };
+  using Values = std::vector<double>;
+
+  Values known_values(const Vector& u) const;
+  static CellElasticity::Nodal nodal_values(const Cell& cell, const Values& values);
+  template <typename CellForce>
+  void add_forces(double factor, const Vector& u, Vector& force, const CellForce& cell_force) const;
 
   const SolidSpace& space_;
-  std::map<std::string, Law> laws_;
+  std::map<std::string, materials::Material> materials_;
+  dealii::IndexSet relevant_;
+  std::vector<dealii::types::global_dof_index> local_dofs_;  // known to this process
   std::vector<Cell> cells_;
 };
 

@@ -127,8 +127,12 @@ void check_factors(KSP solver) {
     throw signals::UserError(
         "the sparse factorisation ran out of memory; lower the mesh resolution");
   }
-  if (error != MAT_FACTOR_NOERROR) {
-    throw signals::UserError(
+  // MUMPS' number of negative pivots: it goes on through them without a word.
+  constexpr PetscInt negative_pivots_info = 12;
+  PetscInt n_negative = 0;
+  check_petsc(MatMumpsGetInfog(factors, negative_pivots_info, &n_negative), "MatMumpsGetInfog");
+  if (error != MAT_FACTOR_NOERROR || n_negative > 0) {
+    throw IndefiniteMatrix(
         "the stiffness matrix is not positive definite: a part of the mesh is not held by the "
         "clamp or a material is unstable; check regions, boundaries and moduli");
   }
@@ -158,8 +162,15 @@ CholeskySolver::CholeskySolver(const Matrix& matrix, Product product)
 
 CholeskySolver::~CholeskySolver() = default;
 
+void CholeskySolver::refactor() {
+  const Mat raw = matrix_;
+  check_petsc(KSPSetOperators(factors_->solver, raw, raw), "KSPSetOperators");
+  check_petsc(KSPSetUp(factors_->solver), "KSPSetUp");
+  check_factors(factors_->solver);
+}
+
 void CholeskySolver::solve(const Vector& right_hand_side, Vector& solution) const {
-  back_substitute(right_hand_side, solution);
+  solve_once(right_hand_side, solution);
   // A slender solid has stiffnesses that differ by many orders: one step of refinement takes the
   // forces that the factors' rounding leaves unbalanced, which have long lever arms, out.
   if (product_) {
@@ -168,7 +179,7 @@ void CholeskySolver::solve(const Vector& right_hand_side, Vector& solution) cons
     matrix_.vmult(factors_->residual, solution);
   }
   factors_->residual.sadd(-1., right_hand_side);
-  back_substitute(factors_->residual, factors_->correction);
+  solve_once(factors_->residual, factors_->correction);
   solution += factors_->correction;
 }
 
@@ -180,7 +191,7 @@ Columns CholeskySolver::solve(const Columns& right_hand_sides) const {
   return solution;
 }
 
-void CholeskySolver::back_substitute(const Vector& right_hand_side, Vector& solution) const {
+void CholeskySolver::solve_once(const Vector& right_hand_side, Vector& solution) const {
   const Vec b = right_hand_side;
   const Vec x = solution;
   check_petsc(KSPSolve(factors_->solver, b, x), "KSPSolve");

@@ -8,6 +8,8 @@
 #include <functional>
 #include <memory>
 
+#include "signals/error.h"
+
 namespace vibrissa::fem {
 
 /// One back-end for one and for many processes. Vectors are not ghosted unless stated.
@@ -40,10 +42,16 @@ Columns multiply(const Matrix& matrix, const Columns& x);
 /// The sum over all processes of a small matrix.
 Columns sum_over_processes(const Columns& part, MPI_Comm communicator);
 
+/// A matrix that should have been positive definite is not.
+class IndefiniteMatrix : public signals::UserError {
+ public:
+  using signals::UserError::UserError;
+};
+
 /// Sparse Cholesky factors of a symmetric positive definite matrix (MUMPS), kept for any number of
-/// solves, each of a single vector with one step of iterative refinement. Throws signals::UserError
-/// when the matrix is not positive definite or memory runs out. The matrix must outlive the
-/// factors.
+/// solves, each of a single vector with one step of iterative refinement. Throws IndefiniteMatrix
+/// when the matrix is not positive definite, signals::UserError when memory runs out. The matrix
+/// must outlive the factors. Proven by tests/fem/newton_test.cc.
 class CholeskySolver {
  public:
   /// Product with the matrix for the refinement, where the assembled one is not exact enough;
@@ -53,13 +61,15 @@ class CholeskySolver {
   ~CholeskySolver();
   CholeskySolver(const CholeskySolver&) = delete;
   CholeskySolver& operator=(const CholeskySolver&) = delete;
+  /// Anew, after the matrix changed its values but not its pattern: keeps the order of elimination.
+  void refactor();
   void solve(const Vector& right_hand_side, Vector& solution) const;
+  /// Without refinement, for iterations that correct themselves.
+  void solve_once(const Vector& right_hand_side, Vector& solution) const;
   /// Several right-hand sides at once, without refinement: about the price of two.
   Columns solve(const Columns& right_hand_sides) const;
 
  private:
-  void back_substitute(const Vector& right_hand_side, Vector& solution) const;
-
   struct Factors;
   const Matrix& matrix_;
   Product product_;

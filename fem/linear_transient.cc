@@ -73,16 +73,12 @@ class DampedSolver {
   Eigen::LDLT<Eigen::MatrixXd> small_;
 };
 
-double sample_of(const std::span<const double> values, const std::size_t i) {
-  return values.empty() ? 0. : values[i];
-}
-
 class LinearStepper {
  public:
   LinearStepper(const Sensor& sensor, const TransientInput& input, const TransientOptions& options)
       : sensor_(sensor),
         space_(sensor.space()),
-        input_(input),
+        load_at_(sensor, input),
         alpha_(options.spectral_radius),
         dt_(1. / (input.sampling_rate_hz * options.substeps)),
         damping_(space_, sensor.operators(), sensor.modes(), sensor.damping_ratios()),
@@ -90,32 +86,18 @@ class LinearStepper {
                         *sensor.operators().clamped_stiffness, 1. - alpha_.alpha_m,
                         *sensor.operators().clamped_mass)),
         solver_(space_, *system_, undamped_product(), damping_,
-                (1. - alpha_.alpha_f) * alpha_.gamma * dt_),
-        axis_(sensor.parameters().model.axial_direction()) {
-    for (Vector* v : {&state_.displacement, &state_.velocity, &state_.acceleration, &algorithmic_,
-                      &scratch_, &load_.external_force, &load_.damping_force, &wind_before_,
-                      &wind_after_, &force_before_, &force_after_}) {
+                (1. - alpha_.alpha_f) * alpha_.gamma * dt_) {
+    for (Vector* v :
+         {&state_.displacement, &state_.velocity, &state_.acceleration, &algorithmic_, &scratch_,
+          &load_.external_force, &load_.damping_force, &force_before_, &force_after_}) {
       *v = space_.make_vector();
-    }
-    for (unsigned int d = 0; d < 3; ++d) {
-      inertia_.push_back(space_.make_vector());
-      sensor.operators().mass->vmult(inertia_[d], space_.translation(d));
     }
     enter_sample(0);
     set_load(0.);
     start();
   }
 
-  /// Forces at the sample and the one after it.
-  void enter_sample(const std::size_t i) {
-    before_ = i;
-    after_ = std::min(i + 1, input_.n_samples - 1);
-    if (input_.wind_speed.empty()) return;
-    for (auto [force, at] : {std::pair{&wind_before_, before_}, {&wind_after_, after_}}) {
-      *force = 0.;
-      sensor_.wind_surface().add_force(input_.wind_speed[at], *force);
-    }
-  }
+  void enter_sample(const std::size_t i) { load_at_.enter_sample(i); }
 
   /// One step of the integrator to the given fraction of the current sample interval.
   void step(const double fraction) {
@@ -179,21 +161,7 @@ class LinearStepper {
     algorithmic_ = state_.acceleration;
   }
 
-  void set_load(const double fraction) {
-    const auto between = [&](const std::span<const double> values) {
-      return (1. - fraction) * sample_of(values, before_) + fraction * sample_of(values, after_);
-    };
-    const double a = between(input_.base_acceleration), c = between(input_.cross_acceleration);
-    load_.base_acceleration = {a * axis_[0] - c * axis_[1], a * axis_[1] + c * axis_[0], 0.};
-    load_.external_force = 0.;
-    if (!input_.wind_speed.empty()) {
-      load_.external_force.add(1. - fraction, wind_before_, fraction, wind_after_);
-    }
-    force_after_ = load_.external_force;
-    for (unsigned int d = 0; d < 3; ++d) {
-      force_after_.add(-load_.base_acceleration[d], inertia_[d]);
-    }
-  }
+  void set_load(const double fraction) { load_at_.set(fraction, load_, force_after_); }
 
   void balance_acceleration(const Vector& next) {
     const double f = alpha_.alpha_f, m = alpha_.alpha_m;
@@ -204,20 +172,16 @@ class LinearStepper {
 
   const Sensor& sensor_;
   const SolidSpace& space_;
-  const TransientInput& input_;
+  TransientLoad load_at_;
   GeneralizedAlpha alpha_;
   double dt_;
   ModalDamping damping_;
   std::unique_ptr<Matrix> system_;
   DampedSolver solver_;
-  std::array<double, 3> axis_;
-  std::size_t before_ = 0, after_ = 0;
   SolidState state_;
   SolidLoad load_;
   Vector algorithmic_, scratch_;
-  Vector wind_before_, wind_after_;    // at the samples around
   Vector force_before_, force_after_;  // body and wind force at the step's ends, all rows
-  std::vector<Vector> inertia_;        // M r_d
 };
 
 double largest(const std::array<double, 3>& moment) {

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
-#include <memory>
-#include <span>
 #include <vector>
 
 #include "fem/base_moment.h"
 #include "fem/damping.h"
 #include "fem/sensor.h"
+#include "fem/transient_load.h"
 
 namespace vibrissa::fem {
 
@@ -19,15 +17,6 @@ struct GeneralizedAlpha {
   double alpha_m, alpha_f, beta, gamma;
   /// Throws UserError outside [0, 1].
   explicit GeneralizedAlpha(double spectral_radius);
-};
-
-/// Inputs on one uniform clock, linear between samples; empty spans are zero.
-struct TransientInput {
-  double sampling_rate_hz = 0.;
-  std::size_t n_samples = 0;
-  std::span<const double> base_acceleration;   // axial [m/s^2]
-  std::span<const double> cross_acceleration;  // along e_z x axial [m/s^2]
-  std::span<const double> wind_speed;          // along the axial direction [m/s]
 };
 
 struct TransientOptions {

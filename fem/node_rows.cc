@@ -108,9 +108,12 @@ Mat preallocated(const NodePattern& pattern, const PetscInt each, MPI_Comm commu
   return raw;
 }
 
+}  // namespace
+
 // deal.II takes no PETSc matrix over, and knows the communicator from the making of its own: an
 // empty one of the same shape, in place of which the other is put.
-void wrap(const Mat raw, MPI_Comm communicator, Matrix& matrix) {
+std::unique_ptr<Matrix> wrapped(const Mat raw, MPI_Comm communicator) {
+  auto matrix = std::make_unique<Matrix>();
   PetscInt n = 0, first = 0, end = 0;
   check_petsc(MatGetSize(raw, &n, nullptr), "MatGetSize");
   check_petsc(MatGetOwnershipRange(raw, &first, &end), "MatGetOwnershipRange");
@@ -118,12 +121,11 @@ void wrap(const Mat raw, MPI_Comm communicator, Matrix& matrix) {
   dealii::IndexSet rows(size);
   rows.add_range(static_cast<dealii::types::global_dof_index>(first),
                  static_cast<dealii::types::global_dof_index>(end));
-  matrix.reinit(rows, rows, dealii::DynamicSparsityPattern(size, size, rows), communicator);
-  check_petsc(MatDestroy(&matrix.petsc_matrix()), "MatDestroy");
-  matrix.petsc_matrix() = raw;
+  matrix->reinit(rows, rows, dealii::DynamicSparsityPattern(size, size, rows), communicator);
+  check_petsc(MatDestroy(&matrix->petsc_matrix()), "MatDestroy");
+  matrix->petsc_matrix() = raw;
+  return matrix;
 }
-
-}  // namespace
 
 NodeRows::NodeRows(const NodePattern& pattern, const Coupling coupling)
     : pattern_(pattern),
@@ -160,9 +162,8 @@ void NodeRows::add(const CellNodes& nodes, const ElementMatrices::NodeMatrix& ce
 
 std::unique_ptr<Matrix> NodeRows::matrix(MPI_Comm communicator) const {
   const bool all = coupling_ == Coupling::all_components;
-  auto matrix = std::make_unique<Matrix>();
   const Mat raw = preallocated(pattern_, all ? 3 : 1, communicator);
-  wrap(raw, communicator, *matrix);
+  auto matrix = wrapped(raw, communicator);
   std::vector<PetscInt> columns;
   PetscInt unknown = 0;
   check_petsc(MatGetOwnershipRange(raw, &unknown, nullptr), "MatGetOwnershipRange");

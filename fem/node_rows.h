@@ -16,6 +16,9 @@ using CellNodes = std::array<PetscInt, SolidSpace::nodes_per_cell>;
 CellNodes nodes_of(const SolidSpace& space,
                    const dealii::DoFHandler<3>::active_cell_iterator& cell);
 
+/// A PETSc matrix as deal.II's, which takes it over.
+std::unique_ptr<Matrix> wrapped(Mat raw, MPI_Comm communicator);
+
 /// Which nodes share a cell with each node of this process, in compressed rows: a ninth of the
 /// entries of the unknowns' pattern. Cells of other processes that touch ours are known here too,
 /// so that no process need send rows to another.

@@ -41,7 +41,7 @@ SolidOperators assemble_operators(const SolidSpace& space,
     stiffness_rows.add(nodes, stiffness);
     element.mass(material.density, mass);
     mass_rows.add(nodes, mass);
-    if (cell->is_locally_owned()) operators.internal_force->append(nodes, region, element);
+    operators.internal_force->append(nodes, region, element.integrals(), cell->is_locally_owned());
   }
   const auto communicator = space.dofs().get_communicator();
   operators.mass = mass_rows.matrix(communicator);

@@ -5,6 +5,8 @@
 #include <array>
 #include <variant>
 
+#include "materials/lanes.h"
+
 namespace vibrissa::materials {
 
 using Strain = dealii::SymmetricTensor<2, 3>;   // Green-Lagrange E = (F^T F - I)/2
@@ -36,6 +38,13 @@ struct NeoHookean {
 };
 
 using IsochoricLaw = std::variant<Yeoh, NeoHookean>;
+
+/// The same at n_lanes points at once, for assembly: components in the order 11, 22, 33, 12, 13, 23
+/// (tensor, not engineering, strains); the tangent as its upper triangle, row by row. Proven by
+/// isochoric_law_test.cc, ManyPointsAtOnceAreTheSameAsOneByOne.
+void isochoric_stress(const IsochoricLaw& law, const Lanes (&e)[6], Lanes& energy,
+                      Lanes (&stress)[6]);
+void isochoric_tangent(const IsochoricLaw& law, const Lanes (&e)[6], Lanes (&tangent)[21]);
 
 /// I1bar - 3 without cancellation near rest: error below 1e-14 |E|^2 for moderate strain, where |E|
 /// is the norm of the whole strain. Proven by isochoric_law_test.cc, I1barMinus3.

@@ -61,13 +61,13 @@ Material make_elastic(const double youngs_modulus, const double poisson_ratio, c
         "modulus: use a Yeoh rubber with a finite one instead)");
   require_body(density, loss_factor);
   return {.isochoric = NeoHookean{youngs_modulus / (2. * (1. + poisson_ratio))},
-          .volumetric = {youngs_modulus / (3. * (1. - 2. * poisson_ratio))},
+          .volumetric = {.bulk_modulus = youngs_modulus / (3. * (1. - 2. * poisson_ratio))},
           .density = density,
           .loss_factor = loss_factor};
 }
 
 Material make_yeoh(const std::array<double, 3>& c, const double bulk_modulus, const double density,
-                   const double loss_factor) {
+                   const double loss_factor, const VolumetricLaw::Kind volumetric) {
   require_positive(c[0], "c1", " Pa");
   for (const std::size_t i : {1, 2})
     if (!std::isfinite(c[i]))
@@ -82,7 +82,7 @@ Material make_yeoh(const std::array<double, 3>& c, const double bulk_modulus, co
                     "), which is no nearly incompressible rubber; raise it to " +
                     text(least, " Pa") + " or more, or lower c1");
   return {.isochoric = Yeoh{c},
-          .volumetric = {bulk_modulus},
+          .volumetric = {bulk_modulus, volumetric},
           .density = density,
           .loss_factor = loss_factor};
 }

@@ -20,10 +20,10 @@ struct Material {
   double poisson_ratio_at_rest() const;   // (3 K - 2 mu) / (2 (3 K + mu))
 };
 
-/// Isotropic elastic solid from Young's modulus [Pa] and Poisson's ratio (neo-Hookean with
-/// mu = E/(2(1+nu)), K = E/(3(1-2nu))). Throws UserError for E <= 0, nu outside (-1, 0.5),
-/// density <= 0, loss factor < 0, or any that is not finite. Proven by
-/// tests/materials/material_test.cc, MakeElastic.
+/// Isotropic elastic solid from Young's modulus [Pa] and Poisson's ratio: the compressible
+/// neo-Hookean law W = mu/2 (I1bar - 3) + K/2 (J - 1)^2, mu = E/(2(1+nu)), K = E/(3(1-2nu)). Throws
+/// UserError for E <= 0, nu outside (-1, 0.5), density <= 0, loss factor < 0, or any that is not
+/// finite. Proven by tests/materials/material_test.cc, MakeElastic.
 Material make_elastic(double youngs_modulus, double poisson_ratio, double density,
                       double loss_factor);
 
@@ -31,6 +31,7 @@ Material make_elastic(double youngs_modulus, double poisson_ratio, double densit
 /// density <= 0, loss factor < 0, any that is not finite, or a bulk modulus below ten shear moduli
 /// (not a nearly incompressible solid), with the numbers. Proven by material_test.cc, MakeYeoh.
 Material make_yeoh(const std::array<double, 3>& c, double bulk_modulus, double density,
-                   double loss_factor);
+                   double loss_factor,
+                   VolumetricLaw::Kind volumetric = VolumetricLaw::Kind::quadratic);
 
 }  // namespace vibrissa::materials

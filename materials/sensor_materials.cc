@@ -10,6 +10,7 @@ namespace {
 
 using dealii::ParameterHandler;
 using dealii::Patterns::Double;
+using dealii::Patterns::Selection;
 
 std::string text(const double value) {
   std::ostringstream out;
@@ -36,6 +37,10 @@ void declare_rubber(ParameterHandler& prm, const Material& nominal) {
   prm.declare_entry("c3", text(c[2]), Double(), "Yeoh coefficient [" + energy + "].");
   prm.declare_entry("Bulk modulus", text(nominal.volumetric.bulk_modulus), Double(10., 1e13),
                     "Bulk modulus [Pa], at least twenty c1 (ten shear moduli).");
+  prm.declare_entry(
+      "Volumetric law", "quadratic", Selection("quadratic|Hartmann-Neff"),
+      "Energy of a change of volume per undeformed volume: quadratic is K/2 (J - 1)^2, "
+      "Hartmann-Neff K/50 (J^5 + J^-5 - 2). They differ at large strain only.");
   declare_body(prm, nominal);
 }
 
@@ -50,7 +55,9 @@ void declare_elastic(ParameterHandler& prm, const Material& nominal) {
 Material parse_rubber(ParameterHandler& prm) {
   return make_yeoh({prm.get_double("c1"), prm.get_double("c2"), prm.get_double("c3")},
                    prm.get_double("Bulk modulus"), prm.get_double("Density"),
-                   prm.get_double("Loss factor"));
+                   prm.get_double("Loss factor"),
+                   prm.get("Volumetric law") == "quadratic" ? VolumetricLaw::Kind::quadratic
+                                                            : VolumetricLaw::Kind::hartmann_neff);
 }
 
 Material parse_elastic(ParameterHandler& prm) {

@@ -1,14 +1,36 @@
 #pragma once
 
+#include <cmath>
+
 namespace vibrissa::materials {
 
-/// U(J) = K/2 (J - 1)^2 per reference volume [J/m^3]; pressure dU/dJ, tangent d2U/dJ2. The argument
-/// is J - 1, so that digits survive near rest.
+/// Energy of a change of volume per reference volume [J/m^3], with dU/dJ and d2U/dJ2. Both kinds
+/// have the bulk modulus K at rest:
+///   quadratic      U = K/2 (J - 1)^2, finite at J = 0;
+///   hartmann_neff  U = K/50 (J^5 + J^-5 - 2), which grows beyond bounds as J -> 0 and is
+///                  polyconvex (Hartmann and Neff, Int. J. Solids Struct. 40, 2003, eq. 2.37).
+/// The argument is J - 1, so that digits survive near rest; NaN for J <= 0 under hartmann_neff.
+/// Proven by tests/materials/isochoric_law_test.cc, VolumetricLaws.
 struct VolumetricLaw {
+  enum class Kind { quadratic, hartmann_neff };
+
   double bulk_modulus = 0.;  // Pa
-  double energy(double j_minus_1) const { return 0.5 * bulk_modulus * j_minus_1 * j_minus_1; }
-  double pressure(double j_minus_1) const { return bulk_modulus * j_minus_1; }
-  double tangent() const { return bulk_modulus; }
+  Kind kind = Kind::quadratic;
+
+  double energy(const double j_minus_1) const {
+    if (kind == Kind::quadratic) return 0.5 * bulk_modulus * j_minus_1 * j_minus_1;
+    const double root = std::sinh(2.5 * std::log1p(j_minus_1));  // (J^2.5 - J^-2.5)/2
+    return 0.08 * bulk_modulus * root * root;
+  }
+  double pressure(const double j_minus_1) const {
+    if (kind == Kind::quadratic) return bulk_modulus * j_minus_1;
+    return 0.2 * bulk_modulus * std::sinh(5. * std::log1p(j_minus_1)) / (1. + j_minus_1);
+  }
+  double tangent(const double j_minus_1) const {
+    if (kind == Kind::quadratic) return bulk_modulus;
+    const double j = 1. + j_minus_1;
+    return bulk_modulus * (0.4 * std::pow(j, 3) + 0.6 * std::pow(j, -7));
+  }
 };
 
 }  // namespace vibrissa::materials

@@ -34,6 +34,7 @@ TEST(SensorMaterials, DefaultsAreThePapersMaterialsAsSettled) {
   EXPECT_EQ(std::get<Yeoh>(materials.silicone.isochoric).c,
             (std::array<double, 3>{3.4e5, 1.7152e5, 1.32e8}));
   EXPECT_EQ(materials.silicone.volumetric.bulk_modulus, 1.5e9);
+  EXPECT_EQ(materials.silicone.volumetric.kind, VolumetricLaw::Kind::quadratic);
   EXPECT_EQ(materials.silicone.density, 1080.);
   EXPECT_NEAR(materials.wire.youngs_modulus_at_rest(), 70e9, 1.);
   EXPECT_NEAR(materials.wire.poisson_ratio_at_rest(), 0.33, 1e-12);
@@ -49,6 +50,7 @@ TEST(SensorMaterials, EveryEntryReachesItsOwnMaterial) {
   const SensorMaterials materials =
       parsed(entry("Silicone", "c1 = 2e5") + entry("Silicone", "c2 = -3e4") +
              entry("Silicone", "c3 = 5e3") + entry("Silicone", "Bulk modulus = 1e9") +
+             entry("Silicone", "Volumetric law = Hartmann-Neff") +
              entry("Silicone", "Density = 1100") + entry("Silicone", "Loss factor = 0.12") +
              entry("Wire", "Young modulus = 60e9") + entry("Wire", "Poisson ratio = 0.3") +
              entry("Wire", "Density = 6400") + entry("Wire", "Loss factor = 0.01") +
@@ -57,6 +59,7 @@ TEST(SensorMaterials, EveryEntryReachesItsOwnMaterial) {
   const auto& [silicone, wire, fin] = materials;
   EXPECT_EQ(std::get<Yeoh>(silicone.isochoric).c, (std::array<double, 3>{2e5, -3e4, 5e3}));
   EXPECT_EQ(silicone.volumetric.bulk_modulus, 1e9);
+  EXPECT_EQ(silicone.volumetric.kind, VolumetricLaw::Kind::hartmann_neff);
   EXPECT_EQ(silicone.density, 1100.);
   EXPECT_EQ(silicone.loss_factor, 0.12);
   EXPECT_NEAR(wire.youngs_modulus_at_rest() / 60e9, 1., 1e-12);
@@ -90,6 +93,7 @@ TEST(SensorMaterials, AValueOutOfRangeIsRefusedWithItsLineAndEntry) {
   refused("Silicone", "c2 = stiff", "c2");
   refused("Silicone", "c3 = nan", "c3");
   refused("Silicone", "Bulk modulus = -1", "Bulk modulus");
+  refused("Silicone", "Volumetric law = linear", "Volumetric law");
   refused("Silicone", "Loss factor = -0.1", "Loss factor");
   refused("Wire", "Density = -6450", "Density");
   refused("Wire", "Young modulus = 0", "Young modulus");

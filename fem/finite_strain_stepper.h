@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+
+#include "fem/base_moment.h"
+#include "fem/damping.h"
+#include "fem/linear_transient.h"
+#include "fem/newton.h"
+#include "fem/solid_operators.h"
+#include "fem/solid_space.h"
+
+namespace vibrissa::fem {
+
+/// Energies [J] since the start, in the base frame (T14.3).
+struct EnergyBalance {
+  double kinetic_j = 0.;     // of the motion relative to the base
+  double stored_j = 0.;      // elastic
+  double dissipated_j = 0.;  // by damping
+  double numerical_j = 0.;   // by the integrator's own damping of high frequencies
+  double work_j = 0.;        // of the driving forces, those of the base's acceleration among them
+
+  /// What the work leaves unexplained; start: the balance at the start.
+  double error_j(const EnergyBalance& start) const;
+};
+
+/// Steps M u'' + C u' + f(u) = F by generalised-alpha (T14.1) at finite strain. The equation of
+/// motion holds at every step's end. Newton begins from the extrapolated acceleration and keeps the
+/// tangent, over steps too, as long as it converges.
+/// Proven by tests/fem/finite_strain_stepper_test.cc.
+class FiniteStrainStepper {
+ public:
+  struct Options {
+    double spectral_radius = 0.9;
+    double time_step_s = 0.;
+    NewtonOptions newton;
+  };
+
+  /// damping may be null; held: unknowns that do not move. All must outlive the stepper.
+  FiniteStrainStepper(const SolidSpace& space, const SolidOperators& operators,
+                      const dealii::IndexSet& held, const ModalDamping* damping,
+                      const Options& options);
+  ~FiniteStrainStepper();
+
+  /// Begins from a state under a force of all rows; finds the acceleration.
+  void start(const Vector& displacement, const Vector& velocity, const Vector& force);
+  /// To the end of the next step, where the force is given. Throws UserError with the time, the
+  /// residuals and advice when the forces do not come to balance.
+  void step(const Vector& force);
+
+  const SolidState& state() const { return state_; }
+  const Vector& elastic_force() const { return elastic_force_; }  // all rows
+  const Vector& damping_force() const { return damping_force_; }  // all rows
+  const EnergyBalance& energy() const { return energy_; }
+  std::size_t n_steps() const { return n_steps_; }
+  std::size_t n_iterations() const { return n_iterations_; }
+  std::size_t n_factorisations() const { return n_factorisations_; }
+
+ private:
+  class Problem;
+
+  /// The work on the way from a displacement and the mean acceleration there; before the state's
+  /// forces are those of the step's end.
+  void add_energies(const Vector& before, const Vector& mean_acceleration, const Vector& force);
+  void update_forces();
+  [[noreturn]] void give_up(const NewtonReport& report) const;
+
+  const SolidSpace& space_;
+  const SolidOperators& operators_;
+  const ModalDamping* damping_;
+  Options options_;
+  GeneralizedAlpha alpha_;
+  std::unique_ptr<Problem> problem_;
+  SolidState state_;
+  Vector algorithmic_, algorithmic_before_;  // a of (T14.1), at the last two steps
+  Vector force_, elastic_force_, damping_force_;
+  EnergyBalance energy_;
+  std::size_t n_steps_ = 0, n_iterations_ = 0, n_factorisations_ = 0;
+};
+
+}  // namespace vibrissa::fem

@@ -1,0 +1,118 @@
+#include <gmock/gmock.h>  // before deal.II, whose Assert is a macro
+
+#include "fem/newton.h"
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <cmath>
+#include <functional>
+
+namespace vibrissa::fem {
+namespace {
+
+/// One unknown: resistance r(u) against a load.
+class OneSpring : public BalanceProblem {
+ public:
+  OneSpring(std::function<double(double)> resistance, std::function<double(double)> stiffness,
+            const double load)
+      : resistance_(std::move(resistance)), stiffness_(std::move(stiffness)), load_(load) {}
+  double forces(const Vector& u, Vector& out_of_balance) override {
+    out_of_balance[0] = load_ - resistance_(u[0]);
+    out_of_balance.compress(dealii::VectorOperation::insert);
+    return std::abs(load_) + std::abs(resistance_(u[0]));
+  }
+  void factorise(const Vector& u) override {
+    factor_ = stiffness_(u[0]);
+    if (!(factor_ > 0.)) throw IndefiniteMatrix("indefinite");
+    ++n_factorisations;
+  }
+  bool is_factorised() const override { return factor_ > 0.; }
+  void solve(const Vector& out_of_balance, Vector& step) override {
+    step[0] = out_of_balance[0] / factor_;
+    step.compress(dealii::VectorOperation::insert);
+  }
+  int n_factorisations = 0;
+
+ private:
+  std::function<double(double)> resistance_, stiffness_;
+  double load_, factor_ = 0.;
+};
+
+Vector one(const double value) {
+  Vector u(MPI_COMM_SELF, 1, 1);
+  u[0] = value;
+  u.compress(dealii::VectorOperation::insert);
+  return u;
+}
+
+TEST(Newton, FindsTheRootOfAStiffeningSpringFromAfar) {
+  OneSpring spring([](double u) { return u + 1e6 * u * u * u; },
+                   [](double u) { return 1. + 3e6 * u * u; }, 1e6 + 1.);
+  Vector u = one(0.);
+  const auto report = solve_balance(spring, u, u);
+  EXPECT_TRUE(report.converged) << report.failure;
+  EXPECT_NEAR(u[0], 1., 1e-9);
+}
+
+TEST(Newton, StepsBackFromWhereThereIsNoState) {
+  OneSpring spring([](double u) { return std::log(u); }, [](double u) { return 1. / u; }, -3.);
+  Vector u = one(1.);
+  const auto report = solve_balance(spring, u, u);
+  EXPECT_TRUE(report.converged) << report.failure;
+  EXPECT_NEAR(u[0], std::exp(-3.), 1e-9);
+}
+
+TEST(Newton, KeepsATangentThatConverges) {
+  OneSpring spring([](double u) { return u + 0.01 * u * u; }, [](double) { return 1.; }, 0.1);
+  Vector u = one(0.);
+  EXPECT_TRUE(solve_balance(spring, u, u).converged);
+  EXPECT_EQ(spring.n_factorisations, 1);
+  u = one(0.05);
+  EXPECT_TRUE(solve_balance(spring, u, u).converged);
+  EXPECT_EQ(spring.n_factorisations, 1);
+}
+
+TEST(Newton, TellsAnIndefiniteTangentAndAStartOutsideTheBody) {
+  OneSpring soft([](double u) { return -u; }, [](double) { return -1.; }, 1.);
+  Vector u = one(0.);
+  EXPECT_THAT(solve_balance(soft, u, u).failure, testing::HasSubstr("not positive definite"));
+  OneSpring log([](double v) { return std::log(v); }, [](double v) { return 1. / v; }, 1.);
+  u = one(-1.);
+  EXPECT_THAT(solve_balance(log, one(1.), u).failure, testing::HasSubstr("no state of the body"));
+}
+
+TEST(Newton, TellsHowTheForcesWentWhenItRunsOut) {
+  OneSpring spring([](double u) { return std::cbrt(u); }, [](double) { return 1e3; }, 1.);
+  Vector u = one(0.);
+  NewtonOptions options;
+  options.max_iterations = 3;
+  const auto report = solve_balance(spring, u, u, options);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.residuals.size(), 4u);
+  EXPECT_THAT(report.history(), testing::HasSubstr("1, "));
+}
+
+TEST(CholeskySolver, TellsAMatrixThatHasBecomeIndefinite) {
+  dealii::DynamicSparsityPattern diagonal(6, 6);
+  for (unsigned int i = 0; i < 6; ++i) diagonal.add(i, i);
+  const dealii::IndexSet rows = dealii::complete_index_set(6);
+  Matrix matrix;
+  matrix.reinit(rows, rows, diagonal, MPI_COMM_SELF);
+  const auto fill = [&](const double last) {
+    for (unsigned int i = 0; i < 6; ++i) matrix.set(i, i, i == 5 ? last : 1.);
+    matrix.compress(dealii::VectorOperation::insert);
+  };
+  fill(2.);
+  CholeskySolver solver(matrix);
+  fill(4.);
+  solver.refactor();
+  Vector b(MPI_COMM_SELF, 6, 6), x(b);
+  b = 1.;
+  solver.solve_once(b, x);
+  EXPECT_DOUBLE_EQ(x[5], 0.25);
+  fill(-1.);
+  EXPECT_THROW(solver.refactor(), IndefiniteMatrix);
+}
+
+}  // namespace
+}  // namespace vibrissa::fem
