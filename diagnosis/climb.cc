@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/chain_simulation.h"
-
 namespace vibrissa::diagnosis {
 namespace {
 
@@ -43,25 +41,6 @@ Climb begin_climb(FitPosterior& posterior, const Eigen::VectorXd& x) {
   posterior.renew_slow_variance(x, climb.predictions);
   climb.log_posterior = posterior.log_likelihood(x, climb.predictions) + posterior.log_prior(x);
   return climb;
-}
-
-/// Likelihood that the best multiple of what an effect does at a start would gain, to first order.
-/// A start that is far too strong lies below the others although its shape is the right one.
-double gain_of_shape(const Experiment& experiment, const FitPosterior& posterior,
-                     const Eigen::VectorXd& x, const std::vector<Prediction>& with,
-                     const std::vector<Prediction>& without) {
-  const double a_variance = posterior.acceleration_variance(x);
-  double cross = 0., own = 0.;
-  for (std::size_t r = 0; r < with.size(); ++r) {
-    const std::vector<double> s = posterior.variance(x, without[r], r, a_variance);
-    for (std::size_t b = 0; b < s.size(); ++b) {
-      const Complex d = with[r].mean[b] - without[r].mean[b];
-      const Complex error = experiment.records[r].moment[b] - without[r].mean[b];
-      cross += (std::conj(d) * error).real() / s[b];
-      own += std::norm(d) / s[b];
-    }
-  }
-  return own > 0. ? cross * cross / own : 0.;
 }
 
 }  // namespace
@@ -109,9 +88,8 @@ void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, C
   }
 }
 
-Climb best_start(const Experiment& experiment, FitPosterior& posterior,
-                 const std::vector<FreeFigure>& figures, const std::vector<Eigen::VectorXd>& starts,
-                 const Effect* started, const FitOptions& options) {
+Climb best_start(FitPosterior& posterior, const std::vector<FreeFigure>& figures,
+                 const std::vector<Eigen::VectorXd>& starts, const FitOptions& options) {
   constexpr std::size_t n_promising = 2;
   constexpr int n_first_iterations = 3;
   std::vector<Climb> climbs;
@@ -120,19 +98,7 @@ Climb best_start(const Experiment& experiment, FitPosterior& posterior,
     return a.log_posterior > b.log_posterior;
   };
   std::sort(climbs.begin(), climbs.end(), better);
-  if (started != nullptr && climbs.size() > n_promising) {
-    const Chain chain = make_chain(experiment, figures, climbs.front().x, started);
-    const std::vector<Prediction> without = ChainSimulator(chain).predict(experiment.records);
-    std::vector<double> gains;
-    for (const Climb& climb : climbs)
-      gains.push_back(gain_of_shape(experiment, posterior, climb.x, climb.predictions, without));
-    const auto best = std::max_element(gains.begin(), gains.end()) - gains.begin();
-    if (static_cast<std::size_t>(best) > n_promising)
-      std::swap(climbs[n_promising], climbs[static_cast<std::size_t>(best)]);
-    climbs.resize(n_promising + 1);
-  } else {
-    climbs.resize(std::min(climbs.size(), n_promising));
-  }
+  climbs.resize(std::min(climbs.size(), n_promising));
   for (Climb& climb : climbs) climb_on(posterior, figures, climb, n_first_iterations, options);
   std::sort(climbs.begin(), climbs.end(), better);
   return std::move(climbs.front());

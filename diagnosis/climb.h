@@ -35,10 +35,8 @@ struct Climb {
 void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, Climb& climb,
               int n_iterations, const FitOptions& options);
 
-/// A few iterations from the most promising starts, and from that of the best shape, tell which
-/// basin is the best. started: the one effect whose starts these are; nothing: several.
-Climb best_start(const Experiment& experiment, FitPosterior& posterior,
-                 const std::vector<FreeFigure>& figures, const std::vector<Eigen::VectorXd>& starts,
-                 const Effect* started, const FitOptions& options);
+/// A few iterations from the most promising starts tell which basin is the best.
+Climb best_start(FitPosterior& posterior, const std::vector<FreeFigure>& figures,
+                 const std::vector<Eigen::VectorXd>& starts, const FitOptions& options);
 
 }  // namespace vibrissa::diagnosis

@@ -72,17 +72,6 @@ std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
   return starts;
 }
 
-/// The one effect that start does not hold; nothing where there are more or none.
-const Effect* only_new_effect(const Hypothesis& hypothesis, const HypothesisFit* start) {
-  const Effect* found = nullptr;
-  for (const Effect* effect : hypothesis.effects()) {
-    if (start != nullptr && start->hypothesis.contains(effect->id)) continue;
-    if (found != nullptr) return nullptr;
-    found = effect;
-  }
-  return found;
-}
-
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix, double& log_determinant) {
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
@@ -162,11 +151,10 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   fit.figures = make_figures(experiment, hypothesis);
   FitPosterior posterior(experiment, fit.figures, fit.hypothesis);
   // Retunes of another fit may have taken up what an effect does: both basins are looked at.
-  const Effect* started = only_new_effect(hypothesis, start);
   const auto climb_from = [&](bool nominal_nuisances) {
-    return best_start(experiment, posterior, fit.figures,
+    return best_start(posterior, fit.figures,
                       start_vectors(experiment, fit.figures, hypothesis, start, nominal_nuisances),
-                      started, options);
+                      options);
   };
   Climb climb = climb_from(true);
   if (start != nullptr) {

@@ -2,18 +2,6 @@
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
-namespace {
-
-/// Close enough that a light mode between two of them is seen by either.
-std::vector<std::vector<double>> starts() {
-  constexpr double lowest_hz = 48., highest_hz = 235., spacing = 1.07, damping = 0.03;
-  std::vector<std::vector<double>> out;
-  for (double f_hz = lowest_hz; f_hz < highest_hz; f_hz *= spacing)
-    for (const double residue : {0.005, -0.005}) out.push_back({f_hz, damping, residue});
-  return out;
-}
-
-}  // namespace
 
 Effect extra_mode() {
   return Effect{.id = "extra_mode",
@@ -26,7 +14,16 @@ Effect extra_mode() {
                 .parameters = {log_uniform("frequency", "Hz", 45., 240., 100.),
                                log_uniform("damping_ratio", "1", 0.004, 0.15, 0.02),
                                uniform("residue", "1", -0.15, 0.15, 0.)},
-                .starts = starts(),
+                .starts = {{60., 0.02, 0.005},
+                           {60., 0.02, -0.005},
+                           {80., 0.02, 0.005},
+                           {80., 0.02, -0.005},
+                           {105., 0.02, 0.005},
+                           {105., 0.02, -0.005},
+                           {140., 0.02, 0.005},
+                           {140., 0.02, -0.005},
+                           {185., 0.02, 0.005},
+                           {185., 0.02, -0.005}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
                   const double w = 2. * std::numbers::pi * v[0];
                   chain.parallel.push_back([w, z = v[1], g = v[2] * scales.static_gain](Complex s) {
