@@ -8,6 +8,7 @@
 #include "apps/nominal_input.h"
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/mended_model_json.h"
+#include "diagnosis/next_experiment.h"
 #include "report/pictures.h"
 #include "report/run_folder.h"
 #include "signals/error.h"
@@ -46,6 +47,7 @@ void diagnose_records(const DiagnoseCommand& options) {
     throw signals::UserError(
         "give the records of the real sensor as --real DATASET; without records give the figures "
         "alone as --resonance SIMULATED_HZ:MEASURED_HZ");
+  diagnosis::check_menu_names(options.possible_experiments);
   const bool show = options.common.is_talkative();
   const auto [model, rate_hz] = options.simulation.read(show);
   const signals::Dataset real = signals::read_dataset(*options.real);

@@ -55,7 +55,8 @@ TEST(DiagnoseCommand, RefusesFiguresThatContradict) {
       {"--resonance 37.32", "SIMULATED:MEASURED"},
       {"--resonance 37.32:x", "SIMULATED:MEASURED"},
       {"--resonance 37.32:-1", "give a positive number"},
-      {"--model nowhere.json", "--real DATASET"}};
+      {"--model nowhere.json", "--real DATASET"},
+      {"--sim x --real y --bench-can wide_band,wide_bend", "unknown experiment 'wide_bend'"}};
   for (const auto& [options, message] : cases) {
     const auto result = vibrissa("diagnose " + options);
     EXPECT_EQ(result.status, 2) << options;

@@ -36,10 +36,10 @@ TEST(EffectSize, GoesToNeutralByRatioOrDifference) {
     const Effect& effect = find_effect(id);
     return EffectFamily(effect, size_parameters(effect), std::move(start)).values(0.5)[0];
   };
-  EXPECT_NEAR(half("delay", {2e-4}), 1e-4, 1e-12);          // neutral 0, a difference
-  EXPECT_NEAR(half("stiffness", {0.81, 0.}), 0.9, 1e-12);   // neutral 1, a ratio
-  EXPECT_NEAR(half("flow_lag", {0.01}), 0.005, 1e-12);      // neutral 0, a logarithm
-  EXPECT_NEAR(half("base_compliance", {10.}), 20., 1e-12);  // neutral at infinity
+  EXPECT_NEAR(half("delay", {2e-4}), 1e-4, 1e-12);              // neutral 0, a difference
+  EXPECT_NEAR(half("stiffness", {0.81, 0., 0.5}), 0.9, 1e-12);  // neutral 1, a ratio
+  EXPECT_NEAR(half("flow_lag", {0.01}), 0.005, 1e-12);          // neutral 0, a logarithm
+  EXPECT_NEAR(half("base_compliance", {10.}), 20., 1e-12);      // neutral at infinity
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ TEST(SeparationQualityTest, ATrueModelSeparatesWhatAWrongOneLeaves) {
   MendedModel nominal = test::nominal_of(OneModeRig{}, true);
   nominal.nominal.joint_share = 1.;
   MendedModel mended = nominal;
-  mended.effects = {{.id = "stiffness", .values = {0.8, 0.}}};
+  mended.effects = {{.id = "stiffness", .values = {0.8, 0., 0.5}}};
   const auto quality = separation_quality(nominal, mended, told_truth(rig));
   ASSERT_TRUE(quality);
   EXPECT_LT(quality->before_db, 3.);

@@ -30,7 +30,7 @@ TEST(WindSpeedErrorTest, CountsTheVibrationThatIsLeft) {
   const MendedModel nominal = test::nominal_of(test::OneModeRig{}, true);
   const signals::Dataset real = test::rig_dataset(rig, {.wind = true, .high_level = 20.});
   const auto error =
-      wind_speed_error(nominal, with({.id = "stiffness", .values = {0.8, 0.}}), real);
+      wind_speed_error(nominal, with({.id = "stiffness", .values = {0.8, 0., 0.5}}), real);
   ASSERT_TRUE(error);
   EXPECT_LT(error->after_m_s, error->before_m_s);
 }
