@@ -34,6 +34,12 @@ struct Problem {
     fem::zero_entries(u, space->clamped());
   }
 
+  void assemble() {
+    tangent->start(1e6);
+    operators.internal_force->add_tangent(1., u, *tangent);
+    tangent->finish();
+  }
+
   void count(benchmark::State& state) const {
     state.counters["unknowns"] = static_cast<double>(space->n_dofs());
     state.counters["cells"] = static_cast<double>(mesh.n_active_cells());
@@ -59,24 +65,18 @@ void residual(benchmark::State& state) {
 void tangent(benchmark::State& state) {
   Problem problem;
   for (auto _ : state) {
-    problem.tangent->start(1e6);
-    problem.operators.internal_force->add_tangent(1., problem.u, *problem.tangent);
-    problem.tangent->finish();
+    problem.assemble();
   }
   problem.count(state);
 }
 
 void factorisation(benchmark::State& state) {
   Problem problem;
-  problem.tangent->start(1e6);
-  problem.operators.internal_force->add_tangent(1., problem.u, *problem.tangent);
-  problem.tangent->finish();
+  problem.assemble();
   fem::CholeskySolver solver(problem.tangent->matrix());
   for (auto _ : state) {
     state.PauseTiming();
-    problem.tangent->start(1e6);
-    problem.operators.internal_force->add_tangent(1., problem.u, *problem.tangent);
-    problem.tangent->finish();
+    problem.assemble();
     state.ResumeTiming();
     solver.refactor();
   }
@@ -85,9 +85,7 @@ void factorisation(benchmark::State& state) {
 
 void solution(benchmark::State& state) {
   Problem problem;
-  problem.tangent->start(1e6);
-  problem.operators.internal_force->add_tangent(1., problem.u, *problem.tangent);
-  problem.tangent->finish();
+  problem.assemble();
   const fem::CholeskySolver solver(problem.tangent->matrix());
   fem::Vector x(problem.u);
   for (auto _ : state) solver.solve_once(problem.u, x);

@@ -1,7 +1,8 @@
 #include "fem/finite_strain_stepper.h"
 
-#include <Eigen/Dense>
+#include <optional>
 
+#include "fem/low_rank_damping.h"
 #include "fem/tangent_matrix.h"
 #include "signals/error.h"
 #include "signals/number_text.h"
@@ -26,17 +27,10 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
         space_(space),
         operators_(operators),
         mass_factor_(mass_factor),
-        damping_factor_(damping_factor),
         elastic_(space.make_vector()),
         inertia_(elastic_),
         tangent_(space, *operators.mass, held) {
-    if (damping == nullptr) return;
-    for (std::size_t k = 0; k < damping->n_modes(); ++k) {
-      if (damping->coefficient(k) == 0.) continue;
-      damping_forces_.push_back(damping->force(k));
-      zero_entries(damping_forces_.back(), held);
-      weights_.push_back(damping_factor * damping->coefficient(k));
-    }
+    if (damping != nullptr) damping_.emplace(*damping, held, damping_factor);
   }
 
   double forces(const Vector& u, Vector& out_of_balance) override {
@@ -48,9 +42,7 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
     const double scale = known_force.l2_norm() + elastic_.l2_norm() + inertia_.l2_norm();
     out_of_balance -= elastic_;
     out_of_balance -= inertia_;
-    for (std::size_t k = 0; k < weights_.size(); ++k) {
-      out_of_balance.add(-weights_[k] * (damping_forces_[k] * u), damping_forces_[k]);
-    }
+    if (damping_) damping_->add(-1., u, out_of_balance);
     zero_entries(out_of_balance, held_);
     return scale + 0. * energy;
   }
@@ -59,74 +51,47 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
     tangent_.start(mass_factor_);
     operators_.internal_force->add_tangent(1., u, tangent_);
     tangent_.finish(mass_factor_);
-    try {
-      if (solver_) {
-        solver_->refactor();
-      } else {
-        solver_ = std::make_unique<CholeskySolver>(tangent_.matrix());
-      }
-    } catch (const IndefiniteMatrix&) {
-      solver_.reset();
-      throw;
-    }
-    fill_low_rank();
+    renew_factors(tangent_, solver_);
+    if (damping_) damping_->renew(solved_damping_forces());
   }
   bool is_factorised() const override { return solver_ != nullptr; }
 
-  // Woodbury, as the damping is of low rank.
   void solve(const Vector& out_of_balance, Vector& step) override {
     solver_->solve_once(out_of_balance, step);
-    if (weights_.empty()) return;
-    Eigen::VectorXd work(n_weights());
-    for (Eigen::Index k = 0; k < work.size(); ++k) {
-      work[k] = damping_forces_[static_cast<std::size_t>(k)] * step;
-    }
-    const Eigen::VectorXd correction = small_.solve(work);
-    for (Eigen::Index k = 0; k < work.size(); ++k) {
-      step.add(-correction[k], solved_[static_cast<std::size_t>(k)]);
-    }
+    if (damping_) damping_->correct(step);
   }
 
   const dealii::IndexSet held_;
   Vector known_force;  // all that does not depend on u
 
  private:
-  Eigen::Index n_weights() const { return static_cast<Eigen::Index>(weights_.size()); }
-
-  void fill_low_rank() {
-    if (weights_.empty()) return;
-    const auto n_rows = static_cast<Eigen::Index>(elastic_.locally_owned_size());
-    Columns right(n_rows, n_weights());
-    const auto owned = elastic_.locally_owned_elements();
+  /// All at once: about the price of two solutions.
+  std::vector<Vector> solved_damping_forces() const {
+    const std::vector<Vector>& forces = damping_->forces();
+    if (forces.empty()) return {};
     std::vector<dealii::types::global_dof_index> rows;
-    owned.fill_index_vector(rows);
-    for (Eigen::Index k = 0; k < n_weights(); ++k) {
-      damping_forces_[static_cast<std::size_t>(k)].extract_subvector_to(rows.begin(), rows.end(),
-                                                                        right.col(k).data());
+    elastic_.locally_owned_elements().fill_index_vector(rows);
+    Columns right(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(forces.size()));
+    for (std::size_t k = 0; k < forces.size(); ++k)
+      forces[k].extract_subvector_to(rows.begin(), rows.end(),
+                                     right.col(static_cast<Eigen::Index>(k)).data());
+    const Columns columns = solver_->solve(right);
+    std::vector<Vector> solved;
+    for (const auto& column : columns.colwise()) {
+      solved.push_back(space_.make_vector());
+      solved.back().set(rows, std::vector<double>(column.begin(), column.end()));
+      solved.back().compress(dealii::VectorOperation::insert);
     }
-    const Columns solved = solver_->solve(right);
-    Columns small =
-        sum_over_processes(right.transpose() * solved, space_.dofs().get_communicator());
-    solved_.clear();
-    for (Eigen::Index k = 0; k < n_weights(); ++k) {
-      small(k, k) += 1. / weights_[static_cast<std::size_t>(k)];
-      solved_.push_back(space_.make_vector());
-      const std::vector<double> column(solved.col(k).begin(), solved.col(k).end());
-      solved_.back().set(rows, column);
-      solved_.back().compress(dealii::VectorOperation::insert);
-    }
-    small_.compute(small);
+    return solved;
   }
 
   const SolidSpace& space_;
   const SolidOperators& operators_;
-  double mass_factor_, damping_factor_;
+  double mass_factor_;
   Vector elastic_, inertia_;
   TangentMatrix tangent_;
   std::unique_ptr<CholeskySolver> solver_;
-  std::vector<Vector> damping_forces_, solved_;
-  std::vector<double> weights_;
-  Eigen::LDLT<Eigen::MatrixXd> small_;
+  std::optional<LowRankDamping> damping_;
 };
 
 FiniteStrainStepper::FiniteStrainStepper(const SolidSpace& space, const SolidOperators& operators,

@@ -1,11 +1,9 @@
 #include "fem/linear_transient.h"
 
-#include <Eigen/Dense>
-
-#include <algorithm>
-#include <cmath>
 #include <string>
+#include <utility>
 
+#include "fem/low_rank_damping.h"
 #include "signals/error.h"
 
 namespace vibrissa::fem {
@@ -23,54 +21,25 @@ GeneralizedAlpha::GeneralizedAlpha(const double spectral_radius) {
 
 namespace {
 
-/// Solves (A + s D W D^T) x = b, D the damping's mode forces and W their coefficients, by the
-/// factors of A and the Woodbury identity: the modal damping is of low rank and need not be
-/// assembled.
+/// Solves (A + scale C) x = b by the factors of A.
 class DampedSolver {
  public:
   DampedSolver(const SolidSpace& space, const Matrix& undamped, CholeskySolver::Product product,
                const ModalDamping& damping, const double scale)
-      : factors_(undamped, std::move(product)), small_(Eigen::MatrixXd::Zero(0, 0)) {
-    const auto n = static_cast<Eigen::Index>(damping.n_modes());
-    Eigen::MatrixXd small = Eigen::MatrixXd::Zero(n, n);
-    for (std::size_t k = 0; k < damping.n_modes(); ++k) {
-      if (damping.coefficient(k) == 0.) continue;
-      free_forces_.emplace_back(damping.force(k));
-      zero_entries(free_forces_.back(), space.clamped());
-      solved_.push_back(space.make_vector());
-      factors_.solve(free_forces_.back(), solved_.back());
-      inverse_weights_.push_back(1. / (scale * damping.coefficient(k)));
-    }
-    const auto used = static_cast<Eigen::Index>(solved_.size());
-    small.resize(used, used);
-    for (Eigen::Index i = 0; i < used; ++i) {
-      for (Eigen::Index j = 0; j < used; ++j) {
-        small(i, j) =
-            free_forces_[static_cast<std::size_t>(i)] * solved_[static_cast<std::size_t>(j)] +
-            (i == j ? inverse_weights_[static_cast<std::size_t>(i)] : 0.);
-      }
-    }
-    small_.compute(small);
+      : factors_(undamped, std::move(product)), damping_(damping, space.clamped(), scale) {
+    std::vector<Vector> solved(damping_.forces().size(), space.make_vector());
+    for (std::size_t k = 0; k < solved.size(); ++k) factors_.solve(damping_.forces()[k], solved[k]);
+    damping_.renew(std::move(solved));
   }
 
   void solve(const Vector& right_hand_side, Vector& solution) const {
     factors_.solve(right_hand_side, solution);
-    if (solved_.empty()) return;
-    Eigen::VectorXd work(static_cast<Eigen::Index>(solved_.size()));
-    for (std::size_t k = 0; k < solved_.size(); ++k) {
-      work[static_cast<Eigen::Index>(k)] = free_forces_[k] * solution;
-    }
-    const Eigen::VectorXd correction = small_.solve(work);
-    for (std::size_t k = 0; k < solved_.size(); ++k) {
-      solution.add(-correction[static_cast<Eigen::Index>(k)], solved_[k]);
-    }
+    damping_.correct(solution);
   }
 
  private:
   CholeskySolver factors_;
-  std::vector<Vector> free_forces_, solved_;
-  std::vector<double> inverse_weights_;
-  Eigen::LDLT<Eigen::MatrixXd> small_;
+  LowRankDamping damping_;
 };
 
 class LinearStepper {
@@ -184,10 +153,6 @@ class LinearStepper {
   Vector force_before_, force_after_;  // body and wind force at the step's ends, all rows
 };
 
-double largest(const std::array<double, 3>& moment) {
-  return std::max({std::abs(moment[0]), std::abs(moment[1]), std::abs(moment[2])});
-}
-
 }  // namespace
 
 TransientOutput simulate_linear(const Sensor& sensor, const TransientInput& input,
@@ -195,20 +160,13 @@ TransientOutput simulate_linear(const Sensor& sensor, const TransientInput& inpu
                                 const TransientObserver& observer) {
   LinearStepper stepper(sensor, input, options);
   const BaseMoment base_moment(sensor.space(), sensor.operators());
-  const auto e = sensor.parameters().model.axial_direction();
   TransientOutput output;
-  double peak = 0., difference = 0.;
+  MomentRecorder recorder(sensor.parameters().model.axial_direction(), output);
   const auto record = [&](const std::size_t i) {
     const auto moment = base_moment.by_reactions(stepper.state(), stepper.load());
-    // About e_z x axial, and about -axial (reduced_model.h).
-    output.base_moment.push_back(-moment[0] * e[1] + moment[1] * e[0]);
-    output.cross_moment.push_back(-(moment[0] * e[0] + moment[1] * e[1]));
-    if (options.check_balance) {
-      auto other = base_moment.by_balance(stepper.state(), stepper.load());
-      for (unsigned int d = 0; d < 3; ++d) other[d] -= moment[d];
-      difference = std::max(difference, largest(other));
-      peak = std::max(peak, largest(moment));
-    }
+    recorder.add(moment);
+    if (options.check_balance)
+      recorder.compare(moment, base_moment.by_balance(stepper.state(), stepper.load()));
     if (observer) observer(i, stepper.state());
   };
   record(0);
@@ -219,7 +177,6 @@ TransientOutput simulate_linear(const Sensor& sensor, const TransientInput& inpu
     }
     record(i + 1);
   }
-  output.largest_route_difference = peak > 0. ? difference / peak : 0.;
   return output;
 }
 

@@ -6,6 +6,7 @@
 
 #include "fem/base_moment.h"
 #include "fem/damping.h"
+#include "fem/moment_record.h"
 #include "fem/sensor.h"
 #include "fem/transient_load.h"
 
@@ -25,10 +26,7 @@ struct TransientOptions {
   bool check_balance = true;  // also computes the moment by the second route
 };
 
-struct TransientOutput {
-  std::vector<double> base_moment, cross_moment;  // by the clamp's reactions [N m]
-  double largest_route_difference = 0.;           // between the two routes, over the largest moment
-};
+using TransientOutput = MomentRecord;
 
 /// Called at every sample with its index and the state there.
 using TransientObserver = std::function<void(std::size_t, const SolidState&)>;

@@ -1,6 +1,5 @@
 #include "fem/nonlinear_transient.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -28,10 +27,6 @@ void check(const TransientInput& input, const NonlinearOptions& options) {
     throw signals::UserError("the number of substeps is 0; give 1 or more");
 }
 
-double largest(const std::array<double, 3>& moment) {
-  return std::max({std::abs(moment[0]), std::abs(moment[1]), std::abs(moment[2])});
-}
-
 /// The sensor driven through a record, with its constant weight.
 class DrivenSensor {
  public:
@@ -48,7 +43,7 @@ class DrivenSensor {
     load_.external_force = space_.make_vector();
     load_.damping_force = space_.make_vector();
     Vector rest = space_.make_vector();
-    if (largest(options.gravity_m_s2) > 0.) {
+    if (largest_component(options.gravity_m_s2) > 0.) {
       Vector field = space_.make_vector();
       for (unsigned int d = 0; d < 3; ++d)
         field.add(options.gravity_m_s2[d], space_.translation(d));
@@ -102,22 +97,16 @@ NonlinearOutput simulate_nonlinear(const Sensor& sensor, const TransientInput& i
   DrivenSensor driven(sensor, input, options);
   const FiniteStrainStepper& stepper = driven.stepper();
   const BaseMoment base_moment(sensor.space(), sensor.operators());
-  const auto e = sensor.parameters().model.axial_direction();
   NonlinearOutput output;
-  double peak = 0., difference = 0.;
+  MomentRecorder recorder(sensor.parameters().model.axial_direction(), output);
   const auto record = [&](const std::size_t i) {
     const auto moment =
         base_moment.by_reactions(stepper.state(), driven.load(), stepper.elastic_force());
-    // About e_z x axial, and about -axial (reduced_model.h).
-    output.base_moment.push_back(-moment[0] * e[1] + moment[1] * e[0]);
-    output.cross_moment.push_back(-(moment[0] * e[0] + moment[1] * e[1]));
+    recorder.add(moment);
     output.energy.push_back(stepper.energy());
-    if (options.check_balance) {
-      auto other = base_moment.by_balance_when_deformed(stepper.state(), driven.load());
-      for (unsigned int d = 0; d < 3; ++d) other[d] -= moment[d];
-      difference = std::max(difference, largest(other));
-      peak = std::max(peak, largest(moment));
-    }
+    if (options.check_balance)
+      recorder.compare(moment,
+                       base_moment.by_balance_when_deformed(stepper.state(), driven.load()));
     if (observer) observer(i, stepper.state());
   };
   record(0);
@@ -125,7 +114,6 @@ NonlinearOutput simulate_nonlinear(const Sensor& sensor, const TransientInput& i
     driven.advance(i);
     record(i + 1);
   }
-  output.largest_route_difference = peak > 0. ? difference / peak : 0.;
   output.n_steps = stepper.n_steps();
   output.n_iterations = stepper.n_iterations();
   output.n_factorisations = stepper.n_factorisations();

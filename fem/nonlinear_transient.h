@@ -16,10 +16,8 @@ struct NonlinearOptions {
   NewtonOptions newton;
 };
 
-struct NonlinearOutput {
-  std::vector<double> base_moment, cross_moment;  // by the clamp's reactions [N m]
-  double largest_route_difference = 0.;           // between the two routes, over the largest moment
-  std::vector<EnergyBalance> energy;              // at every sample
+struct NonlinearOutput : MomentRecord {
+  std::vector<EnergyBalance> energy;  // at every sample
   std::size_t n_steps = 0, n_iterations = 0, n_factorisations = 0;
 };
 

@@ -13,8 +13,7 @@ namespace {
 class StaticProblem : public BalanceProblem {
  public:
   StaticProblem(const SolidSpace& space, const SolidOperators& operators, const StaticLoad& load)
-      : space_(space),
-        operators_(operators),
+      : operators_(operators),
         load_(load),
         held_(load.held.value_or(space.clamped())),
         dead_force_(space.make_vector()),
@@ -30,7 +29,6 @@ class StaticProblem : public BalanceProblem {
   }
 
   void set_share(const double share) { share_ = share; }
-  const dealii::IndexSet& held() const { return held_; }
   double stored_energy_j() const { return energy_; }
 
   double forces(const Vector& u, Vector& out_of_balance) override {
@@ -54,16 +52,7 @@ class StaticProblem : public BalanceProblem {
       load_.pressure->add_tangent(1., share_ * load_.pressure_pa, u, tangent_);
     }
     tangent_.finish();
-    try {
-      if (solver_) {
-        solver_->refactor();
-      } else {
-        solver_ = std::make_unique<CholeskySolver>(tangent_.matrix());
-      }
-    } catch (const IndefiniteMatrix&) {
-      solver_.reset();
-      throw;
-    }
+    renew_factors(tangent_, solver_);
   }
   bool is_factorised() const override { return solver_ != nullptr; }
   void solve(const Vector& out_of_balance, Vector& step) override {
@@ -71,7 +60,6 @@ class StaticProblem : public BalanceProblem {
   }
 
  private:
-  const SolidSpace& space_;
   const SolidOperators& operators_;
   const StaticLoad& load_;
   dealii::IndexSet held_;

@@ -179,4 +179,17 @@ void TangentMatrix::finish(const double diagonal_of_held) {
   matrix_->compress(dealii::VectorOperation::insert);
 }
 
+void renew_factors(const TangentMatrix& tangent, std::unique_ptr<CholeskySolver>& factors) {
+  try {
+    if (factors) {
+      factors->refactor();
+    } else {
+      factors = std::make_unique<CholeskySolver>(tangent.matrix());
+    }
+  } catch (const IndefiniteMatrix&) {
+    factors.reset();
+    throw;
+  }
+}
+
 }  // namespace vibrissa::fem

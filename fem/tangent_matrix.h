@@ -58,4 +58,8 @@ class TangentMatrix {
   double* values_ = nullptr;        // [block][3 component of the column + component of the row]
 };
 
+/// Factorises the tangent, in the place of the factors that are there; indefinite, it throws
+/// IndefiniteMatrix and leaves none.
+void renew_factors(const TangentMatrix& tangent, std::unique_ptr<CholeskySolver>& factors);
+
 }  // namespace vibrissa::fem
