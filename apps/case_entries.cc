@@ -212,6 +212,7 @@ void declare_case(ParameterHandler& prm) {
   prm.leave_subsection();
   prm.leave_subsection();
   declare_records(prm);
+  TransientParameters::declare(prm);
   declare_separation(prm);
   declare_output(prm);
 }
@@ -230,6 +231,7 @@ Case parse_case(ParameterHandler& prm) {
   prm.leave_subsection();
   prm.leave_subsection();
   all.records = parse_records(prm);
+  all.transient.parse(prm);
   all.separation = parse_separation(prm);
   all.output = parse_output(prm);
   check(all);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/recorded_input.h"
+#include "apps/transient_parameters.h"
 #include "fem/sensor.h"
 #include "separation/fdaf.h"
 #include "signals/multisine.h"
@@ -59,6 +60,7 @@ struct Case {
   BaseMotion base;
   RecordedInput wind_record;
   RecordParameters records;
+  TransientParameters transient;
   SeparationParameters separation;
   OutputParameters output;
 };

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ void add_common_options(CLI::App& command, CommonOptions& options);
 /// The words this program was started with, for the run's own record.
 std::vector<std::string> given_command_line();
 
+/// Work that stopped because someone asked it to; says how to go on.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Prints a JSON document on standard output.
 void print_json(const nlohmann::json& document);
 
@@ -37,6 +44,7 @@ void add_reproduce_command(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_separate_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
+void add_transient_command(CLI::App& app);
 void add_trial_command(CLI::App& app);
 
 }  // namespace vibrissa::apps

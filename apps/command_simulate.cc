@@ -9,10 +9,8 @@
 #include "apps/sensor_model.h"
 #include "diagnosis/mended_model_json.h"
 #include "diagnosis/record_simulation.h"
-#include "fem/linear_transient.h"
 #include "fem/solver_session.h"
 #include "signals/error.h"
-#include "signals/progress.h"
 #include "signals/record_io.h"
 
 namespace vibrissa::apps {
@@ -25,32 +23,7 @@ struct SimulateOptions {
   std::string record_file = "record.csv";
   std::optional<std::string> model_file, input_file;
   bool periodic = false;
-  bool full_order = false;
-  unsigned int substeps = 4;
 };
-
-signals::Record full_order_record(const fem::Sensor& sensor, const Case& parameters,
-                                  const Inputs& inputs, const SimulateOptions& options) {
-  const std::size_t n = parameters.records.n_samples();
-  signals::Progress progress("full-order solid", n, !options.common.quiet);
-  const fem::TransientInput input{parameters.records.sampling_rate_hz,
-                                  n,
-                                  inputs.base_acceleration_m_s2,
-                                  {},
-                                  inputs.wind_speed_m_s};
-  auto output =
-      fem::simulate_linear(sensor, input, {0.9, options.substeps, false},
-                           [&](std::size_t, const fem::SolidState&) { progress.advance(); });
-  signals::Record record(parameters.records.sampling_rate_hz, n);
-  if (!inputs.base_acceleration_m_s2.empty()) {
-    record.set_channel(signals::channel::base_acceleration, inputs.base_acceleration_m_s2);
-  }
-  if (!inputs.wind_speed_m_s.empty()) {
-    record.set_channel(signals::channel::wind_speed, inputs.wind_speed_m_s);
-  }
-  record.set_channel(signals::channel::base_moment, std::move(output.base_moment));
-  return record;
-}
 
 /// The inputs of a record with the base moment that a mended model reads under them.
 signals::Record mended_record(const SimulateOptions& options) {
@@ -93,12 +66,10 @@ void simulate(const SimulateOptions& options) {
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
   const auto model = make_reduced_model(sensor, parameters.sensor, !options.common.quiet);
-  const signals::Record record = options.full_order
-                                     ? full_order_record(sensor, parameters, inputs, options)
-                                     : measure_on_rig(model, parameters, inputs).both;
+  const signals::Record record = measure_on_rig(model, parameters, inputs).both;
   signals::write_record(options.record_file, record);
   if (options.model_file) signals::write_reduced_model(*options.model_file, model);
-  report(options, record, options.full_order ? "full order" : "reduced");
+  report(options, record, "reduced");
 }
 
 }  // namespace
@@ -115,11 +86,6 @@ void add_simulate_command(CLI::App& app) {
                       "file: CSV record with its base acceleration and wind speed; no noise");
   command->add_flag("--periodic", options->periodic,
                     "These inputs are whole periods in steady state");
-  command->add_flag("--full-order", options->full_order,
-                    "Integrate the whole solid in place of the reduced model; no noise");
-  command->add_option("--substeps", options->substeps, "Steps of the full-order solid per sample")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
   add_common_options(*command, options->common);
   command->callback([options] { simulate(*options); });
 }

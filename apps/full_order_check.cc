@@ -56,7 +56,7 @@ nlohmann::json check_full_order(const fem::Sensor& sensor, const signals::Reduce
   return {{"duration_s", static_cast<double>(n) / rate_hz},
           {"step_s", 1. / (rate_hz * substeps)},
           {"reduced_minus_full_over_peak", peak > 0. ? difference / peak : 0.},
-          {"two_moment_routes_relative_difference", full.largest_route_difference}};
+          {"two_moment_routes_relative_difference", full.largest_route_difference()}};
 }
 
 }  // namespace vibrissa::apps

@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr int bad_input = 2, too_poor_data = 3, internal_error = 70;
+constexpr int bad_input = 2, too_poor_data = 3, internal_error = 70, interrupted = 130;
 
 constexpr const char* about =
     "Vibrissa: why the whisker or airflow sensor on the bench differs from the one in the "
@@ -25,7 +25,7 @@ constexpr const char* footer =
     "  vibrissa diagnose --sim simulated --real bench --out diagnosis\n"
     "  vibrissa identify recording.csv --column base_acceleration=z_mps2 --rate 500\n"
     "Exit status: 0 done, 2 bad input (the message says what and where), 3 too little "
-    "data to say anything, 70 a fault of ours.";
+    "data to say anything, 70 a fault of ours, 130 interrupted.";
 
 int run(int argc, char** argv) {
   CLI::App app(about, "vibrissa");
@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   vibrissa::apps::add_modes_command(app);
   vibrissa::apps::add_mesh_command(app);
   vibrissa::apps::add_simulate_command(app);
+  vibrissa::apps::add_transient_command(app);
   vibrissa::apps::add_bode_command(app);
   vibrissa::apps::add_excite_command(app);
   vibrissa::apps::add_identify_command(app);
@@ -67,6 +68,9 @@ int main(int argc, char** argv) {
   } catch (const vibrissa::diagnosis::TooPoorData& error) {
     std::cerr << "vibrissa: " << error.what() << std::endl;
     return too_poor_data;
+  } catch (const vibrissa::apps::Interrupted& error) {
+    std::cerr << "vibrissa: " << error.what() << std::endl;
+    return interrupted;
   } catch (const std::exception& error) {
     std::cerr
         << "vibrissa: internal error: " << error.what()

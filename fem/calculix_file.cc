@@ -113,6 +113,15 @@ std::set<std::string> write_model(std::ostream& out, const SolidSpace& space,
   return used;
 }
 
+void write_gravity(std::ostream& out, const std::set<std::string>& regions, const double size_m_s2,
+                   const std::array<double, 3>& direction, const std::string& options) {
+  for (const auto& name : regions) {
+    out << "*DLOAD" << options << "\n"
+        << name << ", GRAV, " << mm_per_m * size_m_s2 << ", " << direction[0] << ", "
+        << direction[1] << ", " << direction[2] << "\n";
+  }
+}
+
 }  // namespace
 
 void write_calculix(const std::filesystem::path& file, const SolidSpace& space,
@@ -136,13 +145,27 @@ void write_calculix_static(const std::filesystem::path& file, const SolidSpace& 
     // forces hide a tenth of its bending in.
     out << "*STEP, NLGEOM, INC=1000\n*STATIC\n"
         << first_increment << ", 1.\n*CONTROLS, PARAMETERS=FIELD\n1e-7, 1e-4, , , 1e-6\n";
-    for (const auto& name : regions) {
-      out << "*DLOAD\n"
-          << name << ", GRAV, " << mm_per_m * size << ", " << a[0] / size << ", " << a[1] / size
-          << ", " << a[2] / size << "\n";
-    }
+    write_gravity(out, regions, size, {a[0] / size, a[1] / size, a[2] / size}, "");
     out << "*NODE PRINT, NSET=all, FREQUENCY=1000\nU\n*NODE PRINT, NSET=clamp, FREQUENCY=1000\nRF\n"
         << "*END STEP\n";
+  });
+}
+
+void write_calculix_dynamic(const std::filesystem::path& file, const SolidSpace& space,
+                            const std::map<std::string, materials::Material>& materials,
+                            const std::array<double, 3>& direction,
+                            const std::span<const double> body_acceleration_m_s2,
+                            const double time_step_s) {
+  const auto time_s = [&](const std::size_t i) { return static_cast<double>(i) * time_step_s; };
+  signals::write_file(file, [&](std::ostream& out) {
+    const auto regions = write_model(out, space, materials, write_hyperelastic, mm_per_m);
+    out << "*AMPLITUDE, NAME=drive\n";
+    for (std::size_t i = 0; i < body_acceleration_m_s2.size(); ++i)
+      out << time_s(i) << ", " << body_acceleration_m_s2[i] << "\n";
+    out << "*STEP, NLGEOM, INC=1000000\n*DYNAMIC, DIRECT\n"
+        << time_step_s << ", " << time_s(body_acceleration_m_s2.size() - 1) << "\n";
+    write_gravity(out, regions, 1., direction, ", AMPLITUDE=drive");
+    out << "*NODE PRINT, NSET=all, FREQUENCY=1000000\nU\n*END STEP\n";
   });
 }
 

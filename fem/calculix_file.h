@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 
 #include "fem/solid_space.h"
@@ -23,5 +24,13 @@ void write_calculix_static(const std::filesystem::path& file, const SolidSpace& 
                            const std::map<std::string, materials::Material>& materials,
                            const std::array<double, 3>& body_acceleration_m_s2,
                            double first_increment);
+
+/// The same from rest under a body force whose size follows samples, linear between them, by the
+/// implicit method with fixed steps of dt and the program's own tolerances: prints the displacements
+/// [mm] of all nodes at the end.
+void write_calculix_dynamic(const std::filesystem::path& file, const SolidSpace& space,
+                            const std::map<std::string, materials::Material>& materials,
+                            const std::array<double, 3>& direction,
+                            std::span<const double> body_acceleration_m_s2, double time_step_s);
 
 }  // namespace vibrissa::fem

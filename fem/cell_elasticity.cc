@@ -105,6 +105,11 @@ double CellElasticity::deform(const CellIntegrals& cell, const materials::Materi
   return fill_isochoric() + fill_pressure();
 }
 
+void CellElasticity::set_stress_of(const CellElasticity& other) {
+  stress_ = other.stress_;
+  pressure_ = other.pressure_;
+}
+
 void CellElasticity::fill_gradient(const Nodal& u) {
   alignas(64) double component[3][row] = {};
   for (int node = 0; node < n_nodes; ++node) {

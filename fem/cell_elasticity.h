@@ -29,6 +29,8 @@ class CellElasticity {
   /// Energy [J] of the cell displaced by u [m]; NaN where a point is turned inside out (det F <= 0)
   /// or the law has no value. force() and tangent() then refer to this state.
   double deform(const CellIntegrals& cell, const materials::Material& material, const Nodal& u);
+  /// Takes the stress and the pressure of another state of the same cell for those of this one.
+  void set_stress_of(const CellElasticity& other);
   /// dW/du [N].
   void force(Nodal& f) const;
   /// d2W/du2 [N/m].

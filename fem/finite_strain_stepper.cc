@@ -9,13 +9,6 @@
 
 namespace vibrissa::fem {
 
-double EnergyBalance::error_j(const EnergyBalance& start) const {
-  const auto spent = [](const EnergyBalance& e) {
-    return e.kinetic_j + e.stored_j + e.dissipated_j + e.numerical_j - e.work_j;
-  };
-  return spent(start) - spent(*this);
-}
-
 /// The balance at a step's end in the displacement there:
 /// F - M u'' - C u' - f(u), u'' and u' straight lines in u.
 class FiniteStrainStepper::Problem : public BalanceProblem {
@@ -24,6 +17,8 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
           const ModalDamping* damping, const double mass_factor, const double damping_factor)
       : held_(held),
         known_force(space.make_vector()),
+        tangent_at(known_force),
+        stressed_at(known_force),
         space_(space),
         operators_(operators),
         mass_factor_(mass_factor),
@@ -47,9 +42,11 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
     return scale + 0. * energy;
   }
 
-  void factorise(const Vector& u) override {
+  void factorise(const Vector& u, const Vector& stressed) override {
+    tangent_at = u;
+    stressed_at = stressed;
     tangent_.start(mass_factor_);
-    operators_.internal_force->add_tangent(1., u, tangent_);
+    operators_.internal_force->add_tangent(1., u, stressed, tangent_);
     tangent_.finish(mass_factor_);
     renew_factors(tangent_, solver_);
     if (damping_) damping_->renew(solved_damping_forces());
@@ -62,7 +59,8 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
   }
 
   const dealii::IndexSet held_;
-  Vector known_force;  // all that does not depend on u
+  Vector known_force;              // all that does not depend on u
+  Vector tangent_at, stressed_at;  // where the tangent was last made
 
  private:
   /// All at once: about the price of two solutions.
@@ -141,7 +139,51 @@ void FiniteStrainStepper::start(const Vector& displacement, const Vector& veloci
   algorithmic_before_ = algorithmic_;
   operators_.mass->vmult(momentum, velocity);
   energy_.kinetic_j = 0.5 * (velocity * momentum);
-  n_steps_ = 0;
+  count_ = {};
+}
+
+TransientMemory FiniteStrainStepper::memory() const {
+  const auto count = [](const std::size_t n) { return static_cast<double>(n); };
+  TransientMemory memory{{{"displacement", state_.displacement},
+                          {"velocity", state_.velocity},
+                          {"acceleration", state_.acceleration},
+                          {"algorithmic_acceleration", algorithmic_},
+                          {"algorithmic_acceleration_before", algorithmic_before_},
+                          {"force", force_}},
+                         {{"kinetic_j", energy_.kinetic_j},
+                          {"dissipated_j", energy_.dissipated_j},
+                          {"numerical_j", energy_.numerical_j},
+                          {"work_j", energy_.work_j},
+                          {"n_steps", count(count_.n_steps)},
+                          {"n_iterations", count(count_.n_iterations)},
+                          {"n_factorisations", count(count_.n_factorisations)}}};
+  if (problem_->is_factorised()) {
+    memory.vectors.emplace("tangent_at", problem_->tangent_at);
+    memory.vectors.emplace("stressed_at", problem_->stressed_at);
+  }
+  return memory;
+}
+
+// The tangent that is kept is part of what comes next: Newton's iteration ends elsewhere by another
+// one, though within its tolerance.
+void FiniteStrainStepper::restore(const TransientMemory& memory) {
+  const auto count = [&](const char* name) {
+    return static_cast<std::size_t>(memory.numbers.at(name));
+  };
+  state_ = {memory.vectors.at("displacement"), memory.vectors.at("velocity"),
+            memory.vectors.at("acceleration")};
+  algorithmic_ = memory.vectors.at("algorithmic_acceleration");
+  algorithmic_before_ = memory.vectors.at("algorithmic_acceleration_before");
+  force_ = memory.vectors.at("force");
+  update_forces();
+  energy_.kinetic_j = memory.numbers.at("kinetic_j");
+  energy_.dissipated_j = memory.numbers.at("dissipated_j");
+  energy_.numerical_j = memory.numbers.at("numerical_j");
+  energy_.work_j = memory.numbers.at("work_j");
+  count_ = {count("n_steps"), count("n_iterations"), count("n_factorisations")};
+  const auto tangent_at = memory.vectors.find("tangent_at");
+  if (tangent_at != memory.vectors.end())
+    problem_->factorise(tangent_at->second, memory.vectors.at("stressed_at"));
 }
 
 // With a = (u - u_p)/(beta dt^2): what of M u'' + C u' does not depend on u goes to the other side.
@@ -165,8 +207,8 @@ void FiniteStrainStepper::step(const Vector& force) {
   Vector u(predicted);
   u.add(2. * b * dt * dt, algorithmic_, -b * dt * dt, algorithmic_before_);
   const NewtonReport report = solve_balance(*problem_, state_.displacement, u, options_.newton);
-  n_iterations_ += report.residuals.size() - 1;
-  n_factorisations_ += report.n_factorisations;
+  count_.n_iterations += report.residuals.size() - 1;
+  count_.n_factorisations += report.n_factorisations;
   if (!report.converged) give_up(report);
 
   const Vector before(state_.displacement);
@@ -181,7 +223,7 @@ void FiniteStrainStepper::step(const Vector& force) {
   Vector mean_acceleration(acceleration);
   mean_acceleration.sadd(0.5, 0.5, state_.acceleration);
   state_.acceleration = acceleration;
-  ++n_steps_;
+  ++count_.n_steps;
   add_energies(before, mean_acceleration, force);
   force_ = force;
 }
@@ -204,8 +246,8 @@ void FiniteStrainStepper::add_energies(const Vector& before, const Vector& mean_
 
 void FiniteStrainStepper::give_up(const NewtonReport& report) const {
   throw signals::UserError(
-      "the solid does not come to balance in step " + std::to_string(n_steps_ + 1) + ", at " +
-      signals::to_text(static_cast<double>(n_steps_ + 1) * options_.time_step_s) + " s (" +
+      "the solid does not come to balance in step " + std::to_string(count_.n_steps + 1) + ", at " +
+      signals::to_text(static_cast<double>(count_.n_steps + 1) * options_.time_step_s) + " s (" +
       report.failure + "; out-of-balance force over force: " + report.history() +
       "). Take more substeps or weaker inputs, or look for a material that is too soft for them or "
       "for distorted cells of the mesh");

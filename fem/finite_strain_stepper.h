@@ -2,26 +2,14 @@
 
 #include <memory>
 
-#include "fem/base_moment.h"
 #include "fem/damping.h"
-#include "fem/linear_transient.h"
+#include "fem/driven_sensor.h"
+#include "fem/generalized_alpha.h"
 #include "fem/newton.h"
 #include "fem/solid_operators.h"
 #include "fem/solid_space.h"
 
 namespace vibrissa::fem {
-
-/// Energies [J] since the start, in the base frame (T14.3).
-struct EnergyBalance {
-  double kinetic_j = 0.;     // of the motion relative to the base
-  double stored_j = 0.;      // elastic
-  double dissipated_j = 0.;  // by damping
-  double numerical_j = 0.;   // by the integrator's own damping of high frequencies
-  double work_j = 0.;        // of the driving forces, those of the base's acceleration among them
-
-  /// What the work leaves unexplained; start: the balance at the start.
-  double error_j(const EnergyBalance& start) const;
-};
 
 /// Steps M u'' + C u' + f(u) = F by generalised-alpha (T14.1) at finite strain. The equation of
 /// motion holds at every step's end. Newton begins from the extrapolated acceleration and keeps the
@@ -51,9 +39,11 @@ class FiniteStrainStepper {
   const Vector& elastic_force() const { return elastic_force_; }  // all rows
   const Vector& damping_force() const { return damping_force_; }  // all rows
   const EnergyBalance& energy() const { return energy_; }
-  std::size_t n_steps() const { return n_steps_; }
-  std::size_t n_iterations() const { return n_iterations_; }
-  std::size_t n_factorisations() const { return n_factorisations_; }
+  const StepCount& count() const { return count_; }
+
+  TransientMemory memory() const;
+  /// In place of start(): goes on bit for bit.
+  void restore(const TransientMemory& memory);
 
  private:
   class Problem;
@@ -74,7 +64,7 @@ class FiniteStrainStepper {
   Vector algorithmic_, algorithmic_before_;  // a of (T14.1), at the last two steps
   Vector force_, elastic_force_, damping_force_;
   EnergyBalance energy_;
-  std::size_t n_steps_ = 0, n_iterations_ = 0, n_factorisations_ = 0;
+  StepCount count_;
 };
 
 }  // namespace vibrissa::fem

@@ -87,13 +87,21 @@ double InternalForce::add_finite(const double factor, const Vector& u, Vector& f
   return dealii::Utilities::MPI::sum(energy, space_.dofs().get_communicator());
 }
 
-void InternalForce::add_tangent(const double factor, const Vector& u,
+void InternalForce::add_tangent(const double factor, const Vector& u, const Vector& stressed,
                                 TangentMatrix& tangent) const {
+  const bool own_stress = &u == &stressed;
   const Values known = known_values(u);
-  CellElasticity elasticity;
+  const Values known_stressed = own_stress ? Values() : known_values(stressed);
+  CellElasticity elasticity, of_stress;
   CellElasticity::Blocks blocks;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    elasticity.deform(cells_[c].integrals, *cells_[c].material, nodal_values(cells_[c], known));
+    const CellIntegrals& integrals = cells_[c].integrals;
+    const materials::Material& material = *cells_[c].material;
+    elasticity.deform(integrals, material, nodal_values(cells_[c], known));
+    if (!own_stress) {
+      of_stress.deform(integrals, material, nodal_values(cells_[c], known_stressed));
+      elasticity.set_stress_of(of_stress);
+    }
     elasticity.tangent(blocks);
     tangent.add(c, factor, blocks);
   }

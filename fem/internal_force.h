@@ -35,8 +35,10 @@ class InternalForce {
   /// force += factor * dW/du, all rows; returns the energy W [J] of the whole body. Where a cell is
   /// turned inside out or strained beyond its law both are NaN.
   double add_finite(double factor, const Vector& u, Vector& force) const;
-  /// tangent += factor * d2W/du2; u must be a state of finite energy.
-  void add_tangent(double factor, const Vector& u, TangentMatrix& tangent) const;
+  /// tangent += factor * d2W/du2, its geometric part with the stresses of the state `stressed`
+  /// (T13.2); both must be states of finite energy.
+  void add_tangent(double factor, const Vector& u, const Vector& stressed,
+                   TangentMatrix& tangent) const;
 
  private:
   struct Cell {

@@ -1,23 +1,12 @@
 #include "fem/linear_transient.h"
 
-#include <string>
 #include <utility>
 
+#include "fem/damping.h"
+#include "fem/generalized_alpha.h"
 #include "fem/low_rank_damping.h"
-#include "signals/error.h"
 
 namespace vibrissa::fem {
-
-GeneralizedAlpha::GeneralizedAlpha(const double spectral_radius) {
-  if (!(spectral_radius >= 0. && spectral_radius <= 1.)) {
-    throw signals::UserError("spectral radius " + std::to_string(spectral_radius) +
-                             " is outside [0, 1]");
-  }
-  alpha_m = (2. * spectral_radius - 1.) / (spectral_radius + 1.);
-  alpha_f = spectral_radius / (spectral_radius + 1.);
-  gamma = 0.5 - alpha_m + alpha_f;
-  beta = 0.25 * (1. - alpha_m + alpha_f) * (1. - alpha_m + alpha_f);
-}
 
 namespace {
 
@@ -42,12 +31,14 @@ class DampedSolver {
   LowRankDamping damping_;
 };
 
-class LinearStepper {
+class LinearStepper : public DrivenSensor {
  public:
   LinearStepper(const Sensor& sensor, const TransientInput& input, const TransientOptions& options)
       : sensor_(sensor),
         space_(sensor.space()),
         load_at_(sensor, input),
+        base_moment_(space_, sensor.operators()),
+        substeps_(options.substeps),
         alpha_(options.spectral_radius),
         dt_(1. / (input.sampling_rate_hz * options.substeps)),
         damping_(space_, sensor.operators(), sensor.modes(), sensor.damping_ratios()),
@@ -61,13 +52,48 @@ class LinearStepper {
           &load_.external_force, &load_.damping_force, &force_before_, &force_after_}) {
       *v = space_.make_vector();
     }
-    enter_sample(0);
+    load_at_.enter_sample(0);
     set_load(0.);
     start();
   }
 
-  void enter_sample(const std::size_t i) { load_at_.enter_sample(i); }
+  void advance(const std::size_t sample) override {
+    load_at_.enter_sample(sample);
+    for (unsigned int s = 1; s <= substeps_; ++s) step(static_cast<double>(s) / substeps_);
+  }
 
+  const SolidState& state() const override { return state_; }
+  std::array<double, 3> moment_by_reactions() const override {
+    return base_moment_.by_reactions(state_, load_);
+  }
+  std::array<double, 3> moment_by_balance() const override {
+    return base_moment_.by_balance(state_, load_);
+  }
+  std::optional<EnergyBalance> energy() const override { return std::nullopt; }
+  StepCount count() const override { return {n_steps_, n_steps_, 1}; }
+
+  TransientMemory memory() const override {
+    return {{{"displacement", state_.displacement},
+             {"velocity", state_.velocity},
+             {"acceleration", state_.acceleration},
+             {"algorithmic_acceleration", algorithmic_},
+             {"force", force_after_}},
+            {{"n_steps", static_cast<double>(n_steps_)}}};
+  }
+
+  void restore(const TransientMemory& memory, const std::size_t sample) override {
+    state_ = {memory.vectors.at("displacement"), memory.vectors.at("velocity"),
+              memory.vectors.at("acceleration")};
+    algorithmic_ = memory.vectors.at("algorithmic_acceleration");
+    load_at_.enter_sample(sample);
+    set_load(0.);
+    force_after_ = memory.vectors.at("force");
+    load_.damping_force = 0.;
+    damping_.add_force(state_.velocity, load_.damping_force);
+    n_steps_ = static_cast<std::size_t>(memory.numbers.at("n_steps"));
+  }
+
+ private:
   /// One step of the integrator to the given fraction of the current sample interval.
   void step(const double fraction) {
     std::swap(force_before_, force_after_);
@@ -101,12 +127,9 @@ class LinearStepper {
     algorithmic_ = next;
     load_.damping_force = 0.;
     damping_.add_force(v, load_.damping_force);
+    ++n_steps_;
   }
 
-  const SolidState& state() const { return state_; }
-  const SolidLoad& load() const { return load_; }
-
- private:
   // (1 - am) M x + (1 - af) beta dt^2 K x on the free rows, with the forces of each cell in
   // balance.
   CholeskySolver::Product undamped_product() const {
@@ -142,6 +165,8 @@ class LinearStepper {
   const Sensor& sensor_;
   const SolidSpace& space_;
   TransientLoad load_at_;
+  BaseMoment base_moment_;
+  unsigned int substeps_;
   GeneralizedAlpha alpha_;
   double dt_;
   ModalDamping damping_;
@@ -151,33 +176,22 @@ class LinearStepper {
   SolidLoad load_;
   Vector algorithmic_, scratch_;
   Vector force_before_, force_after_;  // body and wind force at the step's ends, all rows
+  std::size_t n_steps_ = 0;
 };
 
 }  // namespace
 
+std::unique_ptr<DrivenSensor> drive_linear(const Sensor& sensor, const TransientInput& input,
+                                           const TransientOptions& options) {
+  return std::make_unique<LinearStepper>(sensor, input, options);
+}
+
 TransientOutput simulate_linear(const Sensor& sensor, const TransientInput& input,
                                 const TransientOptions& options,
                                 const TransientObserver& observer) {
-  LinearStepper stepper(sensor, input, options);
-  const BaseMoment base_moment(sensor.space(), sensor.operators());
-  TransientOutput output;
-  MomentRecorder recorder(sensor.parameters().model.axial_direction(), output);
-  const auto record = [&](const std::size_t i) {
-    const auto moment = base_moment.by_reactions(stepper.state(), stepper.load());
-    recorder.add(moment);
-    if (options.check_balance)
-      recorder.compare(moment, base_moment.by_balance(stepper.state(), stepper.load()));
-    if (observer) observer(i, stepper.state());
-  };
-  record(0);
-  for (std::size_t i = 0; i + 1 < input.n_samples; ++i) {
-    stepper.enter_sample(i);
-    for (unsigned int s = 1; s <= options.substeps; ++s) {
-      stepper.step(static_cast<double>(s) / options.substeps);
-    }
-    record(i + 1);
-  }
-  return output;
+  return run_to_the_end({drive_linear(sensor, input, options), input.n_samples,
+                         sensor.parameters().model.axial_direction(), options.check_balance},
+                        observer);
 }
 
 }  // namespace vibrissa::fem

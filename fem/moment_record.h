@@ -8,25 +8,21 @@ namespace vibrissa::fem {
 /// Base moment of a transient at every sample.
 struct MomentRecord {
   std::vector<double> base_moment, cross_moment;  // by the clamp's reactions [N m]
-  double largest_route_difference = 0.;           // between the two routes, over the largest moment
+  double largest_component = 0.;                  // of the moments that were compared [N m]
+  double largest_difference = 0.;                 // between the two routes to them [N m]
+  /// Between the two routes, over the largest moment.
+  double largest_route_difference() const {
+    return largest_component > 0. ? largest_difference / largest_component : 0.;
+  }
 };
 
 double largest_component(const std::array<double, 3>& v);
 
-/// Fills a record from moments along x, y, z.
-class MomentRecorder {
- public:
-  MomentRecorder(const std::array<double, 3>& axial, MomentRecord& record)
-      : axial_(axial), record_(record) {}
-
-  void add(const std::array<double, 3>& moment);
-  /// The same moment by the other route.
-  void compare(const std::array<double, 3>& moment, const std::array<double, 3>& other);
-
- private:
-  std::array<double, 3> axial_;
-  MomentRecord& record_;
-  double peak_ = 0., difference_ = 0.;
-};
+/// Appends a moment along x, y, z.
+void add_moment(const std::array<double, 3>& moment, const std::array<double, 3>& axial,
+                MomentRecord& record);
+/// Takes account of a moment by both routes.
+void compare_routes(const std::array<double, 3>& moment, const std::array<double, 3>& other,
+                    MomentRecord& record);
 
 }  // namespace vibrissa::fem

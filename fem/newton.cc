@@ -1,7 +1,11 @@
 #include "fem/newton.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
+
+#include "fem/secant_memory.h"
 
 namespace vibrissa::fem {
 
@@ -65,21 +69,31 @@ bool search(BalanceProblem& problem, const Point& at, const Vector& step, Point&
   return false;
 }
 
-/// The tangent at u, or where that will not do, of the state in balance.
+/// At u with the stresses of the state in balance, or where that will not do, wholly there.
 bool renew_tangent(BalanceProblem& problem, const Vector& in_balance, const Vector& u,
                    NewtonReport& report) {
-  const bool first = report.n_factorisations == 0;
-  for (const Vector* at : {first ? &in_balance : &u, &in_balance}) {
+  for (const Vector* at : {&u, &in_balance}) {
     try {
       ++report.n_factorisations;
-      problem.factorise(*at);
+      problem.factorise(*at, in_balance);
       return true;
     } catch (const IndefiniteMatrix&) {
-      if (first) break;
+      if (at == &in_balance) break;
     }
   }
   report.failure = "the tangent stiffness is not positive definite";
   return false;
+}
+
+/// Iterations that are still to come at the pace of the last ones; none while it is too early to
+/// say: the first ones take stretching out that the guess had brought in, whatever the tangent.
+double iterations_left(const std::vector<double>& residuals, const double tolerance) {
+  constexpr std::size_t looked_at = 3;
+  if (residuals.size() <= looked_at) return 0.;
+  const double pace =
+      std::log(residuals.back() / residuals[residuals.size() - 1 - looked_at]) / looked_at;
+  return pace < 0. ? std::log(tolerance / residuals.back()) / pace
+                   : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -90,7 +104,9 @@ NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Ve
   constexpr double rounding = 1e-12;
   NewtonReport report;
   Point at{u, u}, next{u, u};
-  Vector step(u);
+  Vector step(u), growth(u);
+  SecantMemory secants(options.n_secants);
+  const auto by_factors = [&problem](const Vector& force, Vector& x) { problem.solve(force, x); };
   if (!evaluate(problem, at)) {
     report.failure = "the state that it begins from is no state of the body";
     return report;
@@ -99,9 +115,12 @@ NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Ve
   bool fresh = false, renew = !problem.is_factorised();
   for (unsigned int i = 0; i < options.max_iterations; ++i) {
     if (at.residual() <= options.tolerance) break;
-    if (renew && !renew_tangent(problem, in_balance, at.u, report)) return report;
+    if (renew) {
+      if (!renew_tangent(problem, in_balance, at.u, report)) return report;
+      secants.clear();
+    }
     fresh = renew;
-    problem.solve(at.force, step);
+    secants.solve(by_factors, at.force, step);
     double length = 0.;
     if (!search(problem, at, step, next, length)) {
       if (step.linfty_norm() <= rounding * at.u.linfty_norm()) break;
@@ -113,10 +132,14 @@ NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Ve
       continue;
     }
     const bool settled = step.linfty_norm() <= rounding * next.u.linfty_norm();
-    renew = length < 1. || next.residual() > options.keep_tangent_below * at.residual();
+    growth = at.force;
+    growth -= next.force;
+    step *= length;
+    secants.add(step, growth);
     std::swap(at, next);
     u = at.u;
     report.residuals.push_back(at.residual());
+    renew = iterations_left(report.residuals, options.tolerance) > options.tangent_worth_iterations;
     if (settled) break;
   }
   u = at.u;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "fem/finite_strain_stepper.h"
 #include "fem/static_solution.h"
 #include "signals/error.h"
 
@@ -27,12 +28,14 @@ void check(const TransientInput& input, const NonlinearOptions& options) {
     throw signals::UserError("the number of substeps is 0; give 1 or more");
 }
 
-/// The sensor driven through a record, with its constant weight.
-class DrivenSensor {
+/// With its constant weight.
+class FiniteStrainSensor : public DrivenSensor {
  public:
-  DrivenSensor(const Sensor& sensor, const TransientInput& input, const NonlinearOptions& options)
+  FiniteStrainSensor(const Sensor& sensor, const TransientInput& input,
+                     const NonlinearOptions& options)
       : space_(sensor.space()),
         options_(options),
+        base_moment_(space_, sensor.operators()),
         damping_(space_, sensor.operators(), sensor.modes(), sensor.damping_ratios()),
         load_at_(sensor, input),
         stepper_(space_, sensor.operators(), space_.clamped(), &damping_,
@@ -59,8 +62,7 @@ class DrivenSensor {
     stepper_.start(rest, space_.make_vector(), force_);
   }
 
-  /// Through the interval that begins at a sample.
-  void advance(const std::size_t sample) {
+  void advance(const std::size_t sample) override {
     load_at_.enter_sample(sample);
     for (unsigned int s = 1; s <= options_.substeps; ++s) {
       set_load(static_cast<double>(s) / options_.substeps);
@@ -69,8 +71,23 @@ class DrivenSensor {
     load_.damping_force = stepper_.damping_force();
   }
 
-  const FiniteStrainStepper& stepper() const { return stepper_; }
-  const SolidLoad& load() const { return load_; }
+  const SolidState& state() const override { return stepper_.state(); }
+  std::array<double, 3> moment_by_reactions() const override {
+    return base_moment_.by_reactions(stepper_.state(), load_, stepper_.elastic_force());
+  }
+  std::array<double, 3> moment_by_balance() const override {
+    return base_moment_.by_balance_when_deformed(stepper_.state(), load_);
+  }
+  std::optional<EnergyBalance> energy() const override { return stepper_.energy(); }
+  StepCount count() const override { return stepper_.count(); }
+
+  TransientMemory memory() const override { return stepper_.memory(); }
+  void restore(const TransientMemory& memory, const std::size_t sample) override {
+    load_at_.enter_sample(sample);
+    set_load(0.);
+    stepper_.restore(memory);
+    load_.damping_force = stepper_.damping_force();
+  }
 
  private:
   void set_load(const double fraction) {
@@ -80,7 +97,8 @@ class DrivenSensor {
   }
 
   const SolidSpace& space_;
-  const NonlinearOptions& options_;
+  NonlinearOptions options_;
+  BaseMoment base_moment_;
   ModalDamping damping_;
   TransientLoad load_at_;
   FiniteStrainStepper stepper_;
@@ -90,34 +108,18 @@ class DrivenSensor {
 
 }  // namespace
 
-NonlinearOutput simulate_nonlinear(const Sensor& sensor, const TransientInput& input,
+std::unique_ptr<DrivenSensor> drive_nonlinear(const Sensor& sensor, const TransientInput& input,
+                                              const NonlinearOptions& options) {
+  check(input, options);
+  return std::make_unique<FiniteStrainSensor>(sensor, input, options);
+}
+
+TransientOutput simulate_nonlinear(const Sensor& sensor, const TransientInput& input,
                                    const NonlinearOptions& options,
                                    const TransientObserver& observer) {
-  check(input, options);
-  DrivenSensor driven(sensor, input, options);
-  const FiniteStrainStepper& stepper = driven.stepper();
-  const BaseMoment base_moment(sensor.space(), sensor.operators());
-  NonlinearOutput output;
-  MomentRecorder recorder(sensor.parameters().model.axial_direction(), output);
-  const auto record = [&](const std::size_t i) {
-    const auto moment =
-        base_moment.by_reactions(stepper.state(), driven.load(), stepper.elastic_force());
-    recorder.add(moment);
-    output.energy.push_back(stepper.energy());
-    if (options.check_balance)
-      recorder.compare(moment,
-                       base_moment.by_balance_when_deformed(stepper.state(), driven.load()));
-    if (observer) observer(i, stepper.state());
-  };
-  record(0);
-  for (std::size_t i = 0; i + 1 < input.n_samples; ++i) {
-    driven.advance(i);
-    record(i + 1);
-  }
-  output.n_steps = stepper.n_steps();
-  output.n_iterations = stepper.n_iterations();
-  output.n_factorisations = stepper.n_factorisations();
-  return output;
+  return run_to_the_end({drive_nonlinear(sensor, input, options), input.n_samples,
+                         sensor.parameters().model.axial_direction(), options.check_balance},
+                        observer);
 }
 
 }  // namespace vibrissa::fem

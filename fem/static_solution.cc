@@ -45,9 +45,9 @@ class StaticProblem : public BalanceProblem {
     return scale + 0. * energy_;
   }
 
-  void factorise(const Vector& u) override {
+  void factorise(const Vector& u, const Vector& stressed) override {
     tangent_.start(0.);
-    operators_.internal_force->add_tangent(1., u, tangent_);
+    operators_.internal_force->add_tangent(1., u, stressed, tangent_);
     if (load_.pressure != nullptr) {
       load_.pressure->add_tangent(1., share_ * load_.pressure_pa, u, tangent_);
     }

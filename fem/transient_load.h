@@ -19,7 +19,8 @@ struct TransientInput {
   std::span<const double> wind_speed;          // along the axial direction [m/s]
 };
 
-/// What acts on the sensor at any instant of the record: forces are linear between samples.
+/// What acts on the sensor at any instant of the record: forces are linear between samples. The
+/// sensor must outlive it, and what the input's spans show.
 class TransientLoad {
  public:
   TransientLoad(const Sensor& sensor, const TransientInput& input);
@@ -31,7 +32,7 @@ class TransientLoad {
 
  private:
   const Sensor& sensor_;
-  const TransientInput& input_;
+  TransientInput input_;
   std::array<double, 3> axis_;
   std::size_t before_ = 0, after_ = 0;
   Vector wind_before_, wind_after_;  // N, at the samples around

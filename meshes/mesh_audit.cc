@@ -3,7 +3,6 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
-#include <openssl/evp.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include "meshes/regions.h"
 #include "signals/error.h"
 #include "signals/number_text.h"
+#include "signals/sha256.h"
 
 namespace vibrissa::meshes {
 
@@ -120,40 +120,13 @@ void add_masses(const std::map<std::string, double>& density_kg_m3, MeshAudit& a
   }
 }
 
-/// SHA-256 of integers, written as eight bytes, low byte first.
-class Sha256 {
- public:
-  Sha256() : context_(EVP_MD_CTX_new()) {
-    check(EVP_DigestInit_ex(context_, EVP_sha256(), nullptr));
-  }
-  ~Sha256() { EVP_MD_CTX_free(context_); }
-  Sha256(const Sha256&) = delete;
-  Sha256& operator=(const Sha256&) = delete;
-
-  void add(const std::int64_t value) {
-    std::array<unsigned char, 8> bytes;
-    for (unsigned int i = 0; i < bytes.size(); ++i)
-      bytes[i] = (static_cast<std::uint64_t>(value) >> (8 * i)) & 0xff;
-    check(EVP_DigestUpdate(context_, bytes.data(), bytes.size()));
-  }
-
-  std::string hex() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
-    unsigned int size = 0;
-    check(EVP_DigestFinal_ex(context_, digest.data(), &size));
-    std::string text;
-    for (unsigned int i = 0; i < size; ++i)
-      for (const unsigned int nibble : {digest[i] >> 4, digest[i] & 0xf})
-        text += "0123456789abcdef"[nibble];
-    return text;
-  }
-
- private:
-  static void check(const int status) {
-    if (status != 1) throw std::runtime_error("OpenSSL cannot compute SHA-256");
-  }
-  EVP_MD_CTX* context_;
-};
+/// As eight bytes, low byte first.
+void add(const std::int64_t value, signals::Sha256& digest) {
+  std::array<unsigned char, 8> bytes;
+  for (unsigned int i = 0; i < bytes.size(); ++i)
+    bytes[i] = (static_cast<std::uint64_t>(value) >> (8 * i)) & 0xff;
+  digest.add(bytes.data(), bytes.size());
+}
 
 }  // namespace
 
@@ -184,15 +157,15 @@ MeshAudit audit_mesh(const dealii::Triangulation<3>& mesh, const dealii::Mapping
 }
 
 std::string mesh_sha256(const dealii::Triangulation<3>& mesh) {
-  Sha256 sha;
+  signals::Sha256 digest;
   for (const dealii::Point<3>& vertex : mesh.get_vertices())
-    for (unsigned int d = 0; d < 3; ++d) sha.add(std::llround(vertex[d] / coordinate_step_m));
+    for (unsigned int d = 0; d < 3; ++d) add(std::llround(vertex[d] / coordinate_step_m), digest);
   for (const Cell& cell : mesh.active_cell_iterators()) {
-    sha.add(cell->material_id());
-    for (const unsigned int v : cell->vertex_indices()) sha.add(cell->vertex_index(v));
-    for (const auto& face : cell->face_iterators()) sha.add(face->boundary_id());
+    add(cell->material_id(), digest);
+    for (const unsigned int v : cell->vertex_indices()) add(cell->vertex_index(v), digest);
+    for (const auto& face : cell->face_iterators()) add(face->boundary_id(), digest);
   }
-  return sha.hex();
+  return digest.hex();
 }
 
 }  // namespace vibrissa::meshes

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "signals/error.h"
+#include "signals/sha256.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -22,16 +23,6 @@ using Cipher = std::unique_ptr<EVP_CIPHER_CTX, FreeCipher>;
 
 void require(const int done) {
   if (done != 1) throw UserError("the library for encryption refuses to work");
-}
-
-std::string hex(const Bytes& bytes) {
-  constexpr char digits[] = "0123456789abcdef";
-  std::string out;
-  for (const unsigned char b : bytes) {
-    out += digits[b >> 4];
-    out += digits[b & 15];
-  }
-  return out;
 }
 
 Bytes from_hex(const std::string& text, const std::string& what) {
@@ -54,11 +45,10 @@ Bytes random_bytes(const std::size_t n) {
 }
 
 std::string commitment_of(const Bytes& salt, const std::string& text) {
-  Bytes all = salt, digest(32);
-  all.insert(all.end(), text.begin(), text.end());
-  unsigned int n = 0;
-  require(EVP_Digest(all.data(), all.size(), digest.data(), &n, EVP_sha256(), nullptr));
-  return hex(digest);
+  Sha256 digest;
+  digest.add(salt.data(), salt.size());
+  digest.add(text.data(), text.size());
+  return digest.hex();
 }
 
 }  // namespace
@@ -75,7 +65,8 @@ Seal seal(const std::string& text) {
                             static_cast<int>(text.size())));
   require(EVP_EncryptFinal_ex(cipher.get(), out.data() + n, &n));
   require(EVP_CIPHER_CTX_ctrl(cipher.get(), EVP_CTRL_GCM_GET_TAG, tag_size, tag.data()));
-  return {hex(nonce) + hex(out) + hex(tag), hex(key) + hex(salt), commitment_of(salt, text)};
+  return {to_hex(nonce) + to_hex(out) + to_hex(tag), to_hex(key) + to_hex(salt),
+          commitment_of(salt, text)};
 }
 
 std::string unseal(const Seal& seal) {

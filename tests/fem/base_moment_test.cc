@@ -76,8 +76,8 @@ TEST(BaseMoment, TwoRoutesAgreeInMotionForBothSensors) {
     }
     const TransientInput input{500., a.size(), a, {}, wind};
     const auto output = simulate_linear(sensor, input, {0.9, 4, true}, {});
-    EXPECT_LT(output.largest_route_difference, 1e-8);
-    EXPECT_GT(output.largest_route_difference, 0.) << "the second route must be another one";
+    EXPECT_LT(output.largest_route_difference(), 1e-8);
+    EXPECT_GT(output.largest_route_difference(), 0.) << "the second route must be another one";
   }
 }
 

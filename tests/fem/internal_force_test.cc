@@ -58,26 +58,51 @@ class CoarseWhisker : public testing::Test {
 };
 
 TEST_F(CoarseWhisker, TangentAtRestIsTheStiffnessOfTheLinearModel) {
+  const Vector rest = space->make_vector();
   tangent->start(0.);
-  operators.internal_force->add_tangent(1., space->make_vector(), *tangent);
+  operators.internal_force->add_tangent(1., rest, rest, *tangent);
   tangent->finish(1.);
   expect_same_products(tangent->matrix(), *operators.clamped_stiffness);
 }
 
 TEST_F(CoarseWhisker, TangentCarriesTheMassAndIsMadeAnewEachTime) {
+  const Vector rest = space->make_vector();
   for (int times = 0; times < 2; ++times) {
     tangent->start(3e6);
-    operators.internal_force->add_tangent(0.5, space->make_vector(), *tangent);
+    operators.internal_force->add_tangent(0.5, rest, rest, *tangent);
     tangent->finish(0.5);
   }
   expect_same_products(tangent->matrix(),
                        *combine(0.5, *operators.clamped_stiffness, 3e6, *operators.clamped_mass));
 }
 
+// A state turned as a whole has no stress: its tangent with another's is that one's geometric part
+// on top of its own.
+TEST_F(CoarseWhisker, TangentTakesTheStressesOfTheOtherState) {
+  const Vector rest = space->make_vector(), u = bow(1.), h = bow(0.1);
+  Vector with_stress(rest), without(rest), geometric(rest), at_rest(rest);
+  const auto product = [&](const Vector& at, const Vector& stressed, Vector& to) {
+    tangent->start(0.);
+    operators.internal_force->add_tangent(1., at, stressed, *tangent);
+    tangent->finish();
+    tangent->matrix().vmult(to, h);
+  };
+  product(u, u, with_stress);
+  product(u, rest, without);
+  with_stress -= without;
+  product(rest, u, geometric);
+  product(rest, rest, at_rest);
+  geometric -= at_rest;
+  EXPECT_GT(with_stress.l2_norm(), 1e-3 * without.l2_norm());
+  // The parts differ by the directions of the pressure's share only.
+  geometric -= with_stress;
+  EXPECT_LT(geometric.l2_norm(), 0.1 * with_stress.l2_norm());
+}
+
 TEST_F(CoarseWhisker, TangentIsTheDerivativeOfTheForce) {
   const Vector u = bow(1.), h = bow(0.1);
   tangent->start(0.);
-  operators.internal_force->add_tangent(1., u, *tangent);
+  operators.internal_force->add_tangent(1., u, u, *tangent);
   tangent->finish();
   Vector slope = space->make_vector();
   tangent->matrix().vmult(slope, h);

@@ -2,6 +2,8 @@
 
 #include "fem/linear_transient.h"
 
+#include "fem/generalized_alpha.h"
+
 #include <algorithm>
 #include <cmath>
 

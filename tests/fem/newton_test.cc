@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "fem/secant_memory.h"
+
 namespace vibrissa::fem {
 namespace {
 
@@ -21,7 +23,7 @@ class OneSpring : public BalanceProblem {
     out_of_balance.compress(dealii::VectorOperation::insert);
     return std::abs(load_) + std::abs(resistance_(u[0]));
   }
-  void factorise(const Vector& u) override {
+  void factorise(const Vector& u, const Vector&) override {
     factor_ = stiffness_(u[0]);
     if (!(factor_ > 0.)) throw IndefiniteMatrix("indefinite");
     ++n_factorisations;
@@ -90,6 +92,60 @@ TEST(Newton, TellsHowTheForcesWentWhenItRunsOut) {
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.residuals.size(), 4u);
   EXPECT_THAT(report.history(), testing::HasSubstr("1, "));
+}
+
+Vector two(const double x, const double y) {
+  Vector u(MPI_COMM_SELF, 2, 2);
+  u[0] = x;
+  u[1] = y;
+  u.compress(dealii::VectorOperation::insert);
+  return u;
+}
+
+void halve(const Vector& force, Vector& step) {
+  step = force;
+  step *= 0.5;
+}
+
+TEST(SecantMemory, MeetsTheLastPairAndStaysPositive) {
+  SecantMemory memory(3);
+  Vector x = two(0., 0.);
+  memory.solve(halve, two(2., 4.), x);
+  EXPECT_DOUBLE_EQ(x[0], 1.);
+  EXPECT_DOUBLE_EQ(x[1], 2.);
+  memory.add(two(1., 0.), two(7., 1.));
+  memory.add(two(1., 3.), two(2., 5.));
+  memory.solve(halve, two(2., 5.), x);
+  EXPECT_NEAR(x[0], 1., 1e-14);
+  EXPECT_NEAR(x[1], 3., 1e-14);
+  for (const double angle : {0., 1., 2., 3.}) {
+    const Vector f = two(std::cos(angle), std::sin(angle));
+    memory.solve(halve, f, x);
+    EXPECT_GT(x * f, 0.);
+  }
+}
+
+TEST(SecantMemory, LeavesOutWhatNoPositiveStiffnessHas) {
+  SecantMemory memory(3);
+  Vector x = two(0., 0.);
+  memory.add(two(1., 0.), two(-7., 1.));
+  memory.solve(halve, two(2., 4.), x);
+  EXPECT_DOUBLE_EQ(x[0], 1.);
+  EXPECT_DOUBLE_EQ(x[1], 2.);
+}
+
+// A fixed tangent takes a digit in three iterations here: 30 of them.
+TEST(Newton, SecantsSaveAKeptTangentMostOfItsIterations) {
+  OneSpring spring([](double u) { return u; }, [](double) { return 2.; }, 1.);
+  NewtonOptions options;
+  options.tangent_worth_iterations = 1e9;
+  Vector u = one(0.);
+  EXPECT_LE(solve_balance(spring, u, u, options).residuals.size(), 4u);
+  options.n_secants = 0;
+  spring.n_factorisations = 0;
+  u = one(0.);
+  EXPECT_GT(solve_balance(spring, u, u, options).residuals.size(), 20u);
+  EXPECT_LE(spring.n_factorisations, 1);
 }
 
 TEST(CholeskySolver, TellsAMatrixThatHasBecomeIndefinite) {

@@ -1,0 +1,258 @@
+#include "apps/transient_job.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+#include "apps/case_file.h"
+#include "apps/inputs.h"
+#include "apps/mode_table.h"
+#include "fem/checkpoint.h"
+#include "fem/linear_transient.h"
+#include "fem/nonlinear_transient.h"
+#include "fem/solver_session.h"
+#include "fem/vtk_output.h"
+#include "meshes/mesh_audit.h"
+#include "report/json_file.h"
+#include "report/revision.h"
+#include "report/run_folder.h"
+#include "report/table.h"
+#include "signals/error.h"
+#include "signals/interruption.h"
+#include "signals/output_file.h"
+#include "signals/progress.h"
+#include "signals/record_io.h"
+#include "signals/sha256.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* checkpoint_name = "checkpoint.h5";
+
+std::string sha256_of(const Inputs& inputs) {
+  signals::Sha256 digest;
+  for (const auto* values : {&inputs.base_acceleration_m_s2, &inputs.wind_speed_m_s})
+    digest.add(values->data(), values->size() * sizeof(double));
+  return digest.hex();
+}
+
+/// A run folder with the run that belongs to it.
+class Job {
+ public:
+  Job(const fs::path& folder, const CaseFile& file, const Case& parameters, const Inputs& inputs,
+      const fem::Sensor& sensor)
+      : folder_(folder),
+        parameters_(parameters),
+        inputs_(inputs),
+        sensor_(sensor),
+        owner_{file.resolved(),
+               {{"mesh", meshes::mesh_sha256(sensor.mesh())},
+                {"base motion or wind", sha256_of(inputs)}},
+               report::program_revision()},
+        run_(driven(), parameters.records.n_samples(), sensor.parameters().model.axial_direction(),
+             true) {}
+
+  /// Puts the run where the folder's checkpoint is, if it has one.
+  void resume() {
+    if (!fs::exists(checkpoint())) return;
+    const auto revision = fem::read_checkpoint(checkpoint(), owner_, run_);
+    if (revision != owner_.program_revision)
+      std::cerr << "vibrissa: the checkpoint was written by revision " << revision
+                << " of the program, this is " << owner_.program_revision
+                << ": results may differ in their last digits\n";
+  }
+
+  /// False when it was interrupted; the checkpoint is then where it stopped.
+  bool go(const bool show_progress) {
+    const signals::Interruption interruption;
+    signals::Progress progress("full-order solid", run_.n_samples(), show_progress);
+    progress.advance(run_.n_done());
+    if (run_.n_done() == 1) write_frame();
+    auto written = Clock::now();
+    while (!run_.is_done()) {
+      run_.advance();
+      write_frame();
+      progress.advance();
+      const bool stops = interruption.is_requested() && !run_.is_done();
+      if (stops || is_checkpoint_due(written)) {
+        fem::write_checkpoint(checkpoint(), run_, owner_);
+        written = Clock::now();
+      }
+      if (stops) return false;
+    }
+    return true;
+  }
+
+  nlohmann::json finish() const {
+    write_pvd();
+    signals::write_record(folder_ / "record.csv", record());
+    if (!run_.output().energy.empty()) write_energy();
+    const auto summary = summarise();
+    report::write_json(folder_ / "summary.json", summary);
+    fs::remove(checkpoint());
+    return summary;
+  }
+
+ private:
+  fs::path checkpoint() const { return folder_ / checkpoint_name; }
+
+  std::unique_ptr<fem::DrivenSensor> driven() const {
+    const auto& solid = parameters_.transient;
+    const fem::TransientInput input{parameters_.records.sampling_rate_hz,
+                                    parameters_.records.n_samples(),
+                                    inputs_.base_acceleration_m_s2,
+                                    {},
+                                    inputs_.wind_speed_m_s};
+    if (solid.strain == Strain::small)
+      return fem::drive_linear(sensor_, input, {solid.spectral_radius, solid.substeps, true});
+    return fem::drive_nonlinear(
+        sensor_, input,
+        {solid.spectral_radius, solid.substeps, true, solid.gravity_m_s2, solid.newton});
+  }
+
+  bool is_checkpoint_due(const Clock::time_point written) const {
+    const auto& solid = parameters_.transient;
+    if (run_.is_done()) return false;
+    if (solid.checkpoint_samples > 0 && (run_.n_done() - 1) % solid.checkpoint_samples == 0)
+      return true;
+    const std::chrono::duration<double> since = Clock::now() - written;
+    return solid.checkpoint_minutes > 0. && since.count() > 60. * solid.checkpoint_minutes;
+  }
+
+  std::string frame_name(const std::size_t frame) const {
+    return "transient_" + std::to_string(frame) + ".vtu";
+  }
+
+  void write_frame() const {
+    const std::size_t every = parameters_.transient.vtk_samples, sample = run_.n_done() - 1;
+    if (every == 0 || sample % every != 0) return;
+    fs::create_directories(folder_ / "vtk");
+    fem::write_vtu(folder_ / "vtk" / frame_name(sample / every), sensor_,
+                   run_.sensor().state().displacement, time_s(sample));
+  }
+
+  void write_pvd() const {
+    const std::size_t every = parameters_.transient.vtk_samples;
+    if (every == 0) return;
+    std::vector<double> times;
+    std::vector<std::string> names;
+    for (std::size_t sample = 0; sample < run_.n_samples(); sample += every) {
+      times.push_back(time_s(sample));
+      names.push_back(frame_name(sample / every));
+    }
+    fem::write_pvd(folder_ / "vtk" / "transient.pvd", times, names);
+  }
+
+  double time_s(const std::size_t sample) const {
+    return static_cast<double>(sample) / parameters_.records.sampling_rate_hz;
+  }
+
+  signals::Record record() const {
+    signals::Record record(parameters_.records.sampling_rate_hz, run_.n_samples());
+    if (!inputs_.base_acceleration_m_s2.empty())
+      record.set_channel(signals::channel::base_acceleration, inputs_.base_acceleration_m_s2);
+    if (!inputs_.wind_speed_m_s.empty())
+      record.set_channel(signals::channel::wind_speed, inputs_.wind_speed_m_s);
+    record.set_channel(signals::channel::base_moment, run_.output().base_moment);
+    record.set_channel(signals::channel::cross_moment, run_.output().cross_moment);
+    return record;
+  }
+
+  void write_energy() const {
+    report::Table table({{"time", "s"},
+                         {"kinetic", "J"},
+                         {"stored", "J"},
+                         {"dissipated", "J"},
+                         {"numerical", "J"},
+                         {"work", "J"},
+                         {"error", "J"}});
+    const auto& energy = run_.output().energy;
+    for (std::size_t i = 0; i < energy.size(); ++i) {
+      const auto& e = energy[i];
+      table.add_row({time_s(i), e.kinetic_j, e.stored_j, e.dissipated_j, e.numerical_j, e.work_j,
+                     e.error_j(energy.front())});
+    }
+    signals::write_file(folder_ / "energy.csv", [&](std::ostream& out) { out << table.to_csv(); });
+  }
+
+  nlohmann::json summarise() const {
+    const auto& output = run_.output();
+    double peak = 0., work = 0., error = 0.;
+    for (const double moment : output.base_moment) peak = std::max(peak, std::abs(moment));
+    for (const auto& e : output.energy) {
+      work = std::max(work, std::abs(e.work_j));
+      error = std::max(error, std::abs(e.error_j(output.energy.front())));
+    }
+    nlohmann::json summary{
+        {"samples", run_.n_samples()},
+        {"sampling_rate_hz", parameters_.records.sampling_rate_hz},
+        {"strain", parameters_.transient.strain == Strain::small ? "small" : "finite"},
+        {"unknowns", sensor_.space().n_dofs()},
+        {"steps", output.count.n_steps},
+        {"iterations", output.count.n_iterations},
+        {"factorisations", output.count.n_factorisations},
+        {"largest_base_moment_n_m", peak},
+        {"two_moment_routes_relative_difference", output.largest_route_difference()}};
+    if (work > 0.) summary["energy_error_over_largest_work"] = error / work;
+    return summary;
+  }
+
+  fs::path folder_;
+  const Case& parameters_;
+  const Inputs& inputs_;
+  const fem::Sensor& sensor_;
+  fem::CheckpointOwner owner_;
+  fem::TransientRun run_;
+};
+
+TransientOutcome go_on(Job& job, const fs::path& folder, const bool show_progress) {
+  TransientOutcome outcome{folder, job.go(show_progress), {}};
+  if (outcome.is_done) outcome.summary = job.finish();
+  return outcome;
+}
+
+}  // namespace
+
+TransientOutcome run_transient(const CaseOptions& chosen,
+                               const std::vector<std::string>& command_line,
+                               const bool show_progress) {
+  CaseFile file = chosen.load();
+  const Case parameters = file.read();
+  const Inputs inputs = make_inputs(parameters);
+  const fem::SolverSession session;
+  const fem::Sensor sensor(parameters.sensor);
+  const auto folder = report::RunFolder::given_or_free(
+      parameters.output.folder,
+      fs::path("runs") / (fs::path(chosen.case_file).stem().string() + "-transient"));
+  folder.write_text("resolved.prm", file.resolved());
+  folder.write_run({command_line,
+                    parameters.records.seed,
+                    {{"mesh_sha256", meshes::mesh_sha256(sensor.mesh())}}});
+  Job job(folder.path(), file, parameters, inputs, sensor);
+  return go_on(job, folder.path(), show_progress);
+}
+
+TransientOutcome resume_transient(const fs::path& folder, const bool show_progress) {
+  const fs::path case_file = folder / "resolved.prm";
+  if (!fs::exists(case_file))
+    throw signals::UserError(folder.string() +
+                             ": holds no run to go on with (no resolved.prm in it); name the "
+                             "folder that 'vibrissa transient' made");
+  if (fs::exists(folder / "summary.json"))
+    throw signals::UserError(folder.string() +
+                             ": this run is done; there is nothing to go on with");
+  CaseFile file(case_file);
+  const Case parameters = file.read();
+  const Inputs inputs = make_inputs(parameters);
+  const fem::SolverSession session;
+  const fem::Sensor sensor(parameters.sensor);
+  Job job(folder, file, parameters, inputs, sensor);
+  job.resume();
+  return go_on(job, folder, show_progress);
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,58 @@
+#include "apps/transient_parameters.h"
+
+#include <algorithm>
+
+#include "signals/error.h"
+
+namespace vibrissa::apps {
+
+namespace Patterns = dealii::Patterns;
+
+void TransientParameters::declare(dealii::ParameterHandler& prm) {
+  prm.enter_subsection("Transient");
+  prm.declare_entry("Strain", "finite", Patterns::Selection("small|finite"),
+                    "Whether 'vibrissa transient' lets the solid turn and stretch at will, or "
+                    "takes its stiffness at rest.");
+  prm.declare_entry("Substeps", "1", Patterns::Integer(1, 100000),
+                    "Steps of the integrator in one sample of the records [1].");
+  prm.declare_entry("Spectral radius", "0.9", Patterns::Double(0., 1.),
+                    "What the integrator leaves of infinitely high frequencies a step [1]; 1 keeps "
+                    "all energy.");
+  prm.declare_entry("Gravity", "0, 0, 0", Patterns::List(Patterns::Double(), 3, 3),
+                    "Along x, y, z of the base [m/s^2]; the sensor begins at rest in it. Finite "
+                    "strain only.");
+  prm.declare_entry("Force tolerance", "1e-7", Patterns::Double(1e-13, 1e-3),
+                    "Out-of-balance force, over the forces that balance, at which Newton's "
+                    "iteration ends [1].");
+  prm.declare_entry("Checkpoint interval", "0", Patterns::Integer(0),
+                    "Samples from one checkpoint to the next [samples]; 0: by time only.");
+  prm.declare_entry("Checkpoint minutes", "10", Patterns::Double(0.),
+                    "Time from one checkpoint to the next [min]; 0: by samples only.");
+  prm.declare_entry("VTK interval", "0", Patterns::Integer(0),
+                    "Samples from one file of displacement and stress to the next [samples]; 0: "
+                    "none.");
+  prm.leave_subsection();
+}
+
+void TransientParameters::parse(dealii::ParameterHandler& prm) {
+  prm.enter_subsection("Transient");
+  strain = prm.get("Strain") == "small" ? Strain::small : Strain::finite;
+  substeps = static_cast<unsigned int>(prm.get_integer("Substeps"));
+  spectral_radius = prm.get_double("Spectral radius");
+  const auto gravity = dealii::Utilities::string_to_double(
+      dealii::Utilities::split_string_list(prm.get("Gravity"), ','));
+  std::copy(gravity.begin(), gravity.end(), gravity_m_s2.begin());
+  newton.tolerance = prm.get_double("Force tolerance");
+  checkpoint_samples = static_cast<std::size_t>(prm.get_integer("Checkpoint interval"));
+  checkpoint_minutes = prm.get_double("Checkpoint minutes");
+  vtk_samples = static_cast<std::size_t>(prm.get_integer("VTK interval"));
+  prm.leave_subsection();
+  const bool is_weightless =
+      std::all_of(gravity.begin(), gravity.end(), [](const double g) { return g == 0.; });
+  if (strain == Strain::small && !is_weightless)
+    throw signals::UserError(
+        "Transient/Gravity needs Transient/Strain = finite: at small strain weight changes nothing "
+        "but the moment's mean");
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,180 @@
+#include "fem/checkpoint.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/vector.h>
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "fem/hdf5_image.h"
+#include "signals/error.h"
+#include "signals/output_file.h"
+#include "signals/sha256.h"
+
+namespace vibrissa::fem {
+
+namespace {
+
+using signals::UserError;
+
+constexpr const char* kind = "vibrissa transient checkpoint 1";
+
+MPI_Comm communicator_of(const TransientRun& run) {
+  return run.sensor().state().displacement.get_mpi_communicator();
+}
+
+/// Begins the file: what it is, and by which the rest is known to be whole.
+std::string seal_of(const std::string& image) {
+  return std::string(kind) + "\nsha256 " +
+         signals::sha256(std::string_view(image).substr(Hdf5Writer::user_block)) + "\n";
+}
+
+std::vector<double> columns_of(const std::vector<EnergyBalance>& energy) {
+  std::vector<double> values;
+  for (const auto& e : energy)
+    values.insert(values.end(), {e.kinetic_j, e.stored_j, e.dissipated_j, e.numerical_j, e.work_j});
+  return values;
+}
+
+std::vector<EnergyBalance> energies_of(const std::vector<double>& values) {
+  std::vector<EnergyBalance> energy;
+  for (std::size_t i = 0; i + 4 < values.size(); i += 5)
+    energy.push_back({values[i], values[i + 1], values[i + 2], values[i + 3], values[i + 4]});
+  return energy;
+}
+
+void add_record(Hdf5Writer& file, const TransientOutput& output) {
+  file.add("record/base_moment_N_m", output.base_moment);
+  file.add("record/cross_moment_N_m", output.cross_moment);
+  file.add("record/energy_J", columns_of(output.energy));
+  const std::vector<double> rest{output.largest_component, output.largest_difference,
+                                 static_cast<double>(output.count.n_steps),
+                                 static_cast<double>(output.count.n_iterations),
+                                 static_cast<double>(output.count.n_factorisations)};
+  file.add("record/routes_and_counts", rest);
+}
+
+TransientOutput read_record(const Hdf5Reader& file) {
+  TransientOutput output;
+  output.base_moment = file.numbers("record/base_moment_N_m");
+  output.cross_moment = file.numbers("record/cross_moment_N_m");
+  output.energy = energies_of(file.numbers("record/energy_J"));
+  const auto rest = file.numbers("record/routes_and_counts");
+  output.largest_component = rest.at(0);
+  output.largest_difference = rest.at(1);
+  output.count = {static_cast<std::size_t>(rest.at(2)), static_cast<std::size_t>(rest.at(3)),
+                  static_cast<std::size_t>(rest.at(4))};
+  return output;
+}
+
+TransientMemory read_memory(const Hdf5Reader& file, const Vector& like) {
+  TransientMemory memory;
+  for (const auto& name : file.names("numbers"))
+    memory.numbers[name] = file.numbers("numbers/" + name).at(0);
+  for (const auto& name : file.names("vectors")) {
+    const auto values = file.numbers("vectors/" + name);
+    if (values.size() != like.size())
+      throw std::runtime_error("'vectors/" + name + "' has another length than the model");
+    Vector& vector = memory.vectors.emplace(name, like).first->second;
+    for (const auto i : vector.locally_owned_elements()) vector[i] = values[i];
+    vector.compress(dealii::VectorOperation::insert);
+  }
+  return memory;
+}
+
+/// The first line in which two texts differ, in words; nothing when they do not.
+std::string first_difference(const std::string& there, const std::string& here) {
+  std::istringstream in_there(there), in_here(here);
+  std::string a, b, section;
+  while (true) {
+    const bool more_a = static_cast<bool>(std::getline(in_there, a));
+    const bool more_b = static_cast<bool>(std::getline(in_here, b));
+    if (!more_a && !more_b) return "";
+    if (!more_a || !more_b || a != b)
+      return (section.empty() ? "" : "in '" + section + "' ") + "it has '" +
+             (more_a ? a.substr(a.find_first_not_of(' ')) : "nothing") + "' where this run has '" +
+             (more_b ? b.substr(b.find_first_not_of(' ')) : "nothing") + "'";
+    if (a.rfind("subsection ", 0) == 0) section = a.substr(11);
+  }
+}
+
+std::string read_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file))
+    throw UserError(file.string() + ": there is no checkpoint to go on from");
+  std::ostringstream content;
+  content << in.rdbuf();
+  return content.str();
+}
+
+void check_whole(const std::filesystem::path& file, const std::string& image) {
+  if (image.rfind(kind, 0) != 0)
+    throw UserError(file.string() + ": is no checkpoint of a transient (it should begin with '" +
+                    kind + "')");
+  if (image.size() <= Hdf5Writer::user_block || image.rfind(seal_of(image), 0) != 0)
+    throw UserError(file.string() +
+                    ": the checkpoint is damaged (its content does not fit its SHA-256); begin the "
+                    "run anew, or take a copy of the file");
+}
+
+void check_owner(const std::filesystem::path& file, const Hdf5Reader& content,
+                 const CheckpointOwner& owner, const double n_processes) {
+  const auto refuse = [&](const std::string& reason) {
+    throw UserError(file.string() + ": the checkpoint is another run's: " + reason);
+  };
+  const auto difference = first_difference(content.text("owner/case"), owner.case_text);
+  if (!difference.empty()) refuse(difference);
+  for (const auto& [name, digest] : owner.digests)
+    if (content.text("owner/sha256_of_" + name) != digest) refuse("its " + name + " differs");
+  const double there = content.numbers("owner/n_processes").at(0);
+  if (there != n_processes)
+    refuse("it was written by " + std::to_string(static_cast<int>(there)) +
+           " processes; take as many");
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& file, const TransientRun& run,
+                      const CheckpointOwner& owner) {
+  const MPI_Comm communicator = communicator_of(run);
+  const bool writes = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  Hdf5Writer content;
+  const TransientMemory memory = run.sensor().memory();
+  for (const auto& [name, vector] : memory.vectors) {
+    const dealii::Vector<double> whole(vector);
+    if (writes) content.add("vectors/" + name, std::span(whole.begin(), whole.size()));
+  }
+  if (!writes) return;
+  for (const auto& [name, number] : memory.numbers)
+    content.add("numbers/" + name, std::span(&number, 1));
+  add_record(content, run.output());
+  content.add("owner/case", owner.case_text);
+  for (const auto& [name, digest] : owner.digests) content.add("owner/sha256_of_" + name, digest);
+  content.add("owner/program_revision", owner.program_revision);
+  const double n_processes = dealii::Utilities::MPI::n_mpi_processes(communicator);
+  content.add("owner/n_processes", std::span(&n_processes, 1));
+  std::string image = content.image();
+  const std::string seal = seal_of(image);
+  image.replace(0, seal.size(), seal);
+  signals::write_file(file, [&](std::ostream& out) { out << image; });
+}
+
+std::string read_checkpoint(const std::filesystem::path& file, const CheckpointOwner& owner,
+                            TransientRun& run) {
+  const std::string image = read_file(file);
+  check_whole(file, image);
+  try {
+    const Hdf5Reader content(image);
+    check_owner(file, content, owner,
+                dealii::Utilities::MPI::n_mpi_processes(communicator_of(run)));
+    run.restore(read_memory(content, run.sensor().state().displacement), read_record(content));
+    return content.text("owner/program_revision");
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw UserError(file.string() + ": the checkpoint cannot be used: " + error.what());
+  }
+}
+
+}  // namespace vibrissa::fem

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace vibrissa::fem {
+
+/// Constants of the generalised-alpha method from its spectral radius at infinite frequency (Chung
+/// and Hulbert 1993): second order for any radius in [0, 1]; 1 keeps all energy.
+struct GeneralizedAlpha {
+  double alpha_m, alpha_f, beta, gamma;
+  /// Throws UserError outside [0, 1].
+  explicit GeneralizedAlpha(double spectral_radius);
+};
+
+}  // namespace vibrissa::fem

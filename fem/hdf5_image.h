@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vibrissa::fem {
+
+/// An HDF5 file in memory, of arrays of doubles and texts under paths such as "vectors/velocity";
+/// any HDF5 tool reads it. Proven by tests/fem/checkpoint_test.cc.
+class Hdf5Writer {
+ public:
+  Hdf5Writer();
+  ~Hdf5Writer();
+  void add(const std::string& path, std::span<const double> values);
+  void add(const std::string& path, const std::string& text);
+  /// The whole file, behind a block of zeros for the writer's own use (HDF5's user block).
+  std::string image();
+  static constexpr std::size_t user_block = 512;
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+/// Reads such an image. Throws std::runtime_error that names the path when it is not there, has
+/// another kind, or the image is damaged.
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::string& image);
+  ~Hdf5Reader();
+  std::vector<double> numbers(const std::string& path) const;
+  std::string text(const std::string& path) const;
+  /// What a group holds, in alphabetical order.
+  std::vector<std::string> names(const std::string& group) const;
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+}  // namespace vibrissa::fem

@@ -1,0 +1,161 @@
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <random>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "signals/record_io.h"
+#include "tests/apps/program.h"
+
+namespace vibrissa::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const std::string coarse =
+    " --set 'Model/Mesh resolution=1' --set Model/Sensitivities=false --duration 0.2";
+
+/// A whisker at 1 g and its resonance, finite strain, 50 samples, a checkpoint at every second one.
+const std::string swinging =
+    "transient '" + case_file("whisker_sensor.prm") + "'" + coarse +
+    " --set 'Records/Sampling rate=250' --set 'Base motion/Lines=27'"
+    " --set 'Base motion/Peak=9.81' --set 'Transient/Checkpoint interval=2'";
+
+/// Starts the program and ends it by a signal after a time; true when that came before its own end.
+bool interrupt(const std::string& arguments, const double after_s, const int signal) {
+  const std::string command =
+      std::string("exec '") + VIBRISSA_PROGRAM + "' " + arguments + " > /dev/null 2>&1";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  usleep(static_cast<useconds_t>(1e6 * after_s));
+  kill(child, signal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status) || (WIFEXITED(status) && WEXITSTATUS(status) == 130);
+}
+
+TEST(Transient, WritesRecordEnergiesFieldsAndASummary) {
+  const Folder folder;
+  const auto result = vibrissa(swinging + " --set 'Transient/VTK interval=25' --json -o '" +
+                               folder.file("run") + "'");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto summary = result.json();
+  EXPECT_EQ(summary["samples"], 50);
+  EXPECT_EQ(summary["strain"], "finite");
+  EXPECT_LT(summary["two_moment_routes_relative_difference"], 1e-6);
+  EXPECT_LT(summary["energy_error_over_largest_work"], 1e-3);
+  const auto record = signals::read_record(folder.file("run/record.csv"));
+  EXPECT_EQ(record.n_samples(), 50u);
+  EXPECT_TRUE(record.has(signals::channel::base_moment));
+  EXPECT_TRUE(fs::exists(folder.file("run/energy.csv")));
+  EXPECT_TRUE(fs::exists(folder.file("run/vtk/transient.pvd")));
+  EXPECT_TRUE(fs::exists(folder.file("run/vtk/transient_1.vtu")));
+  EXPECT_FALSE(fs::exists(folder.file("run/checkpoint.h5")));
+}
+
+TEST(Transient, SmallStrainIsWhatTheReducedModelSays) {
+  const Folder folder;
+  const std::string linear = "transient '" + case_file("flow_sensor.prm") + "'" + coarse +
+                             " --set Records/Seed=3 --set Transient/Substeps=20 --strain small";
+  ASSERT_EQ(vibrissa(linear + " -o '" + folder.file("run") + "' --quiet").status, 0);
+  ASSERT_EQ(vibrissa("simulate '" + case_file("flow_sensor.prm") + "'" + coarse +
+                     " --set Records/Seed=3 --set 'Records/Moment noise=0' --quiet --record '" +
+                     folder.file("reduced.csv") + "'")
+                .status,
+            0);
+  const auto full = signals::read_record(folder.file("run/record.csv"));
+  const auto reduced = signals::read_record(folder.file("reduced.csv"));
+  const auto x = full.channel(signals::channel::base_moment);
+  const auto y = reduced.channel(signals::channel::base_moment);
+  double peak = 0., difference = 0.;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    peak = std::max(peak, std::abs(x[i]));
+    difference = std::max(difference, std::abs(x[i] - y[i]));
+  }
+  EXPECT_LT(difference, 5e-3 * peak);
+}
+
+TEST(Transient, KilledAgainAndAgainAndGoneOnWithLeavesTheSameFiles) {
+  const Folder folder;
+  const std::string undisturbed = folder.file("undisturbed"), killed = folder.file("killed");
+  ASSERT_EQ(vibrissa(swinging + " --quiet -o '" + undisturbed + "'").status, 0);
+  const char* wanted = std::getenv("VIBRISSA_KILLS");
+  const int n_kills = wanted != nullptr ? std::atoi(wanted) : 4;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> after_s(0.3, 2.);
+  int n_killed = 0;
+  std::string command = swinging + " --quiet -o '" + killed + "'";
+  while (n_killed < n_kills && interrupt(command, after_s(random), SIGKILL)) {
+    ++n_killed;
+    if (fs::exists(killed + "/resolved.prm")) command = "transient --quiet --resume '" + killed + "'";
+  }
+  if (!fs::exists(killed + "/summary.json")) {
+    const auto last = vibrissa(command);
+    ASSERT_EQ(last.status, 0) << last.errors;
+  }
+  EXPECT_GE(n_killed, 1);
+  for (const char* name : {"record.csv", "energy.csv", "summary.json"})
+    EXPECT_EQ(content(killed + "/" + name), content(undisturbed + "/" + name)) << name;
+  RecordProperty("kills", n_killed);
+}
+
+TEST(Transient, CtrlCWritesACheckpointFirst) {
+  const Folder folder;
+  const std::string run = folder.file("run");
+  ASSERT_TRUE(interrupt(swinging +
+                            " --set 'Transient/Checkpoint interval=0' --set Records/Duration=20 "
+                            "--quiet -o '" +
+                            run + "'",
+                        4., SIGINT));
+  EXPECT_TRUE(fs::exists(run + "/checkpoint.h5"));
+  EXPECT_FALSE(fs::exists(run + "/record.csv"));
+}
+
+TEST(Transient, RefusesToGoOnWithWhatIsNoRunOrDoneOrAnotherCase) {
+  const Folder folder;
+  const auto refusal = [](const std::string& arguments) {
+    const auto result = vibrissa("transient " + arguments);
+    EXPECT_EQ(result.status, 2);
+    return result.errors;
+  };
+  EXPECT_THAT(refusal("--resume '" + folder.file("absent") + "'"), HasSubstr("holds no run"));
+  EXPECT_THAT(refusal(""), HasSubstr("name a case file"));
+  const std::string run = folder.file("run");
+  ASSERT_TRUE(interrupt(swinging + " --quiet -o '" + run + "'", 4., SIGINT));
+  EXPECT_THAT(refusal("'" + case_file("flow_sensor.prm") + "' --resume '" + run + "'"),
+              HasSubstr("nothing beside it"));
+  const std::string file = run + "/resolved.prm";
+  std::string text = content(file);
+  const auto at = text.find("set Spectral radius");
+  text.replace(text.find("0.9", at), 3, "0.8");
+  std::ofstream(file) << text;
+  EXPECT_THAT(refusal("--resume '" + run + "'"),
+              testing::AllOf(HasSubstr("checkpoint.h5"), HasSubstr("in 'Transient'"),
+                             HasSubstr("0.9"), HasSubstr("0.8")));
+}
+
+TEST(Transient, AFullDiskEndsItWithTheReasonAndKeepsWhatWasThere) {
+  const Folder folder;
+  const std::string disk = folder.file("disk");
+  fs::create_directory(disk);
+  if (std::system(("mount -t tmpfs -o size=300k tmpfs '" + disk + "' 2> /dev/null").c_str()) != 0)
+    GTEST_SKIP() << "no right to mount a small disk";
+  const auto result = vibrissa(swinging + " --quiet -o '" + disk + "/run'");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, testing::AllOf(HasSubstr("checkpoint.h5"), HasSubstr("No space")));
+  for (const auto& entry : fs::directory_iterator(disk + "/run"))
+    EXPECT_THAT(entry.path().filename().string(), testing::Not(HasSubstr("unfinished")));
+  ASSERT_EQ(std::system(("mount -o remount,size=20m '" + disk + "'").c_str()), 0);
+  const auto resumed = vibrissa("transient --quiet --resume '" + disk + "/run'");
+  EXPECT_EQ(resumed.status, 0) << resumed.errors;
+  ASSERT_EQ(std::system(("umount '" + disk + "'").c_str()), 0);
+}
+
+}  // namespace
+}  // namespace vibrissa::apps
