@@ -17,16 +17,20 @@ double EnergyBalance::error_j(const EnergyBalance& start) const {
 }
 
 /// The balance at a step's end in the displacement there:
-/// F - M u'' - C u' - f(u), u'' and u' straight lines in u.
+/// F + F(u, u') - M u'' - C u' - f(u), u'' and u' straight lines in u.
 class FiniteStrainStepper::Problem : public BalanceProblem {
  public:
   Problem(const SolidSpace& space, const SolidOperators& operators, const dealii::IndexSet& held,
-          const ModalDamping* damping, const double mass_factor, const double damping_factor)
+          const ModalDamping* damping, const StateLoad* load, const double mass_factor,
+          const double damping_factor)
       : held_(held),
         known_force(space.make_vector()),
+        known_velocity(known_force),
         space_(space),
         operators_(operators),
+        load_(load),
         mass_factor_(mass_factor),
+        velocity_factor_(damping_factor),
         elastic_(space.make_vector()),
         inertia_(elastic_),
         tangent_(space, *operators.mass, held) {
@@ -39,7 +43,8 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
     operators_.mass->vmult(inertia_, u);
     inertia_ *= mass_factor_;
     out_of_balance = known_force;
-    const double scale = known_force.l2_norm() + elastic_.l2_norm() + inertia_.l2_norm();
+    if (load_ != nullptr) load_->add_force(u, velocity(u), out_of_balance);
+    const double scale = out_of_balance.l2_norm() + elastic_.l2_norm() + inertia_.l2_norm();
     out_of_balance -= elastic_;
     out_of_balance -= inertia_;
     if (damping_) damping_->add(-1., u, out_of_balance);
@@ -50,6 +55,7 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
   void factorise(const Vector& u) override {
     tangent_.start(mass_factor_);
     operators_.internal_force->add_tangent(1., u, tangent_);
+    if (load_ != nullptr) load_->add_tangent(1., u, velocity(u), tangent_);
     tangent_.finish(mass_factor_);
     renew_factors(tangent_, solver_);
     if (damping_) damping_->renew(solved_damping_forces());
@@ -62,9 +68,16 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
   }
 
   const dealii::IndexSet held_;
-  Vector known_force;  // all that does not depend on u
+  Vector known_force;     // all that does not depend on u
+  Vector known_velocity;  // at the step's end, likewise
 
  private:
+  Vector velocity(const Vector& u) const {
+    Vector v(known_velocity);
+    v.add(velocity_factor_, u);
+    return v;
+  }
+
   /// All at once: about the price of two solutions.
   std::vector<Vector> solved_damping_forces() const {
     const std::vector<Vector>& forces = damping_->forces();
@@ -87,7 +100,8 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
 
   const SolidSpace& space_;
   const SolidOperators& operators_;
-  double mass_factor_;
+  const StateLoad* load_;
+  double mass_factor_, velocity_factor_;
   Vector elastic_, inertia_;
   TangentMatrix tangent_;
   std::unique_ptr<CholeskySolver> solver_;
@@ -109,7 +123,7 @@ FiniteStrainStepper::FiniteStrainStepper(const SolidSpace& space, const SolidOpe
       damping_force_(algorithmic_) {
   const double dt = options.time_step_s;
   problem_ = std::make_unique<Problem>(
-      space, operators, held, damping,
+      space, operators, held, damping, options.load,
       (1. - alpha_.alpha_m) / ((1. - alpha_.alpha_f) * alpha_.beta * dt * dt),
       alpha_.gamma / (alpha_.beta * dt));
 }
@@ -123,13 +137,21 @@ void FiniteStrainStepper::update_forces() {
   if (damping_ != nullptr) damping_->add_force(state_.velocity, damping_force_);
 }
 
+Vector FiniteStrainStepper::with_state_load(const Vector& force) const {
+  Vector total(force);
+  if (options_.load != nullptr) {
+    options_.load->add_force(state_.displacement, state_.velocity, total);
+  }
+  return total;
+}
+
 void FiniteStrainStepper::start(const Vector& displacement, const Vector& velocity,
                                 const Vector& force) {
   state_ = {displacement, velocity, space_.make_vector()};
-  force_ = force;
+  force_ = with_state_load(force);
   energy_ = {};
   update_forces();
-  Vector right(force), momentum(force);
+  Vector right(force_), momentum(force);
   right -= elastic_force_;
   right -= damping_force_;
   zero_entries(right, problem_->held_);
@@ -157,6 +179,7 @@ void FiniteStrainStepper::step(const Vector& force) {
   acceleration.add(m / (1. - f), algorithmic_, -f / (1. - f), state_.acceleration);
   Vector rate(velocity);
   rate.add(-g / (b * dt), predicted);
+  problem_->known_velocity = rate;
   Vector& known = problem_->known_force;
   operators_.mass->vmult(known, acceleration);
   if (damping_ != nullptr) damping_->add_force(rate, known);
@@ -182,8 +205,9 @@ void FiniteStrainStepper::step(const Vector& force) {
   mean_acceleration.sadd(0.5, 0.5, state_.acceleration);
   state_.acceleration = acceleration;
   ++n_steps_;
-  add_energies(before, mean_acceleration, force);
-  force_ = force;
+  const Vector total = with_state_load(force);
+  add_energies(before, mean_acceleration, total);
+  force_ = total;
 }
 
 void FiniteStrainStepper::add_energies(const Vector& before, const Vector& mean_acceleration,

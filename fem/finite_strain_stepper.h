@@ -8,6 +8,7 @@
 #include "fem/newton.h"
 #include "fem/solid_operators.h"
 #include "fem/solid_space.h"
+#include "fem/state_load.h"
 
 namespace vibrissa::fem {
 
@@ -23,19 +24,23 @@ struct EnergyBalance {
   double error_j(const EnergyBalance& start) const;
 };
 
-/// Steps M u'' + C u' + f(u) = F by generalised-alpha (T14.1) at finite strain. The equation of
-/// motion holds at every step's end. Newton begins from the extrapolated acceleration and keeps the
-/// tangent, over steps too, as long as it converges.
-/// Proven by tests/fem/finite_strain_stepper_test.cc.
+/// Steps M u'' + C u' + f(u) = F + F(u, u') by generalised-alpha (T14.1) at finite strain. The
+/// equation of motion holds at every step's end. Newton begins from the extrapolated acceleration
+/// and keeps the tangent, over steps too, as long as it converges. Proven by
+/// tests/fem/finite_strain_stepper_test.cc.
 class FiniteStrainStepper {
  public:
   struct Options {
     double spectral_radius = 0.9;
     double time_step_s = 0.;
     NewtonOptions newton;
+    /// Acts beside the given forces; whoever owns it sets it to the instant of the start, and to
+    /// that of each step's end before the step. May be null.
+    const StateLoad* load = nullptr;
   };
 
-  /// damping may be null; held: unknowns that do not move. All must outlive the stepper.
+  /// damping may be null; held: unknowns that do not move. All and the load must outlive the
+  /// stepper.
   FiniteStrainStepper(const SolidSpace& space, const SolidOperators& operators,
                       const dealii::IndexSet& held, const ModalDamping* damping,
                       const Options& options);
@@ -49,6 +54,7 @@ class FiniteStrainStepper {
 
   const SolidState& state() const { return state_; }
   const Vector& elastic_force() const { return elastic_force_; }  // all rows
+  const Vector& driving_force() const { return force_; }          // with the state load, all rows
   const Vector& damping_force() const { return damping_force_; }  // all rows
   const EnergyBalance& energy() const { return energy_; }
   std::size_t n_steps() const { return n_steps_; }
@@ -62,6 +68,7 @@ class FiniteStrainStepper {
   /// forces are those of the step's end.
   void add_energies(const Vector& before, const Vector& mean_acceleration, const Vector& force);
   void update_forces();
+  Vector with_state_load(const Vector& force) const;
   [[noreturn]] void give_up(const NewtonReport& report) const;
 
   const SolidSpace& space_;

@@ -47,7 +47,7 @@ class LinearStepper {
   LinearStepper(const Sensor& sensor, const TransientInput& input, const TransientOptions& options)
       : sensor_(sensor),
         space_(sensor.space()),
-        load_at_(sensor, input),
+        load_at_(sensor, input, wind_options(sensor.parameters().wind, false)),
         alpha_(options.spectral_radius),
         dt_(1. / (input.sampling_rate_hz * options.substeps)),
         damping_(space_, sensor.operators(), sensor.modes(), sensor.damping_ratios()),
@@ -62,7 +62,7 @@ class LinearStepper {
       *v = space_.make_vector();
     }
     enter_sample(0);
-    set_load(0.);
+    set_load(0., 0.);
     start();
   }
 
@@ -71,7 +71,7 @@ class LinearStepper {
   /// One step of the integrator to the given fraction of the current sample interval.
   void step(const double fraction) {
     std::swap(force_before_, force_after_);
-    set_load(fraction);
+    set_load(fraction, dt_);
     const double b = alpha_.beta, g = alpha_.gamma, f = alpha_.alpha_f, m = alpha_.alpha_m;
     auto& u = state_.displacement;
     auto& v = state_.velocity;
@@ -130,7 +130,18 @@ class LinearStepper {
     algorithmic_ = state_.acceleration;
   }
 
-  void set_load(const double fraction) { load_at_.set(fraction, load_, force_after_); }
+  // Drag takes the velocity that is foreseen for the end of a step: second order, and no part of
+  // the matrix.
+  void set_load(const double fraction, const double step_s) {
+    load_at_.set(fraction, load_, force_after_);
+    if (load_at_.state_load() == nullptr) return;
+    Vector velocity(state_.velocity);
+    velocity.add(step_s, state_.acceleration);
+    scratch_ = 0.;
+    load_at_.state_load()->add_force(state_.displacement, velocity, scratch_);
+    load_.external_force += scratch_;
+    force_after_ += scratch_;
+  }
 
   void balance_acceleration(const Vector& next) {
     const double f = alpha_.alpha_f, m = alpha_.alpha_m;

@@ -23,6 +23,7 @@ void check(const TransientInput& input, const NonlinearOptions& options) {
   check_finite(input.base_acceleration, "base acceleration");
   check_finite(input.cross_acceleration, "cross acceleration");
   check_finite(input.wind_speed, "wind speed");
+  check_finite(input.base_velocity, "base velocity");
   if (options.substeps == 0)
     throw signals::UserError("the number of substeps is 0; give 1 or more");
 }
@@ -34,10 +35,10 @@ class DrivenSensor {
       : space_(sensor.space()),
         options_(options),
         damping_(space_, sensor.operators(), sensor.modes(), sensor.damping_ratios()),
-        load_at_(sensor, input),
+        load_at_(sensor, input, wind_options(sensor.parameters().wind, true)),
         stepper_(space_, sensor.operators(), space_.clamped(), &damping_,
                  {options.spectral_radius, 1. / (input.sampling_rate_hz * options.substeps),
-                  options.newton}),
+                  options.newton, load_at_.state_load()}),
         weight_(space_.make_vector()),
         force_(weight_) {
     load_.external_force = space_.make_vector();
@@ -57,6 +58,7 @@ class DrivenSensor {
     load_at_.enter_sample(0);
     set_load(0.);
     stepper_.start(rest, space_.make_vector(), force_);
+    load_.external_force = external_force();
   }
 
   /// Through the interval that begins at a sample.
@@ -67,6 +69,7 @@ class DrivenSensor {
       stepper_.step(force_);
     }
     load_.damping_force = stepper_.damping_force();
+    load_.external_force = external_force();
   }
 
   const FiniteStrainStepper& stepper() const { return stepper_; }
@@ -77,6 +80,13 @@ class DrivenSensor {
     load_at_.set(fraction, load_, force_);
     force_ += weight_;
     load_.external_force += weight_;
+  }
+  // What depends on the state comes on top of what was set.
+  Vector external_force() const {
+    Vector force(stepper_.driving_force());
+    force -= force_;
+    force += load_.external_force;
+    return force;
   }
 
   const SolidSpace& space_;
