@@ -11,6 +11,7 @@
 #include "diagnosis/judged_samples.h"
 #include "diagnosis/spectrum.h"
 #include "signals/error.h"
+#include "signals/student.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -186,14 +187,11 @@ std::optional<double> gap_closed(const Block& sum) {
 }
 
 /// By how much an interval between quantiles of resamples is too short for so few blocks: Student's
-/// quantile over the normal one (by its series in 1 / nu), and the missing degree of freedom
-/// (Hesterberg 2015, expanded percentile interval).
+/// quantile over the normal one, and the missing degree of freedom (Hesterberg 2015, expanded
+/// percentile interval).
 double expansion(std::size_t n_blocks) {
-  constexpr double z = 1.959964;
   const double n = static_cast<double>(n_blocks), nu = n - 1.;
-  const double student = z + (std::pow(z, 3) + z) / (4. * nu) +
-                         (5. * std::pow(z, 5) + 16. * std::pow(z, 3) + 3. * z) / (96. * nu * nu);
-  return student / z * std::sqrt(n / nu);
+  return signals::student_quantile_975(nu) / signals::normal_quantile_975 * std::sqrt(n / nu);
 }
 
 std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "diagnosis/spectrum.h"
+#include "signals/base_velocity.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -196,8 +197,7 @@ std::vector<std::vector<double>> side_by_side(const Chain& chain, const JointMod
 }  // namespace
 
 bool gives_velocity(const Complex s) {
-  constexpr double slowest_hz = 0.5;
-  return s.imag() > 2. * std::numbers::pi * slowest_hz;
+  return s.imag() > 2. * std::numbers::pi * signals::slowest_base_motion_hz;
 }
 
 bool is_dynamic(const Chain& chain, const PreparedRecord& record) {

@@ -1,5 +1,7 @@
 #include "fem/base_moment.h"
 
+#include "fem/internal_force.h"
+
 namespace vibrissa::fem {
 
 BaseMoment::BaseMoment(const SolidSpace& space, const SolidOperators& operators)

@@ -26,8 +26,8 @@ void write_calculix_static(const std::filesystem::path& file, const SolidSpace& 
                            double first_increment);
 
 /// The same from rest under a body force whose size follows samples, linear between them, by the
-/// implicit method with fixed steps of dt and the program's own tolerances: prints the displacements
-/// [mm] of all nodes at the end.
+/// implicit method with fixed steps of dt and the program's own tolerances: prints the
+/// displacements [mm] of all nodes at the end.
 void write_calculix_dynamic(const std::filesystem::path& file, const SolidSpace& space,
                             const std::map<std::string, materials::Material>& materials,
                             const std::array<double, 3>& direction,

@@ -97,12 +97,18 @@ double CellElasticity::deform(const CellIntegrals& cell, const materials::Materi
                               const Nodal& u) {
   cell_ = &cell;
   material_ = &material;
+  modulus_factor_ = 1.;
   fill_gradient(u);
   fill_volume_change();
   for (int q = 0; q < n_points; ++q) {
     if (!(j_minus_1_[q] > -1.)) return std::numeric_limits<double>::quiet_NaN();
   }
   return fill_isochoric() + fill_pressure();
+}
+
+void CellElasticity::relax(const double factor, const Stress& constant) {
+  modulus_factor_ = factor;
+  for (std::size_t i = 0; i < stress_.size(); ++i) stress_[i] = factor * stress_[i] + constant[i];
 }
 
 void CellElasticity::set_stress_of(const CellElasticity& other) {
@@ -223,7 +229,10 @@ void CellElasticity::fill_moduli() {
     Lanes e[6], tangent[n_moduli];
     for (int m = 0; m < 6; ++m) load(e[m], strain_.data() + m * row + start);
     materials::isochoric_tangent(material_->isochoric, e, tangent);
-    for (int m = 0; m < n_moduli; ++m) store(tangent[m], moduli_.data() + m * row + start);
+    for (int m = 0; m < n_moduli; ++m) {
+      tangent[m] *= modulus_factor_;
+      store(tangent[m], moduli_.data() + m * row + start);
+    }
   }
 }
 

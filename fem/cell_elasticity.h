@@ -29,6 +29,11 @@ class CellElasticity {
   /// Energy [J] of the cell displaced by u [m]; NaN where a point is turned inside out (det F <= 0)
   /// or the law has no value. force() and tangent() then refer to this state.
   double deform(const CellIntegrals& cell, const materials::Material& material, const Nodal& u);
+  /// Isochoric stress of the law at the points, [11, 22, 33, 12, 13, 23][point].
+  using Stress = std::array<double, 6 * CellIntegrals::row>;
+  const Stress& stress() const { return stress_; }
+  /// The stress becomes factor times the law's plus a constant, and the moduli with it.
+  void relax(double factor, const Stress& constant);
   /// Takes the stress and the pressure of another state of the same cell for those of this one.
   void set_stress_of(const CellElasticity& other);
   /// dW/du [N].
@@ -65,6 +70,7 @@ class CellElasticity {
   alignas(64) PointValues<1> pressure_{};       // dU/dtheta, projected
   alignas(64) PointValues<6> strain_{};         // E, as the stress
   alignas(64) PointValues<6> stress_{};         // isochoric S in the order 11, 22, 33, 12, 13, 23
+  double modulus_factor_ = 1.;
   alignas(64) PointValues<n_moduli> moduli_{};  // isochoric dS/dE, upper triangle
   alignas(
       64) std::array<double, 3 * n_points * Blocks::stride> right_side_{};  // moduli x gradients

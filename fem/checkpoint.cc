@@ -70,6 +70,12 @@ TransientOutput read_record(const Hdf5Reader& file) {
 
 TransientMemory read_memory(const Hdf5Reader& file, const Vector& like) {
   TransientMemory memory;
+  const auto rank =
+      std::to_string(dealii::Utilities::MPI::this_mpi_process(like.get_mpi_communicator()));
+  if (file.has("own")) {
+    for (const auto& name : file.names("own"))
+      memory.own[name] = file.numbers("own/" + name + "/" + rank);
+  }
   for (const auto& name : file.names("numbers"))
     memory.numbers[name] = file.numbers("numbers/" + name).at(0);
   for (const auto& name : file.names("vectors")) {
@@ -144,6 +150,11 @@ void write_checkpoint(const std::filesystem::path& file, const TransientRun& run
   for (const auto& [name, vector] : memory.vectors) {
     const dealii::Vector<double> whole(vector);
     if (writes) content.add("vectors/" + name, std::span(whole.begin(), whole.size()));
+  }
+  for (const auto& [name, values] : memory.own) {
+    const auto of_processes = dealii::Utilities::MPI::gather(communicator, values, 0);
+    for (std::size_t rank = 0; rank < of_processes.size(); ++rank)
+      content.add("own/" + name + "/" + std::to_string(rank), of_processes[rank]);
   }
   if (!writes) return;
   for (const auto& [name, number] : memory.numbers)

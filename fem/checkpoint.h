@@ -16,9 +16,9 @@ struct CheckpointOwner {
 };
 
 /// Writes what a run needs to go on and its record so far, whole or not at all, as an HDF5 file of
-/// vectors/, numbers/, record/ and owner/, with the SHA-256 of all that in its user block. On
-/// several processes the first one writes; all must call. Throws UserError when it cannot be
-/// written. Proven by tests/fem/checkpoint_test.cc and tests/apps/transient_test.cc.
+/// vectors/, numbers/, own/ (of each process), record/ and owner/, with the SHA-256 of all that in
+/// its user block. On several processes the first one writes; all must call. Throws UserError when
+/// it cannot be written. Proven by tests/fem/checkpoint_test.cc and tests/apps/transient_test.cc.
 void write_checkpoint(const std::filesystem::path& file, const TransientRun& run,
                       const CheckpointOwner& owner);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fem/element_matrices.h"
+#include "fem/internal_force.h"
 #include "meshes/regions.h"
 #include "signals/error.h"
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fem/base_moment.h"
 #include "fem/energy_balance.h"
@@ -16,6 +17,7 @@ namespace vibrissa::fem {
 struct TransientMemory {
   std::map<std::string, Vector> vectors;
   std::map<std::string, double> numbers;
+  std::map<std::string, std::vector<double>> own;  // of this process
 };
 
 /// Work of an integrator since its start.

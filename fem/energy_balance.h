@@ -6,7 +6,7 @@ namespace vibrissa::fem {
 struct EnergyBalance {
   double kinetic_j = 0.;     // of the motion relative to the base
   double stored_j = 0.;      // elastic
-  double dissipated_j = 0.;  // by damping
+  double dissipated_j = 0.;  // by damping and relaxing branches, what these still hold included
   double numerical_j = 0.;   // by the integrator's own damping of high frequencies
   double work_j = 0.;        // of the driving forces, those of the base's acceleration among them
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "fem/internal_force.h"
 #include "fem/low_rank_damping.h"
 #include "fem/tangent_matrix.h"
 #include "signals/error.h"
@@ -10,31 +11,39 @@
 namespace vibrissa::fem {
 
 /// The balance at a step's end in the displacement there:
-/// F - M u'' - C u' - f(u), u'' and u' straight lines in u.
+/// F + F(u, u') - M u'' - C u' - f(u), u'' and u' straight lines in u.
 class FiniteStrainStepper::Problem : public BalanceProblem {
  public:
   Problem(const SolidSpace& space, const SolidOperators& operators, const dealii::IndexSet& held,
-          const ModalDamping* damping, const double mass_factor, const double damping_factor)
+          const ModalDamping* damping, const StateLoad* load, const double mass_factor,
+          const double damping_factor, const double time_step_s)
       : held_(held),
         known_force(space.make_vector()),
+        known_velocity(known_force),
         tangent_at(known_force),
         stressed_at(known_force),
         space_(space),
         operators_(operators),
+        load_(load),
         mass_factor_(mass_factor),
+        velocity_factor_(damping_factor),
         elastic_(space.make_vector()),
         inertia_(elastic_),
         tangent_(space, *operators.mass, held) {
+    if (operators.internal_force->relaxes())
+      relaxation = operators.internal_force->make_relaxing_stress(time_step_s);
     if (damping != nullptr) damping_.emplace(*damping, held, damping_factor);
   }
 
   double forces(const Vector& u, Vector& out_of_balance) override {
     elastic_ = 0.;
-    const double energy = operators_.internal_force->add_finite(1., u, elastic_);
+    const double energy =
+        operators_.internal_force->add_finite(1., u, elastic_, relaxation ? &*relaxation : nullptr);
     operators_.mass->vmult(inertia_, u);
     inertia_ *= mass_factor_;
     out_of_balance = known_force;
-    const double scale = known_force.l2_norm() + elastic_.l2_norm() + inertia_.l2_norm();
+    if (load_ != nullptr) load_->add_force(u, velocity(u), out_of_balance);
+    const double scale = out_of_balance.l2_norm() + elastic_.l2_norm() + inertia_.l2_norm();
     out_of_balance -= elastic_;
     out_of_balance -= inertia_;
     if (damping_) damping_->add(-1., u, out_of_balance);
@@ -46,7 +55,10 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
     tangent_at = u;
     stressed_at = stressed;
     tangent_.start(mass_factor_);
-    operators_.internal_force->add_tangent(1., u, stressed, tangent_);
+    // A state load's stiffness is nothing beside a step's inertia, and a tangent that is kept would
+    // have to remember the instant that it was made at.
+    operators_.internal_force->add_tangent(1., u, stressed, tangent_,
+                                           relaxation ? &*relaxation : nullptr);
     tangent_.finish(mass_factor_);
     renew_factors(tangent_, solver_);
     if (damping_) damping_->renew(solved_damping_forces());
@@ -60,9 +72,17 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
 
   const dealii::IndexSet held_;
   Vector known_force;              // all that does not depend on u
+  Vector known_velocity;           // at the step's end, likewise
   Vector tangent_at, stressed_at;  // where the tangent was last made
+  std::optional<RelaxingStress> relaxation;
 
  private:
+  Vector velocity(const Vector& u) const {
+    Vector v(known_velocity);
+    v.add(velocity_factor_, u);
+    return v;
+  }
+
   /// All at once: about the price of two solutions.
   std::vector<Vector> solved_damping_forces() const {
     const std::vector<Vector>& forces = damping_->forces();
@@ -85,7 +105,8 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
 
   const SolidSpace& space_;
   const SolidOperators& operators_;
-  double mass_factor_;
+  const StateLoad* load_;
+  double mass_factor_, velocity_factor_;
   Vector elastic_, inertia_;
   TangentMatrix tangent_;
   std::unique_ptr<CholeskySolver> solver_;
@@ -104,12 +125,13 @@ FiniteStrainStepper::FiniteStrainStepper(const SolidSpace& space, const SolidOpe
       algorithmic_before_(algorithmic_),
       force_(algorithmic_),
       elastic_force_(algorithmic_),
-      damping_force_(algorithmic_) {
+      damping_force_(algorithmic_),
+      relaxing_force_(algorithmic_) {
   const double dt = options.time_step_s;
   problem_ = std::make_unique<Problem>(
-      space, operators, held, damping,
+      space, operators, held, damping, options.load,
       (1. - alpha_.alpha_m) / ((1. - alpha_.alpha_f) * alpha_.beta * dt * dt),
-      alpha_.gamma / (alpha_.beta * dt));
+      alpha_.gamma / (alpha_.beta * dt), dt);
 }
 
 FiniteStrainStepper::~FiniteStrainStepper() = default;
@@ -121,13 +143,32 @@ void FiniteStrainStepper::update_forces() {
   if (damping_ != nullptr) damping_->add_force(state_.velocity, damping_force_);
 }
 
+void FiniteStrainStepper::add_relaxing_force() {
+  if (!problem_->relaxation) return;
+  relaxing_force_ = 0.;
+  operators_.internal_force->add_finite(1., state_.displacement, relaxing_force_,
+                                        &*problem_->relaxation);
+  relaxing_force_ -= elastic_force_;
+  elastic_force_ += relaxing_force_;
+}
+
+Vector FiniteStrainStepper::with_state_load(const Vector& force) const {
+  Vector total(force);
+  if (options_.load != nullptr) {
+    options_.load->add_force(state_.displacement, state_.velocity, total);
+  }
+  return total;
+}
+
 void FiniteStrainStepper::start(const Vector& displacement, const Vector& velocity,
                                 const Vector& force) {
   state_ = {displacement, velocity, space_.make_vector()};
-  force_ = force;
+  force_ = with_state_load(force);
   energy_ = {};
+  if (problem_->relaxation) operators_.internal_force->rest(displacement, *problem_->relaxation);
   update_forces();
-  Vector right(force), momentum(force);
+  add_relaxing_force();
+  Vector right(force_), momentum(force);
   right -= elastic_force_;
   right -= damping_force_;
   zero_entries(right, problem_->held_);
@@ -161,6 +202,10 @@ TransientMemory FiniteStrainStepper::memory() const {
     memory.vectors.emplace("tangent_at", problem_->tangent_at);
     memory.vectors.emplace("stressed_at", problem_->stressed_at);
   }
+  if (problem_->relaxation) {
+    memory.vectors.emplace("relaxing_force", relaxing_force_);
+    memory.own.emplace("relaxing_stress", problem_->relaxation->memory());
+  }
   return memory;
 }
 
@@ -176,6 +221,11 @@ void FiniteStrainStepper::restore(const TransientMemory& memory) {
   algorithmic_before_ = memory.vectors.at("algorithmic_acceleration_before");
   force_ = memory.vectors.at("force");
   update_forces();
+  if (problem_->relaxation) {
+    relaxing_force_ = memory.vectors.at("relaxing_force");
+    elastic_force_ += relaxing_force_;
+    problem_->relaxation->restore(memory.own.at("relaxing_stress"));
+  }
   energy_.kinetic_j = memory.numbers.at("kinetic_j");
   energy_.dissipated_j = memory.numbers.at("dissipated_j");
   energy_.numerical_j = memory.numbers.at("numerical_j");
@@ -199,6 +249,7 @@ void FiniteStrainStepper::step(const Vector& force) {
   acceleration.add(m / (1. - f), algorithmic_, -f / (1. - f), state_.acceleration);
   Vector rate(velocity);
   rate.add(-g / (b * dt), predicted);
+  problem_->known_velocity = rate;
   Vector& known = problem_->known_force;
   operators_.mass->vmult(known, acceleration);
   if (damping_ != nullptr) damping_->add_force(rate, known);
@@ -224,8 +275,11 @@ void FiniteStrainStepper::step(const Vector& force) {
   mean_acceleration.sadd(0.5, 0.5, state_.acceleration);
   state_.acceleration = acceleration;
   ++count_.n_steps;
-  add_energies(before, mean_acceleration, force);
-  force_ = force;
+  const Vector total = with_state_load(force);
+  add_energies(before, mean_acceleration, total);
+  force_ = total;
+  if (problem_->relaxation)
+    operators_.internal_force->advance(state_.displacement, *problem_->relaxation);
 }
 
 void FiniteStrainStepper::add_energies(const Vector& before, const Vector& mean_acceleration,
@@ -239,9 +293,10 @@ void FiniteStrainStepper::add_energies(const Vector& before, const Vector& mean_
   energy_.kinetic_j = 0.5 * (state_.velocity * momentum);
   energy_.numerical_j += of_inertia - (energy_.kinetic_j - kinetic_before);
   energy_.work_j += 0.5 * (way * force_ + way * force);
-  energy_.dissipated_j += 0.5 * (way * damping_force_);
+  energy_.dissipated_j += 0.5 * (way * damping_force_ + way * relaxing_force_);
   update_forces();
-  energy_.dissipated_j += 0.5 * (way * damping_force_);
+  add_relaxing_force();
+  energy_.dissipated_j += 0.5 * (way * damping_force_ + way * relaxing_force_);
 }
 
 void FiniteStrainStepper::give_up(const NewtonReport& report) const {

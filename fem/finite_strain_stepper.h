@@ -8,22 +8,27 @@
 #include "fem/newton.h"
 #include "fem/solid_operators.h"
 #include "fem/solid_space.h"
+#include "fem/state_load.h"
 
 namespace vibrissa::fem {
 
-/// Steps M u'' + C u' + f(u) = F by generalised-alpha (T14.1) at finite strain. The equation of
-/// motion holds at every step's end. Newton begins from the extrapolated acceleration and keeps the
-/// tangent, over steps too, as long as it converges.
-/// Proven by tests/fem/finite_strain_stepper_test.cc.
+/// Steps M u'' + C u' + f(u) = F + F(u, u') by generalised-alpha (T14.1) at finite strain. The
+/// equation of motion holds at every step's end. Newton begins from the extrapolated acceleration
+/// and keeps the tangent, over steps too, as long as it converges. Proven by
+/// tests/fem/finite_strain_stepper_test.cc.
 class FiniteStrainStepper {
  public:
   struct Options {
     double spectral_radius = 0.9;
     double time_step_s = 0.;
     NewtonOptions newton;
+    /// Acts beside the given forces; whoever owns it sets it to the instant of the start, and to
+    /// that of each step's end before the step. May be null.
+    const StateLoad* load = nullptr;
   };
 
-  /// damping may be null; held: unknowns that do not move. All must outlive the stepper.
+  /// damping may be null; held: unknowns that do not move. All and the load must outlive the
+  /// stepper.
   FiniteStrainStepper(const SolidSpace& space, const SolidOperators& operators,
                       const dealii::IndexSet& held, const ModalDamping* damping,
                       const Options& options);
@@ -36,7 +41,9 @@ class FiniteStrainStepper {
   void step(const Vector& force);
 
   const SolidState& state() const { return state_; }
-  const Vector& elastic_force() const { return elastic_force_; }  // all rows
+  /// With that of relaxing branches, all rows.
+  const Vector& elastic_force() const { return elastic_force_; }
+  const Vector& driving_force() const { return force_; }          // with the state load, all rows
   const Vector& damping_force() const { return damping_force_; }  // all rows
   const EnergyBalance& energy() const { return energy_; }
   const StepCount& count() const { return count_; }
@@ -52,6 +59,9 @@ class FiniteStrainStepper {
   /// forces are those of the step's end.
   void add_energies(const Vector& before, const Vector& mean_acceleration, const Vector& force);
   void update_forces();
+  /// Of the step whose end the state is at.
+  void add_relaxing_force();
+  Vector with_state_load(const Vector& force) const;
   [[noreturn]] void give_up(const NewtonReport& report) const;
 
   const SolidSpace& space_;
@@ -63,6 +73,7 @@ class FiniteStrainStepper {
   SolidState state_;
   Vector algorithmic_, algorithmic_before_;  // a of (T14.1), at the last two steps
   Vector force_, elastic_force_, damping_force_;
+  Vector relaxing_force_;  // the share of relaxing branches in the elastic force
   EnergyBalance energy_;
   StepCount count_;
 };

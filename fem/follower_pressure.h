@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <set>
-#include <vector>
 
-#include "fem/solid_space.h"
-#include "fem/tangent_matrix.h"
+#include "fem/loaded_faces.h"
+#include "fem/state_load.h"
 
 namespace vibrissa::fem {
 
@@ -14,35 +12,23 @@ namespace vibrissa::fem {
 /// loaded surface is closed or held at its edge; otherwise the symmetric part, given here, leaves
 /// Newton's iteration a little more to do but not another solution. Proven by
 /// tests/fem/follower_pressure_test.cc.
-class FollowerPressure {
+class FollowerPressure : public StateLoad {
  public:
-  FollowerPressure(const SolidSpace& space, const std::set<dealii::types::boundary_id>& boundaries);
+  FollowerPressure(const SolidSpace& space, const std::set<dealii::types::boundary_id>& boundaries,
+                   double pressure_pa)
+      : faces_(space, boundaries), pressure_pa_(faces_.n_points(), pressure_pa) {}
 
-  /// force += nodal forces of the pressure [Pa] on the body displaced by u [m].
-  void add_force(double pressure_pa, const Vector& u, Vector& force) const;
-  /// tangent -= factor * symmetric part of the derivative of that force.
-  void add_tangent(double factor, double pressure_pa, const Vector& u,
-                   TangentMatrix& tangent) const;
+  void add_force(const Vector& u, const Vector&, Vector& force) const override {
+    faces_.add_force(pressure_pa_, u, force);
+  }
+  void add_tangent(const double factor, const Vector& u, const Vector&,
+                   TangentMatrix& tangent) const override {
+    faces_.add_tangent(factor, pressure_pa_, u, tangent);
+  }
 
  private:
-  static constexpr int nodes_per_face = 9;
-  struct Point {
-    std::array<double, nodes_per_face> value;                   // N JxW
-    std::array<dealii::Tensor<1, 3>, nodes_per_face> gradient;  // 1/m
-    dealii::Tensor<1, 3> normal;                                // reference, outwards
-  };
-  struct Face {
-    std::size_t cell;  // among those that this process knows
-    bool owned;
-    std::array<unsigned int, nodes_per_face> nodes;  // of the cell
-    std::array<dealii::types::global_dof_index, 3 * nodes_per_face> unknowns;
-    std::vector<Point> points;
-  };
-  using Displacements = std::array<double, 3 * nodes_per_face>;
-  static dealii::Tensor<2, 3> deformation(const Point& point, const Displacements& u);
-
-  const SolidSpace& space_;
-  std::vector<Face> faces_;
+  LoadedFaces faces_;
+  std::vector<double> pressure_pa_;
 };
 
 }  // namespace vibrissa::fem

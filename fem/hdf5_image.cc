@@ -142,6 +142,10 @@ std::string Hdf5Reader::text(const std::string& path) const {
   return text;
 }
 
+bool Hdf5Reader::has(const std::string& path) const {
+  return H5Lexists(file_->handle, path.c_str(), H5P_DEFAULT) > 0;
+}
+
 std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
   const Handle opened(H5Gopen2(file_->handle, group.c_str(), H5P_DEFAULT), H5Gclose,
                       "find '" + group + "'");

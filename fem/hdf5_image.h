@@ -33,6 +33,7 @@ class Hdf5Reader {
   ~Hdf5Reader();
   std::vector<double> numbers(const std::string& path) const;
   std::string text(const std::string& path) const;
+  bool has(const std::string& path) const;  // at the top
   /// What a group holds, in alphabetical order.
   std::vector<std::string> names(const std::string& group) const;
 

@@ -2,6 +2,7 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace vibrissa::fem {
@@ -52,9 +53,10 @@ void InternalForce::add_forces(const double factor, const Vector& u, Vector& for
   const Values known = known_values(u);
   Values sum(known.size(), 0.);
   CellElasticity::Nodal out;
-  for (const Cell& cell : cells_) {
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const Cell& cell = cells_[c];
     if (!cell.owned) continue;
-    cell_force(cell, nodal_values(cell, known), out);
+    cell_force(c, known, out);
     for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
       for (std::size_t c = 0; c < 3; ++c) sum[cell.nodes[i] + c] += factor * out[3 * i + c];
     }
@@ -66,17 +68,31 @@ void InternalForce::add_forces(const double factor, const Vector& u, Vector& for
 void InternalForce::add(const double factor, const Vector& u, Vector& force) const {
   CellElasticity elasticity;
   add_forces(factor, u, force,
-             [&](const Cell& cell, const CellElasticity::Nodal& nodal, CellElasticity::Nodal& out) {
-               elasticity.force_of_linear_model(cell.integrals, *cell.material, nodal, out);
+             [&](const std::size_t c, const Values& values, CellElasticity::Nodal& out) {
+               const Cell& cell = cells_[c];
+               elasticity.force_of_linear_model(cell.integrals, *cell.material,
+                                                nodal_values(cell, values), out);
              });
 }
 
-double InternalForce::add_finite(const double factor, const Vector& u, Vector& force) const {
+double InternalForce::deform(const std::size_t c, const Values& values,
+                             const RelaxingStress* const relaxation,
+                             CellElasticity& elasticity) const {
+  const Cell& cell = cells_[c];
+  const double energy =
+      elasticity.deform(cell.integrals, *cell.material, nodal_values(cell, values));
+  if (relaxation != nullptr && relaxation->relaxes(c))
+    elasticity.relax(relaxation->factor(c), relaxation->history(c));
+  return energy;
+}
+
+double InternalForce::add_finite(const double factor, const Vector& u, Vector& force,
+                                 const RelaxingStress* const relaxation) const {
   CellElasticity elasticity;
   double energy = 0.;
   add_forces(factor, u, force,
-             [&](const Cell& cell, const CellElasticity::Nodal& nodal, CellElasticity::Nodal& out) {
-               const double part = elasticity.deform(cell.integrals, *cell.material, nodal);
+             [&](const std::size_t c, const Values& values, CellElasticity::Nodal& out) {
+               const double part = deform(c, values, relaxation, elasticity);
                energy += part;
                if (part == part) {
                  elasticity.force(out);
@@ -88,23 +104,57 @@ double InternalForce::add_finite(const double factor, const Vector& u, Vector& f
 }
 
 void InternalForce::add_tangent(const double factor, const Vector& u, const Vector& stressed,
-                                TangentMatrix& tangent) const {
+                                TangentMatrix& tangent,
+                                const RelaxingStress* const relaxation) const {
   const bool own_stress = &u == &stressed;
   const Values known = known_values(u);
   const Values known_stressed = own_stress ? Values() : known_values(stressed);
   CellElasticity elasticity, of_stress;
   CellElasticity::Blocks blocks;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const CellIntegrals& integrals = cells_[c].integrals;
-    const materials::Material& material = *cells_[c].material;
-    elasticity.deform(integrals, material, nodal_values(cells_[c], known));
+    deform(c, known, relaxation, elasticity);
     if (!own_stress) {
-      of_stress.deform(integrals, material, nodal_values(cells_[c], known_stressed));
+      deform(c, known_stressed, relaxation, of_stress);
       elasticity.set_stress_of(of_stress);
     }
     elasticity.tangent(blocks);
     tangent.add(c, factor, blocks);
   }
+}
+
+bool InternalForce::relaxes() const {
+  return std::any_of(materials_.begin(), materials_.end(),
+                     [](const auto& named) { return !named.second.relaxation.branches().empty(); });
+}
+
+RelaxingStress InternalForce::make_relaxing_stress(const double step_s) const {
+  std::vector<const materials::Material*> material_of_cell;
+  for (const Cell& cell : cells_) material_of_cell.push_back(cell.material);
+  return {material_of_cell, step_s};
+}
+
+template <typename Take>
+void InternalForce::for_law_stress(const Vector& u, RelaxingStress& relaxation,
+                                   const Take& take) const {
+  const Values known = known_values(u);
+  CellElasticity elasticity;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (!relaxation.relaxes(c)) continue;
+    deform(c, known, nullptr, elasticity);
+    take(c, elasticity.stress());
+  }
+}
+
+void InternalForce::rest(const Vector& u, RelaxingStress& relaxation) const {
+  for_law_stress(u, relaxation, [&](const std::size_t cell, const CellElasticity::Stress& law) {
+    relaxation.rest(cell, law);
+  });
+}
+
+void InternalForce::advance(const Vector& u, RelaxingStress& relaxation) const {
+  for_law_stress(u, relaxation, [&](const std::size_t cell, const CellElasticity::Stress& law) {
+    relaxation.advance(cell, law);
+  });
 }
 
 }  // namespace vibrissa::fem

@@ -9,6 +9,7 @@
 
 #include "fem/cell_elasticity.h"
 #include "fem/node_rows.h"
+#include "fem/relaxing_stress.h"
 #include "fem/solid_space.h"
 #include "fem/tangent_matrix.h"
 #include "materials/material.h"
@@ -33,12 +34,21 @@ class InternalForce {
   /// force += factor * K u, all rows; K the tangent at rest.
   void add(double factor, const Vector& u, Vector& force) const;
   /// force += factor * dW/du, all rows; returns the energy W [J] of the whole body. Where a cell is
-  /// turned inside out or strained beyond its law both are NaN.
-  double add_finite(double factor, const Vector& u, Vector& force) const;
+  /// turned inside out or strained beyond its law both are NaN. With relaxing branches the forces
+  /// are those at their step's end; W is the law's.
+  double add_finite(double factor, const Vector& u, Vector& force,
+                    const RelaxingStress* relaxation = nullptr) const;
   /// tangent += factor * d2W/du2, its geometric part with the stresses of the state `stressed`
   /// (T13.2); both must be states of finite energy.
-  void add_tangent(double factor, const Vector& u, const Vector& stressed,
-                   TangentMatrix& tangent) const;
+  void add_tangent(double factor, const Vector& u, const Vector& stressed, TangentMatrix& tangent,
+                   const RelaxingStress* relaxation = nullptr) const;
+
+  /// Whether a material has relaxing branches.
+  bool relaxes() const;
+  RelaxingStress make_relaxing_stress(double step_s) const;
+  /// Branches at rest for ever in a state, and at their step's end in it.
+  void rest(const Vector& u, RelaxingStress& relaxation) const;
+  void advance(const Vector& u, RelaxingStress& relaxation) const;
 
  private:
   struct Cell {
@@ -52,6 +62,11 @@ class InternalForce {
 
   Values known_values(const Vector& u) const;
   static CellElasticity::Nodal nodal_values(const Cell& cell, const Values& values);
+  /// Energy of a cell in a state that force() and tangent() then refer to.
+  double deform(std::size_t cell, const Values& values, const RelaxingStress* relaxation,
+                CellElasticity& elasticity) const;
+  template <typename Take>
+  void for_law_stress(const Vector& u, RelaxingStress& relaxation, const Take& take) const;
   template <typename CellForce>
   void add_forces(double factor, const Vector& u, Vector& force, const CellForce& cell_force) const;
 

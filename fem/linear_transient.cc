@@ -4,6 +4,7 @@
 
 #include "fem/damping.h"
 #include "fem/generalized_alpha.h"
+#include "fem/internal_force.h"
 #include "fem/low_rank_damping.h"
 
 namespace vibrissa::fem {
@@ -36,7 +37,7 @@ class LinearStepper : public DrivenSensor {
   LinearStepper(const Sensor& sensor, const TransientInput& input, const TransientOptions& options)
       : sensor_(sensor),
         space_(sensor.space()),
-        load_at_(sensor, input),
+        load_at_(sensor, input, wind_options(sensor.parameters().wind, false)),
         base_moment_(space_, sensor.operators()),
         substeps_(options.substeps),
         alpha_(options.spectral_radius),
@@ -53,7 +54,7 @@ class LinearStepper : public DrivenSensor {
       *v = space_.make_vector();
     }
     load_at_.enter_sample(0);
-    set_load(0.);
+    set_load(0., 0.);
     start();
   }
 
@@ -86,7 +87,7 @@ class LinearStepper : public DrivenSensor {
               memory.vectors.at("acceleration")};
     algorithmic_ = memory.vectors.at("algorithmic_acceleration");
     load_at_.enter_sample(sample);
-    set_load(0.);
+    set_load(0., 0.);
     force_after_ = memory.vectors.at("force");
     load_.damping_force = 0.;
     damping_.add_force(state_.velocity, load_.damping_force);
@@ -97,7 +98,7 @@ class LinearStepper : public DrivenSensor {
   /// One step of the integrator to the given fraction of the current sample interval.
   void step(const double fraction) {
     std::swap(force_before_, force_after_);
-    set_load(fraction);
+    set_load(fraction, dt_);
     const double b = alpha_.beta, g = alpha_.gamma, f = alpha_.alpha_f, m = alpha_.alpha_m;
     auto& u = state_.displacement;
     auto& v = state_.velocity;
@@ -153,7 +154,18 @@ class LinearStepper : public DrivenSensor {
     algorithmic_ = state_.acceleration;
   }
 
-  void set_load(const double fraction) { load_at_.set(fraction, load_, force_after_); }
+  // Drag takes the velocity that is foreseen for the end of a step: second order, and no part of
+  // the matrix.
+  void set_load(const double fraction, const double step_s) {
+    load_at_.set(fraction, load_, force_after_);
+    if (load_at_.state_load() == nullptr) return;
+    Vector velocity(state_.velocity);
+    velocity.add(step_s, state_.acceleration);
+    scratch_ = 0.;
+    load_at_.state_load()->add_force(state_.displacement, velocity, scratch_);
+    load_.external_force += scratch_;
+    force_after_ += scratch_;
+  }
 
   void balance_acceleration(const Vector& next) {
     const double f = alpha_.alpha_f, m = alpha_.alpha_m;

@@ -24,6 +24,7 @@ void check(const TransientInput& input, const NonlinearOptions& options) {
   check_finite(input.base_acceleration, "base acceleration");
   check_finite(input.cross_acceleration, "cross acceleration");
   check_finite(input.wind_speed, "wind speed");
+  check_finite(input.base_velocity, "base velocity");
   if (options.substeps == 0)
     throw signals::UserError("the number of substeps is 0; give 1 or more");
 }
@@ -37,10 +38,10 @@ class FiniteStrainSensor : public DrivenSensor {
         options_(options),
         base_moment_(space_, sensor.operators()),
         damping_(space_, sensor.operators(), sensor.modes(), sensor.damping_ratios()),
-        load_at_(sensor, input),
+        load_at_(sensor, input, wind_options(sensor.parameters().wind, true)),
         stepper_(space_, sensor.operators(), space_.clamped(), &damping_,
                  {options.spectral_radius, 1. / (input.sampling_rate_hz * options.substeps),
-                  options.newton}),
+                  options.newton, load_at_.state_load()}),
         weight_(space_.make_vector()),
         force_(weight_) {
     load_.external_force = space_.make_vector();
@@ -53,13 +54,12 @@ class FiniteStrainSensor : public DrivenSensor {
       sensor.operators().mass->vmult(weight_, field);
       StaticLoad gravity;
       gravity.body_acceleration_m_s2 = options.gravity_m_s2;
-      StaticOptions by_newton;
-      by_newton.newton = options.newton;
-      rest = solve_static(space_, sensor.operators(), gravity, by_newton).displacement;
+      rest = solve_static(space_, sensor.operators(), gravity).displacement;
     }
     load_at_.enter_sample(0);
     set_load(0.);
     stepper_.start(rest, space_.make_vector(), force_);
+    load_.external_force = external_force();
   }
 
   void advance(const std::size_t sample) override {
@@ -69,6 +69,7 @@ class FiniteStrainSensor : public DrivenSensor {
       stepper_.step(force_);
     }
     load_.damping_force = stepper_.damping_force();
+    load_.external_force = external_force();
   }
 
   const SolidState& state() const override { return stepper_.state(); }
@@ -87,6 +88,7 @@ class FiniteStrainSensor : public DrivenSensor {
     set_load(0.);
     stepper_.restore(memory);
     load_.damping_force = stepper_.damping_force();
+    load_.external_force = external_force();
   }
 
  private:
@@ -94,6 +96,13 @@ class FiniteStrainSensor : public DrivenSensor {
     load_at_.set(fraction, load_, force_);
     force_ += weight_;
     load_.external_force += weight_;
+  }
+  // What depends on the state comes on top of what was set.
+  Vector external_force() const {
+    Vector force(stepper_.driving_force());
+    force -= force_;
+    force += load_.external_force;
+    return force;
   }
 
   const SolidSpace& space_;

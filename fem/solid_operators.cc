@@ -1,6 +1,7 @@
 #include "fem/solid_operators.h"
 
 #include "fem/element_matrices.h"
+#include "fem/internal_force.h"
 #include "fem/node_rows.h"
 #include "meshes/regions.h"
 #include "signals/error.h"

@@ -4,20 +4,21 @@
 #include <memory>
 #include <string>
 
-#include "fem/internal_force.h"
 #include "fem/linear_algebra.h"
 #include "fem/solid_space.h"
 #include "materials/material.h"
 
 namespace vibrissa::fem {
 
+class InternalForce;
+
 /// Stiffness and mass of the whole solid at rest, with all rows (for reactions and balances) and
 /// with the clamp's rows and columns removed (for solving).
 struct SolidOperators {
   std::unique_ptr<Matrix> mass;
-  std::unique_ptr<InternalForce> internal_force;  // K u of all rows, without loss of balance
-  std::unique_ptr<Matrix> clamped_stiffness;      // clamp: unit diagonal
-  std::unique_ptr<Matrix> clamped_mass;           // clamp: zero
+  std::shared_ptr<const InternalForce> internal_force;  // K u of all rows, without loss of balance
+  std::unique_ptr<Matrix> clamped_stiffness;            // clamp: unit diagonal
+  std::unique_ptr<Matrix> clamped_mass;                 // clamp: zero
 };
 
 /// Assembles them. Materials are looked up by region name; throws UserError for a region of the

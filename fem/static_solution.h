@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
+#include <string>
 
-#include "fem/follower_pressure.h"
 #include "fem/newton.h"
 #include "fem/solid_operators.h"
 #include "fem/solid_space.h"
+#include "fem/state_load.h"
+#include "signals/error.h"
 
 namespace vibrissa::fem {
 
@@ -14,8 +17,7 @@ namespace vibrissa::fem {
 struct StaticLoad {
   std::array<double, 3> body_acceleration_m_s2{};  // gravity minus the base's acceleration
   std::optional<Vector> force;                     // N at every node, fixed in direction
-  const FollowerPressure* pressure = nullptr;
-  double pressure_pa = 0.;
+  const StateLoad* following = nullptr;            // at rest
   /// Displacements of held unknowns [m], and a first guess of the others; nothing: zero.
   std::optional<Vector> displacement;
   /// Unknowns that are held; nothing: those of the clamp.
@@ -34,10 +36,38 @@ struct StaticSolution {
   unsigned int n_increments = 0, n_iterations = 0, n_factorisations = 0;
 };
 
-/// Equilibrium at finite strain by Newton's iteration (newton.h) in increments of the load, which
-/// are halved on failure and doubled on success, each begun from the extrapolation of those before.
-/// Throws UserError with the share of the load reached, the last residuals and advice when the
-/// least increment fails. Proven by tests/fem/static_solution_test.cc.
+/// A load that does not come to balance, with the share of the way to it that does.
+class NoEquilibrium : public signals::UserError {
+ public:
+  NoEquilibrium(const std::string& what, const double share)
+      : UserError(what), share_reached(share) {}
+  const double share_reached;
+};
+
+/// Equilibria at finite strain one after another, by Newton's iteration (newton.h) in increments of
+/// the way from each load to the next, which are halved on failure and doubled on success, each
+/// begun from the extrapolation of those before. Tangents are kept as long as they serve.
+/// Proven by tests/fem/static_solution_test.cc.
+class StaticPath {
+ public:
+  /// Begins undeformed and without load. Operators must outlive the path.
+  StaticPath(const SolidSpace& space, const SolidOperators& operators,
+             const StaticOptions& options = {});
+  ~StaticPath();
+
+  /// Goes on to the equilibrium under a load, which must outlive the next step. Throws
+  /// NoEquilibrium with the share of the way, the last residuals and advice when the least
+  /// increment fails; the path is then at the last equilibrium found, and ends there.
+  StaticSolution go_to(const StaticLoad& load);
+
+ private:
+  class Problem;
+  std::unique_ptr<Problem> problem_;
+  StaticOptions options_;
+  Vector displacement_;
+};
+
+/// The equilibrium under one load; throws as StaticPath::go_to.
 StaticSolution solve_static(const SolidSpace& space, const SolidOperators& operators,
                             const StaticLoad& load, const StaticOptions& options = {});
 

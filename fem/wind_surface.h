@@ -1,9 +1,10 @@
 #pragma once
 
 #include <array>
-#include <set>
+#include <span>
 #include <vector>
 
+#include "fem/loaded_faces.h"
 #include "fem/solid_space.h"
 #include "flow/drag_law.h"
 #include "flow/wind_profile.h"
@@ -22,14 +23,23 @@ struct WindExposure {
   flow::Air air;
 };
 
-/// Wind as prescribed pressure on the windward faces of the undeformed sensor. Per reference area,
-/// on the reference normal n: traction -p n with p = 0.5 rho Cd(Re) u |u| where n points against
-/// the wind (n . e u < 0), so that the resultant along the wind is the drag on the frontal area.
+/// Wind as pressure p = 0.5 rho Cd(Re) w|w| on the windward faces (T6.1), w the air's speed past
+/// the point along the axial direction. Windward and height are those of the undeformed sensor. On
+/// the reference area the resultant along the wind is the drag on the frontal area.
+/// Proven by tests/fem/wind_surface_test.cc.
 class WindSurface {
  public:
   WindSurface(const SolidSpace& space, const WindExposure& exposure);
 
-  /// Nodal forces in a wind of reference speed u along the axial direction [N].
+  const LoadedFaces& faces() const { return faces_; }
+  /// Pressure at the faces' points in a wind of reference speed u along the axial direction [Pa],
+  /// which the points run before at their own axial velocities [m/s]; empty: they are at rest.
+  std::vector<double> pressures(double speed_m_s,
+                                std::span<const double> axial_velocity_m_s = {}) const;
+  /// Of the points, relative to the base.
+  std::vector<double> axial_velocity(const Vector& velocity) const;
+
+  /// Nodal forces on the sensor at rest and undeformed [N].
   void add_force(double speed_m_s, Vector& force) const;
 
   /// Work of the pressure on each shape over a list of speeds, divided by u|u|:
@@ -40,15 +50,16 @@ class WindSurface {
  private:
   struct Point {
     flow::DragBody body;
-    double width, height_factor, windward;                     // windward: sign of n . e
-    std::array<dealii::types::global_dof_index, 27> unknowns;  // [3 node + component] of the face
-    std::array<double, 27> weight;                             // -N n JxW
+    double width, height_factor;
+    double windward;  // sign of n . e, zero where the face lies along the wind
   };
-  void collect(const std::set<dealii::types::boundary_id>& boundaries);
-  double pressure(const Point& point, double speed_m_s) const;
+  double pressure(const Point& point, double relative_speed_m_s) const;
+  /// Work of a unit pressure at each point on a shape [m^3].
+  std::vector<double> work(const Vector& shape) const;
 
-  const SolidSpace& space_;
   WindExposure exposure_;
+  dealii::Tensor<1, 3> axis_;
+  LoadedFaces faces_;
   std::vector<Point> points_;
 };
 

@@ -27,6 +27,7 @@ namespace Utilities = dealii::Utilities;
 
 constexpr std::array kind_names{"none", "steady", "sines", "turbulent", "recorded"};
 constexpr std::array profile_names{"uniform", "parabolic"};
+constexpr std::array surface_names{"reference", "deformed"};
 
 template <typename Names>
 std::string selection(const Names& names) {
@@ -176,6 +177,17 @@ void WindParameters::declare(ParameterHandler& prm) {
                     Selection(selection(profile_names)),
                     "Speed over height: uniform, or parabolic from zero at the support to the full "
                     "speed at the tip.");
+  prm.declare_entry(
+      "Pressure acts on", name_of(surface_names, nominal.pressure_surface),
+      Selection(selection(surface_names)),
+      "Surface that the pressure acts on in the solid at finite strain: area and normal of the "
+      "reference state or of the deformed one, which they follow. Linear models take the reference "
+      "state whatever is said here.");
+  prm.declare_entry("Relative velocity", nominal.relative_velocity ? "true" : "false",
+                    Patterns::Bool(),
+                    "Whether the drag is that of the air's speed past the moving whisker, u - v, "
+                    "in place of u: wind and vibration then act on each other. For the full-order "
+                    "solid.");
   prm.declare_entry("Air density", to_text(nominal.air.density), Double(1e-3, 100.),
                     "Density of the air [kg/m^3]; 1.204 at 20 C and sea level.");
   prm.declare_entry("Air kinematic viscosity", to_text(nominal.air.kinematic_viscosity),
@@ -194,6 +206,8 @@ void WindParameters::parse(ParameterHandler& prm) {
   length_scale = prm.get_double("Length scale");
   maximum_speed = prm.get_double("Maximum speed");
   profile = enumerator<WindProfile>(profile_names, prm.get("Profile"));
+  pressure_surface = enumerator<PressureSurface>(surface_names, prm.get("Pressure acts on"));
+  relative_velocity = prm.get_bool("Relative velocity");
   air.density = prm.get_double("Air density");
   air.kinematic_viscosity = prm.get_double("Air kinematic viscosity");
   prm.leave_subsection();

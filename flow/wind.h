@@ -13,6 +13,10 @@ namespace vibrissa::flow {
 
 enum class WindKind { none, steady, sines, turbulent, recorded };
 
+/// Where the wind's pressure acts on a solid of finite strain: on the area and along the normal of
+/// the undeformed surface, or of the current one.
+enum class PressureSurface { reference, deformed };
+
 /// The case file's subsection "Wind": what blows along the axial direction, and the air. A negative
 /// mean blows towards -x.
 struct WindParameters {
@@ -25,6 +29,8 @@ struct WindParameters {
   double length_scale = 0.1;          // m, longitudinal integral scale
   double maximum_speed = 4.;          // m/s, turbulent wind is clipped to +- this
   WindProfile profile = WindProfile::uniform;
+  PressureSurface pressure_surface = PressureSurface::deformed;  // linear models: reference
+  bool relative_velocity = false;  // drag of the air's speed past the moving whisker
   Air air;
 
   /// Names, units and ranges; deal.II refuses a value out of range with its line in the case file.

@@ -9,16 +9,6 @@
 
 namespace vibrissa::materials {
 
-namespace {
-
-/// Mean of exp(-t / tau) over a step.
-double mean_of_decay(const double step_s, const double relaxation_time_s) {
-  const double x = step_s / relaxation_time_s;
-  return x == 0. ? 1. : -std::expm1(-x) / x;
-}
-
-}  // namespace
-
 PronySeries::PronySeries(std::vector<PronyBranch> branches) : branches_(std::move(branches)) {
   for (std::size_t i = 0; i < branches_.size(); ++i) {
     const auto& [ratio, time] = branches_[i];
@@ -44,17 +34,22 @@ Stress PronySeries::advance(const IsochoricLaw& law, const Strain& strain, const
   memory.law = now;
   Stress total = now;
   for (std::size_t i = 0; i < branches_.size(); ++i) {
-    const auto& [ratio, time] = branches_[i];
     Stress& branch = memory.branches[i];
-    branch = std::exp(-step_s / time) * branch + ratio * mean_of_decay(step_s, time) * change;
+    branch = std::exp(-step_s / branches_[i].relaxation_time_s) * branch +
+             gain(branches_[i], step_s) * change;
     total += branch;
   }
   return total;
 }
 
+double PronySeries::gain(const PronyBranch& branch, const double step_s) {
+  const double x = step_s / branch.relaxation_time_s;
+  return branch.modulus_ratio * (x == 0. ? 1. : -std::expm1(-x) / x);
+}
+
 double PronySeries::tangent_factor(const double step_s) const {
   double factor = 1.;
-  for (const auto& [ratio, time] : branches_) factor += ratio * mean_of_decay(step_s, time);
+  for (const auto& branch : branches_) factor += gain(branch, step_s);
   return factor;
 }
 

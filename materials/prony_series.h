@@ -36,6 +36,9 @@ class PronySeries {
   /// stress that is linear in time over the step, of second order in h otherwise.
   Stress advance(const IsochoricLaw& law, const Strain& strain, double step_s,
                  Memory& memory) const;
+  /// What a branch takes of a change of the law's stress over a step: g times the mean of its
+  /// decay.
+  static double gain(const PronyBranch& branch, double step_s);
   /// dS/dE at the end of a step, over the law's tangent there.
   double tangent_factor(double step_s) const;
   /// Modulus at a frequency over that at infinite time: 1 + sum_i g_i (i w tau_i)/(1 + i w tau_i);

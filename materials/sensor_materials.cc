@@ -1,6 +1,9 @@
 #include "materials/sensor_materials.h"
 
+#include <deal.II/base/utilities.h>
+
 #include <sstream>
+#include <vector>
 
 #include "signals/error.h"
 
@@ -10,6 +13,7 @@ namespace {
 
 using dealii::ParameterHandler;
 using dealii::Patterns::Double;
+using dealii::Patterns::List;
 using dealii::Patterns::Selection;
 
 std::string text(const double value) {
@@ -25,6 +29,26 @@ void declare_body(ParameterHandler& prm, const Material& nominal) {
   prm.declare_entry("Loss factor", text(nominal.loss_factor), Double(0., 10.),
                     "Loss factor of the stress [1], the same at any frequency; 0 means that this "
                     "material adds no damping of its own.");
+  prm.declare_entry("Prony moduli", "", List(Double(0.), 0, 20),
+                    "Shear moduli of relaxing branches over that at infinite time, which the other "
+                    "entries give [1]; for the transient at finite strain; empty: none.");
+  prm.declare_entry("Prony times", "", List(Double(1e-9), 0, 20), "Their relaxation times [s].");
+}
+
+std::vector<double> numbers(ParameterHandler& prm, const std::string& entry) {
+  return dealii::Utilities::string_to_double(
+      dealii::Utilities::split_string_list(prm.get(entry), ','));
+}
+
+PronySeries parse_relaxation(ParameterHandler& prm) {
+  const auto moduli = numbers(prm, "Prony moduli"), times = numbers(prm, "Prony times");
+  if (moduli.size() != times.size())
+    throw signals::UserError("Prony moduli has " + std::to_string(moduli.size()) +
+                             " entries and Prony times " + std::to_string(times.size()) +
+                             "; give as many of each");
+  std::vector<PronyBranch> branches;
+  for (std::size_t i = 0; i < moduli.size(); ++i) branches.push_back({moduli[i], times[i]});
+  return PronySeries(branches);
 }
 
 void declare_rubber(ParameterHandler& prm, const Material& nominal) {
@@ -69,7 +93,8 @@ Material parse_subsection(ParameterHandler& prm, const std::string& name,
                           Material (*const parse_entries)(ParameterHandler&)) {
   prm.enter_subsection(name);
   try {
-    const Material material = parse_entries(prm);
+    Material material = parse_entries(prm);
+    material.relaxation = parse_relaxation(prm);
     prm.leave_subsection();
     return material;
   } catch (const signals::UserError& error) {

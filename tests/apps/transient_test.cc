@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
 #include <csignal>
 #include <cstdlib>
 #include <random>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "signals/record_io.h"
 #include "tests/apps/program.h"
@@ -93,7 +93,8 @@ TEST(Transient, KilledAgainAndAgainAndGoneOnWithLeavesTheSameFiles) {
   std::string command = swinging + " --quiet -o '" + killed + "'";
   while (n_killed < n_kills && interrupt(command, after_s(random), SIGKILL)) {
     ++n_killed;
-    if (fs::exists(killed + "/resolved.prm")) command = "transient --quiet --resume '" + killed + "'";
+    if (fs::exists(killed + "/resolved.prm"))
+      command = "transient --quiet --resume '" + killed + "'";
   }
   if (!fs::exists(killed + "/summary.json")) {
     const auto last = vibrissa(command);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "fem/internal_force.h"
 #include "fem/linear_transient.h"
 #include "signals/reduced_model.h"
 #include "tests/fem/sensors.h"

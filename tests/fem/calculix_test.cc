@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "fem/calculix_file.h"
+#include "fem/internal_force.h"
 #include "fem/static_solution.h"
 #include "meshes/sensor_mesh.h"
 #include "tests/fem/sensors.h"

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "fem/internal_force.h"
 #include "meshes/regions.h"
 #include "signals/error.h"
 

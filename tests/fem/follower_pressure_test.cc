@@ -29,8 +29,10 @@ class LoadedBrick : public testing::Test {
     }
     space = std::make_unique<SolidSpace>(mesh);
     pressure = std::make_unique<FollowerPressure>(
-        *space, std::set<dealii::types::boundary_id>{meshes::boundary::clamp,
-                                                     meshes::boundary::silicone_surface});
+        *space,
+        std::set<dealii::types::boundary_id>{meshes::boundary::clamp,
+                                             meshes::boundary::silicone_surface},
+        p);
   }
 
   Vector motion(const double size, const unsigned int seed) const {
@@ -43,7 +45,7 @@ class LoadedBrick : public testing::Test {
   }
   Vector force(const Vector& u) const {
     Vector f = space->make_vector();
-    pressure->add_force(p, u, f);
+    pressure->add_force(u, space->make_vector(), f);
     return f;
   }
   /// X + u.
@@ -100,7 +102,7 @@ TEST_F(LoadedBrick, TangentIsTheDerivativeOfTheForceOnAClosedSurface) {
   TangentMatrix tangent(*space, *operators.mass, dealii::IndexSet(space->n_dofs()));
   const Vector u = motion(0.05, 1), h = motion(1., 2);
   tangent.start(0.);
-  pressure->add_tangent(2., p, u, tangent);
+  pressure->add_tangent(2., u, space->make_vector(), tangent);
   tangent.finish();
   Vector slope = space->make_vector();
   tangent.matrix().vmult(slope, h);

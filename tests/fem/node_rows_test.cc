@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "fem/internal_force.h"
 #include "fem/modes.h"
 #include "fem/solid_operators.h"
 #include "meshes/sensor_mesh.h"

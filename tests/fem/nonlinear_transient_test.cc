@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/linear_transient.h"
 #include "signals/error.h"
 #include "tests/fem/sensors.h"
 

@@ -12,6 +12,8 @@
 #include <functional>
 #include <map>
 
+#include "fem/follower_pressure.h"
+#include "fem/internal_force.h"
 #include "meshes/regions.h"
 #include "meshes/sensor_mesh.h"
 #include "signals/error.h"
@@ -137,10 +139,10 @@ TEST_P(UniaxialBlock, StretchesAsTheClosedFormSays) {
   }
   const double stretch = GetParam();
   const UniaxialYeoh exact{std::get<materials::Yeoh>(body.material.isochoric), 1.5e9};
-  const FollowerPressure top(*body.space, {meshes::boundary::wire_surface});
+  const LoadedFaces top(*body.space, {meshes::boundary::wire_surface});
   StaticLoad load;
   load.force = body.space->make_vector();
-  top.add_force(-exact.nominal_stress(stretch), body.space->make_vector(), *load.force);
+  top.add_force(std::vector<double>(top.n_points(), -exact.nominal_stress(stretch)), *load.force);
   load.held = body.where(0, [](const Point& x) { return x[0] == 0.; });
   load.held->add_indices(body.where(1, [](const Point& x) { return x[1] == 0.; }));
   load.held->add_indices(body.where(2, [](const Point& x) { return x[2] == 0.; }));
@@ -160,10 +162,10 @@ TEST(StaticSolution, ACubeUnderPressureShrinksAsItsVolumetricLawSays) {
   mark_boundary(mesh, [](const Point& x) { return x[0] * x[1] * x[2] < 1e-9; });
   const Body body(mesh, materials::make_elastic(1e6, 0.3, 1000., 0.));
   const double bulk_modulus = body.material.volumetric.bulk_modulus, l = 0.9;
-  const FollowerPressure surface(*body.space, {meshes::boundary::silicone_surface});
+  const FollowerPressure surface(*body.space, {meshes::boundary::silicone_surface},
+                                 -bulk_modulus * (l * l * l - 1.));
   StaticLoad load;
-  load.pressure = &surface;
-  load.pressure_pa = -bulk_modulus * (l * l * l - 1.);
+  load.following = &surface;
   load.held = body.where(0, [](const Point& x) { return x[0] == 0.; });
   load.held->add_indices(body.where(1, [](const Point& x) { return x[1] == 0.; }));
   load.held->add_indices(body.where(2, [](const Point& x) { return x[2] == 0.; }));
