@@ -15,7 +15,7 @@ struct Material {
   double density = 0.;  // kg/m^3, reference configuration
   double loss_factor =
       0.;  // eta; modal damping follows as sum of eta_i (share of strain energy) / 2
-  PronySeries relaxation;  // of the isochoric stress at finite strain; the law is what remains
+  PronySeries relaxation{};  // of the isochoric stress at finite strain; the law is what remains
 
   double shear_modulus_at_rest() const;   // Pa
   double youngs_modulus_at_rest() const;  // 9 K mu / (3 K + mu) [Pa]

@@ -81,6 +81,19 @@ TEST(SensorMaterials, KnowsItsMaterialsByRegion) {
   EXPECT_EQ(regions.at("fin").density, 999.);
 }
 
+TEST(SensorMaterials, RelaxingBranchesAreReadInPairs) {
+  const auto materials =
+      parsed(entry("Silicone", "Prony moduli = 0.3, 0.1\n    set Prony times = 1e-3, 0.2"));
+  const auto& branches = materials.silicone.relaxation.branches();
+  ASSERT_EQ(branches.size(), 2u);
+  EXPECT_EQ(branches[1].modulus_ratio, 0.1);
+  EXPECT_EQ(branches[1].relaxation_time_s, 0.2);
+  EXPECT_TRUE(materials.wire.relaxation.branches().empty());
+  EXPECT_THAT([] { parsed(entry("Fin", "Prony moduli = 0.3")); },
+              ThrowsMessage<signals::UserError>(
+                  AllOf(HasSubstr("Materials/Fin"), HasSubstr("as many of each"))));
+}
+
 TEST(SensorMaterials, AValueOutOfRangeIsRefusedWithItsLineAndEntry) {
   const auto refused = [](const std::string& body, const std::string& line,
                           const std::string& name) {
