@@ -4,6 +4,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <fstream>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 
@@ -105,6 +106,24 @@ std::string first_difference(const std::string& there, const std::string& here) 
   }
 }
 
+/// What each process has, on the first one.
+std::vector<std::vector<double>> gather(const std::vector<double>& own, MPI_Comm communicator) {
+  const auto n_processes = dealii::Utilities::MPI::n_mpi_processes(communicator);
+  const int n_own = static_cast<int>(own.size());
+  std::vector<int> sizes(n_processes), starts(n_processes);
+  MPI_Gather(&n_own, 1, MPI_INT, sizes.data(), 1, MPI_INT, 0, communicator);
+  std::exclusive_scan(sizes.begin(), sizes.end(), starts.begin(), 0);
+  std::vector<double> all(static_cast<std::size_t>(starts.back() + sizes.back()));
+  MPI_Gatherv(own.data(), n_own, MPI_DOUBLE, all.data(), sizes.data(), starts.data(), MPI_DOUBLE, 0,
+              communicator);
+  std::vector<std::vector<double>> of_processes;
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0) return of_processes;
+  for (std::size_t rank = 0; rank < sizes.size(); ++rank)
+    of_processes.emplace_back(all.begin() + starts[rank],
+                              all.begin() + starts[rank] + sizes[rank]);
+  return of_processes;
+}
+
 std::string read_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
@@ -152,7 +171,7 @@ void write_checkpoint(const std::filesystem::path& file, const TransientRun& run
     if (writes) content.add("vectors/" + name, std::span(whole.begin(), whole.size()));
   }
   for (const auto& [name, values] : memory.own) {
-    const auto of_processes = dealii::Utilities::MPI::gather(communicator, values, 0);
+    const auto of_processes = gather(values, communicator);
     for (std::size_t rank = 0; rank < of_processes.size(); ++rank)
       content.add("own/" + name + "/" + std::to_string(rank), of_processes[rank]);
   }

@@ -15,9 +15,9 @@ namespace vibrissa::fem {
 /// What a transient remembers between two samples: enough to go on from there bit for bit, on the
 /// same number of processes.
 struct TransientMemory {
-  std::map<std::string, Vector> vectors;
-  std::map<std::string, double> numbers;
-  std::map<std::string, std::vector<double>> own;  // of this process
+  std::map<std::string, Vector> vectors{};
+  std::map<std::string, double> numbers{};
+  std::map<std::string, std::vector<double>> own{};  // of this process
 };
 
 /// Work of an integrator since its start.

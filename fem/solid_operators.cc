@@ -28,7 +28,7 @@ SolidOperators assemble_operators(const SolidSpace& space,
   NodeRows stiffness_rows(pattern, NodeRows::Coupling::all_components);
   NodeRows mass_rows(pattern, NodeRows::Coupling::each_component_alone);
   SolidOperators operators;
-  operators.internal_force = std::make_unique<InternalForce>(space, materials);
+  const auto internal_force = std::make_shared<InternalForce>(space, materials);
   ElementMatrices element(space);
   ElementMatrices::CellMatrix stiffness;
   ElementMatrices::NodeMatrix mass;
@@ -42,8 +42,9 @@ SolidOperators assemble_operators(const SolidSpace& space,
     stiffness_rows.add(nodes, stiffness);
     element.mass(material.density, mass);
     mass_rows.add(nodes, mass);
-    operators.internal_force->append(nodes, region, element.integrals(), cell->is_locally_owned());
+    internal_force->append(nodes, region, element.integrals(), cell->is_locally_owned());
   }
+  operators.internal_force = internal_force;
   const auto communicator = space.dofs().get_communicator();
   operators.mass = mass_rows.matrix(communicator);
   operators.clamped_mass = with_clamped_rows(*operators.mass, space.clamped(), 0.);

@@ -32,11 +32,10 @@ SteadyMoment moment_of(const Sensor& sensor, const Vector& displacement, const S
   Vector elastic = space.make_vector();
   sensor.operators().internal_force->add_finite(1., displacement, elastic);
   MomentRecord record;
-  MomentRecorder recorder(sensor.parameters().model.axial_direction(), record);
   const auto moment = base_moment.by_reactions(state, load, elastic);
-  recorder.add(moment);
-  recorder.compare(moment, base_moment.by_balance_when_deformed(state, load));
-  return {record.base_moment.front(), displacement.linfty_norm(), record.largest_route_difference};
+  add_moment(moment, sensor.parameters().model.axial_direction(), record);
+  compare_routes(moment, base_moment.by_balance_when_deformed(state, load), record);
+  return {record.base_moment.front(), displacement.linfty_norm(), record.largest_route_difference()};
 }
 
 struct Step {
