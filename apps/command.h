@@ -37,6 +37,7 @@ void add_reproduce_command(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_separate_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
+void add_static_command(CLI::App& app);
 void add_trial_command(CLI::App& app);
 
 }  // namespace vibrissa::apps

@@ -37,7 +37,8 @@ signals::Record full_order_record(const fem::Sensor& sensor, const Case& paramet
                                   n,
                                   inputs.base_acceleration_m_s2,
                                   {},
-                                  inputs.wind_speed_m_s};
+                                  inputs.wind_speed_m_s,
+                                  inputs.base_velocity_m_s};
   auto output =
       fem::simulate_linear(sensor, input, {0.9, options.substeps, false},
                            [&](std::size_t, const fem::SolidState&) { progress.advance(); });
@@ -89,6 +90,7 @@ void simulate(const SimulateOptions& options) {
   if (options.input_file)
     throw signals::UserError("--inputs is for a mended model; a case file names its own inputs");
   const Case parameters = options.chosen.load().read();
+  if (!options.full_order) check_reduced_wind(parameters);
   const Inputs inputs = make_inputs(parameters);
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
