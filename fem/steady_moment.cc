@@ -93,8 +93,8 @@ std::vector<SteadyMoment> steady_wind_moments(const Sensor& sensor,
       throw UserError("the sensor finds no equilibrium in a steady wind of " + to_text(speed) +
                       " m/s: the last one found is at about " +
                       to_text(std::copysign(std::sqrt(std::abs(square)), square)) +
-                      " m/s. Ask for weaker winds, or look at the wire, which so strong a wind "
-                      "bends past what the mesh or its material can follow (" +
+                      " m/s. Ask for weaker winds, or look for a part that so strong a wind bends "
+                      "past what the mesh, its material or Newton's iteration can follow (" +
                       error.what() + ")");
     }
     before = speed;
