@@ -45,6 +45,7 @@ void add_run_command(CLI::App& app);
 void add_separate_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_transient_command(CLI::App& app);
+void add_static_command(CLI::App& app);
 void add_trial_command(CLI::App& app);
 
 }  // namespace vibrissa::apps

@@ -1,5 +1,6 @@
 #include "apps/inputs.h"
 
+#include "signals/base_velocity.h"
 #include "signals/multisine.h"
 #include "signals/record.h"
 
@@ -44,7 +45,11 @@ std::vector<double> wind_speed(const Case& parameters) {
 }  // namespace
 
 Inputs make_inputs(const Case& parameters) {
-  return {base_acceleration(parameters), wind_speed(parameters)};
+  Inputs inputs{base_acceleration(parameters), wind_speed(parameters), {}};
+  if (parameters.sensor.wind.relative_velocity)
+    inputs.base_velocity_m_s =
+        signals::base_velocity(inputs.base_acceleration_m_s2, parameters.records.sampling_rate_hz);
+  return inputs;
 }
 
 }  // namespace vibrissa::apps

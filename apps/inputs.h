@@ -9,6 +9,7 @@ namespace vibrissa::apps {
 /// True base acceleration and wind of a run on the records' clock; empty where there is none.
 struct Inputs {
   std::vector<double> base_acceleration_m_s2, wind_speed_m_s;
+  std::vector<double> base_velocity_m_s{};  // where the wind feels it
 };
 
 /// From the case: multisine or recorded base motion; steady, sines, turbulent or recorded wind.

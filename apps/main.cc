@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
   vibrissa::apps::add_mesh_command(app);
   vibrissa::apps::add_simulate_command(app);
   vibrissa::apps::add_transient_command(app);
+  vibrissa::apps::add_static_command(app);
   vibrissa::apps::add_bode_command(app);
   vibrissa::apps::add_excite_command(app);
   vibrissa::apps::add_identify_command(app);

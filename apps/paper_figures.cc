@@ -91,7 +91,9 @@ report::Figure steady_responses(const PaperSensors& sensors) {
   report::Figure figure;
   figure.name = "figure_08_steady_responses";
   figure.title = "Steady base moment: nonlinear in wind, linear in acceleration";
-  figure.caption = "Sizes of the moments; quasi-steady drag with Cd(Re) of wire and blades.";
+  figure.caption =
+      "Sizes of the moments; quasi-steady drag with Cd(Re) of wire and blades. Linear model; "
+      "vibrissa static has the whole solid at finite strain.";
   figure.panels = {wind, base};
   return figure;
 }

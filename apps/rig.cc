@@ -1,5 +1,6 @@
 #include "apps/rig.h"
 
+#include "signals/error.h"
 #include "signals/measuring_chain.h"
 
 namespace vibrissa::apps {
@@ -44,6 +45,13 @@ std::vector<double> true_moment(const signals::ReducedModel& model, const Record
 }
 
 }  // namespace
+
+void check_reduced_wind(const Case& parameters) {
+  if (parameters.sensor.wind.relative_velocity)
+    throw signals::UserError(
+        "Wind/Relative velocity is true, but the reduced model's wind does not feel the whisker's "
+        "motion; use the full-order solid (vibrissa simulate --full-order), or set it to false");
+}
 
 RigRecords measure_on_rig(const signals::ReducedModel& model, const Case& parameters,
                           const Inputs& inputs) {

@@ -17,6 +17,9 @@ struct RigRecords {
   std::vector<double> true_wind_moment_n_m;         // M_s
 };
 
+/// Throws UserError when the case asks for drag of relative velocity, which no reduced model has.
+void check_reduced_wind(const Case& parameters);
+
 /// Passes base motion, wind and both through the measuring chain of the case (signals/
 /// measuring_chain.h); each record has noise of its own.
 RigRecords measure_on_rig(const signals::ReducedModel& model, const Case& parameters,

@@ -180,6 +180,7 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
                    const bool quiet) {
   CaseFile file = chosen.load();
   const Case parameters = file.read();
+  check_reduced_wind(parameters);
   const Inputs inputs = make_inputs(parameters);
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);

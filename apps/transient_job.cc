@@ -106,7 +106,8 @@ class Job {
                                     parameters_.records.n_samples(),
                                     inputs_.base_acceleration_m_s2,
                                     {},
-                                    inputs_.wind_speed_m_s};
+                                    inputs_.wind_speed_m_s,
+                                    inputs_.base_velocity_m_s};
     if (solid.strain == Strain::small)
       return fem::drive_linear(sensor_, input, {solid.spectral_radius, solid.substeps, true});
     return fem::drive_nonlinear(

@@ -35,22 +35,37 @@ SteadyMoment moment_of(const Sensor& sensor, const Vector& displacement, const S
   const auto moment = base_moment.by_reactions(state, load, elastic);
   add_moment(moment, sensor.parameters().model.axial_direction(), record);
   compare_routes(moment, base_moment.by_balance_when_deformed(state, load), record);
-  return {record.base_moment.front(), displacement.linfty_norm(), record.largest_route_difference()};
+  return {record.base_moment.front(), 0., displacement.linfty_norm(),
+          record.largest_route_difference()};
+}
+
+/// By balance, which needs no deflection: (T4.2) of a body at rest.
+double linear_moment(const Sensor& sensor, const SolidLoad& load) {
+  const SolidSpace& space = sensor.space();
+  const Vector still = space.make_vector();
+  MomentRecord record;
+  add_moment(BaseMoment(space, sensor.operators()).by_balance({still, still, still}, load),
+             sensor.parameters().model.axial_direction(), record);
+  return record.base_moment.front();
 }
 
 struct Step {
   const StaticLoad& load;
-  const StateLoad* following;
+  double wind_speed_m_s;
   std::array<double, 3> base_acceleration_m_s2;
 };
 
 SteadyMoment follow(const Sensor& sensor, StaticPath& path, const Step& step) {
-  SolidLoad load{step.base_acceleration_m_s2, sensor.space().make_vector(),
-                 sensor.space().make_vector()};
+  const Vector still = sensor.space().make_vector();
+  SolidLoad load{step.base_acceleration_m_s2, still, still};
+  sensor.wind_surface().add_force(step.wind_speed_m_s, load.external_force);
+  const double linear = linear_moment(sensor, load);
+  load.external_force = 0.;
   const Vector u = path.go_to(step.load).displacement;
-  if (step.following != nullptr)
-    step.following->add_force(u, sensor.space().make_vector(), load.external_force);
-  return moment_of(sensor, u, load);
+  if (step.load.following != nullptr) step.load.following->add_force(u, still, load.external_force);
+  SteadyMoment moment = moment_of(sensor, u, load);
+  moment.linear_base_moment_n_m = linear;
+  return moment;
 }
 
 }  // namespace
@@ -71,15 +86,15 @@ std::vector<SteadyMoment> steady_wind_moments(const Sensor& sensor,
     StaticLoad load;
     load.following = &wind;
     try {
-      moments.push_back(follow(sensor, path, {load, &wind, {}}));
+      moments.push_back(follow(sensor, path, {load, speed, {}}));
     } catch (const NoEquilibrium& error) {
       const double square =
           std::lerp(before * std::abs(before), speed * std::abs(speed), error.share_reached);
       throw UserError("the sensor finds no equilibrium in a steady wind of " + to_text(speed) +
                       " m/s: the last one found is at about " +
                       to_text(std::copysign(std::sqrt(std::abs(square)), square)) +
-                      " m/s. Ask for weaker winds, or look at the wire, which so strong a wind "
-                      "bends past what the mesh or its material can follow (" +
+                      " m/s. Ask for weaker winds, or look for a part that so strong a wind bends "
+                      "past what the mesh, its material or Newton's iteration can follow (" +
                       error.what() + ")");
     }
     before = speed;
@@ -101,7 +116,7 @@ std::vector<SteadyMoment> steady_base_moments(const Sensor& sensor,
     StaticLoad load;
     load.body_acceleration_m_s2 = {-a * axial[0], -a * axial[1], 0.};
     try {
-      moments.push_back(follow(sensor, path, {load, nullptr, {a * axial[0], a * axial[1], 0.}}));
+      moments.push_back(follow(sensor, path, {load, 0., {a * axial[0], a * axial[1], 0.}}));
     } catch (const NoEquilibrium& error) {
       throw UserError("the sensor finds no equilibrium on a base that accelerates at " +
                       to_text(a) + " m/s^2: the last one found is at about " +

@@ -11,9 +11,10 @@ namespace vibrissa::fem {
 
 /// The sensor at rest under a steady load, at finite strain.
 struct SteadyMoment {
-  double base_moment_n_m = 0.;       // about e_z x axial, by the clamp's reactions
-  double largest_deflection_m = 0.;  // of any point, along one of the axes
-  double route_difference = 0.;      // between the two routes to the moment, over the moment
+  double base_moment_n_m = 0.;         // about e_z x axial, by the clamp's reactions
+  double linear_base_moment_n_m = 0.;  // of the undeformed sensor: what linear models have
+  double largest_deflection_m = 0.;    // of any point, along one of the axes
+  double route_difference = 0.;        // between the two routes to the moment, over the moment
 };
 
 /// In steady winds along the axial direction, each reached from the one before; the pressure acts

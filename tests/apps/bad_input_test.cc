@@ -70,6 +70,11 @@ TEST_F(BadCase, LineAtOrAboveHalfTheSamplingRateIsRefused) {
          AllOf(HasSubstr("Lines"), HasSubstr("250"), HasSubstr("line 2")));
 }
 
+TEST_F(BadCase, DragOfRelativeVelocityInTheReducedModelIsRefusedWithWhatHasIt) {
+  refuse(case_with("Wind", "Relative velocity = true"),
+         AllOf(HasSubstr("Wind/Relative velocity"), HasSubstr("--full-order")));
+}
+
 TEST_F(BadCase, WireThickerThanItsBaseIsRefused) {
   refuse(case_with("Geometry", "Wire diameter = 20e-3"), HasSubstr("Wire diameter"));
 }

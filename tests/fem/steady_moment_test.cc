@@ -33,11 +33,13 @@ TEST_P(SteadySensor, SmallLoadsGiveTheMomentsOfTheLinearModel) {
   EXPECT_EQ(wind[0].base_moment_n_m, 0.);
   for (std::size_t i = 1; i < speeds.size(); ++i) {
     const double linear = signals::steady_wind_moment(model, speeds[i]);
+    EXPECT_NEAR(wind[i].linear_base_moment_n_m, linear, 1e-9 * std::abs(linear));
     EXPECT_NEAR(wind[i].base_moment_n_m, linear, 1e-5 * std::abs(linear));
   }
   const auto base = steady_base_moments(sensor, accelerations);
   for (std::size_t i = 0; i < accelerations.size(); ++i) {
     const double linear = -model.rigid_moment[1][0] * accelerations[i];
+    EXPECT_NEAR(base[i].linear_base_moment_n_m, linear, 1e-9 * std::abs(linear));
     EXPECT_NEAR(base[i].base_moment_n_m, linear, 1e-6 * std::abs(linear));
   }
 }
