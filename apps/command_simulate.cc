@@ -10,6 +10,7 @@
 #include "diagnosis/mended_model_json.h"
 #include "diagnosis/record_simulation.h"
 #include "fem/linear_transient.h"
+#include "fem/processes.h"
 #include "fem/solver_session.h"
 #include "signals/error.h"
 #include "signals/progress.h"
@@ -81,6 +82,7 @@ void report(const SimulateOptions& options, const signals::Record& record,
 
 void simulate(const SimulateOptions& options) {
   if (diagnosis::is_mended_model(options.chosen.case_file)) {
+    if (!fem::is_first_process()) return;
     const signals::Record record = mended_record(options);
     signals::write_record(options.record_file, record);
     report(options, record, "mended model");
@@ -96,6 +98,7 @@ void simulate(const SimulateOptions& options) {
   const signals::Record record = options.full_order
                                      ? full_order_record(sensor, parameters, inputs, options)
                                      : measure_on_rig(model, parameters, inputs).both;
+  if (!fem::is_first_process()) return;
   signals::write_record(options.record_file, record);
   if (options.model_file) signals::write_reduced_model(*options.model_file, model);
   report(options, record, options.full_order ? "full order" : "reduced");
