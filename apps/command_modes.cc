@@ -68,7 +68,7 @@ void show_modes(const ModesOptions& options) {
     print_json(document);
     return;
   }
-  std::cout << modes_table(sensor).to_text() << sensor.mesh().n_active_cells() << " cells, "
+  std::cout << modes_table(sensor).to_text() << sensor.mesh().n_global_active_cells() << " cells, "
             << sensor.space().n_dofs() << " unknowns, " << sensor.mass_kg() << " kg\n";
   if (refined) print_convergence(document["convergence"]);
   if (note) std::cout << "Calibrated: " << *note << "\n";

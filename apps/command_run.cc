@@ -3,6 +3,7 @@
 
 #include "apps/command.h"
 #include "apps/run_job.h"
+#include "fem/processes.h"
 
 namespace vibrissa::apps {
 
@@ -45,6 +46,7 @@ void add_run_command(CLI::App& app) {
   command->callback([options] {
     const bool quiet = options->common.quiet || options->common.json;
     const RunOutcome outcome = run_job(options->chosen, given_command_line(), quiet);
+    if (!fem::is_first_process()) return;
     if (options->common.json) {
       print_json(outcome.summary);
     } else {

@@ -9,6 +9,7 @@
 #include "apps/sensor_model.h"
 #include "diagnosis/mended_model_json.h"
 #include "diagnosis/record_simulation.h"
+#include "fem/processes.h"
 #include "fem/solver_session.h"
 #include "signals/error.h"
 #include "signals/record_io.h"
@@ -54,6 +55,7 @@ void report(const SimulateOptions& options, const signals::Record& record,
 
 void simulate(const SimulateOptions& options) {
   if (diagnosis::is_mended_model(options.chosen.case_file)) {
+    if (!fem::is_first_process()) return;
     const signals::Record record = mended_record(options);
     signals::write_record(options.record_file, record);
     report(options, record, "mended model");
@@ -68,6 +70,7 @@ void simulate(const SimulateOptions& options) {
   const fem::Sensor sensor(parameters.sensor);
   const auto model = make_reduced_model(sensor, parameters.sensor, !options.common.quiet);
   const signals::Record record = measure_on_rig(model, parameters, inputs).both;
+  if (!fem::is_first_process()) return;
   signals::write_record(options.record_file, record);
   if (options.model_file) signals::write_reduced_model(*options.model_file, model);
   report(options, record, "reduced");

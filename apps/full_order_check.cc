@@ -39,9 +39,10 @@ nlohmann::json check_full_order(const fem::Sensor& sensor, const signals::Reduce
     progress.advance();
     if (!parameters.output.vtk || i % samples_per_frame != 0) return;
     times.push_back(static_cast<double>(i) / rate_hz);
-    names.push_back("transient_" + std::to_string(names.size()) + ".vtu");
+    const std::string name = "transient_" + std::to_string(names.size()) + ".vtu";
     std::filesystem::create_directories(folder);
-    fem::write_vtu(folder / names.back(), sensor, state.displacement, times.back());
+    const auto written = fem::write_vtu(folder / name, sensor, state.displacement, times.back());
+    names.push_back(written.filename().string());
   };
   const auto full =
       fem::simulate_linear(sensor, {rate_hz, n, a, {}, u}, {0.9, substeps, true}, observe);

@@ -1,10 +1,17 @@
-#include <cstring>
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <iostream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "apps/blas_kernel.h"
 #include "apps/command.h"
 #include "diagnosis/diagnosis.h"
+#include "fem/processes.h"
+#include "fem/solver_session.h"
 #include "report/revision.h"
 #include "signals/error.h"
 
@@ -57,26 +64,78 @@ int run(int argc, char** argv) {
   return 0;
 }
 
+/// Commands that several processes do together, or share out (trial).
+constexpr std::array<std::string_view, 5> of_several = {"run", "modes", "simulate", "transient",
+                                                        "trial"};
+
+/// Only the first process is heard, but where each has its own to say.
+class Voice {
+ public:
+  explicit Voice(const bool is_heard)
+      : output_(is_heard ? nullptr : std::cout.rdbuf(nullptr)),
+        errors_(is_heard ? nullptr : std::cerr.rdbuf(nullptr)) {}
+  ~Voice() { raise(); }
+  Voice(const Voice&) = delete;
+  Voice& operator=(const Voice&) = delete;
+  void raise() {
+    if (output_ != nullptr) std::cout.rdbuf(std::exchange(output_, nullptr));
+    if (errors_ != nullptr) std::cerr.rdbuf(std::exchange(errors_, nullptr));
+  }
+
+ private:
+  std::streambuf *output_, *errors_;
+};
+
+struct Failure {
+  int status = 0;
+  std::string message;  // empty when all is well, or has been said
+};
+
+Failure attempt(int argc, char** argv, const std::string_view command) {
+  try {
+    const bool is_command = !command.empty() && command.front() != '-';
+    if (is_command && vibrissa::fem::n_processes() > 1 &&
+        std::find(of_several.begin(), of_several.end(), command) == of_several.end())
+      throw vibrissa::signals::UserError("'" + std::string(command) +
+                                         "' is work for one process; start it without mpirun");
+    return {run(argc, argv), ""};
+  } catch (const vibrissa::signals::UserError& error) {
+    return {bad_input, error.what()};
+  } catch (const vibrissa::diagnosis::TooPoorData& error) {
+    return {too_poor_data, error.what()};
+  } catch (const vibrissa::apps::Interrupted& error) {
+    return {interrupted, error.what()};
+  } catch (const std::exception& error) {
+    return {internal_error, std::string("internal error: ") + error.what() +
+                                "\nThis is a fault of the program; please report it with the "
+                                "command that you gave."};
+  }
+}
+
+// A failure of all is told once; one that is a single process's own ends the others, who would wait
+// for it for ever.
+void settle(const Failure& failure, Voice& voice) {
+  namespace fem = vibrissa::fem;
+  if (failure.status == 0) return;
+  const bool several = fem::n_processes() > 1;
+  const bool is_alone = several && !fem::all_processes_failed();
+  if (is_alone) voice.raise();
+  if (!failure.message.empty()) std::cerr << "vibrissa: " << failure.message << std::endl;
+  if (is_alone) fem::end_all_processes(failure.status);
+  if (several) fem::all_processes_failed();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  namespace fem = vibrissa::fem;
   vibrissa::apps::use_fast_blas_kernel(argv);
-  try {
-    return run(argc, argv);
-  } catch (const vibrissa::signals::UserError& error) {
-    std::cerr << "vibrissa: " << error.what() << std::endl;
-    return bad_input;
-  } catch (const vibrissa::diagnosis::TooPoorData& error) {
-    std::cerr << "vibrissa: " << error.what() << std::endl;
-    return too_poor_data;
-  } catch (const vibrissa::apps::Interrupted& error) {
-    std::cerr << "vibrissa: " << error.what() << std::endl;
-    return interrupted;
-  } catch (const std::exception& error) {
-    std::cerr
-        << "vibrissa: internal error: " << error.what()
-        << "\nThis is a fault of the program; please report it with the command that you gave."
-        << std::endl;
-    return internal_error;
-  }
+  const std::string_view command = argc > 1 ? argv[1] : "";
+  // Pictures are drawn by a child of a process that may be one of several.
+  std::optional<fem::SolverSession> session;
+  if (fem::is_launched_as_several() && command != "draw") session.emplace();
+  Voice voice(fem::is_first_process() || command == "trial");
+  const Failure failure = attempt(argc, argv, command);
+  settle(failure, voice);
+  return failure.status;
 }

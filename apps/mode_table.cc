@@ -16,7 +16,7 @@ nlohmann::json modes_json(const fem::Sensor& sensor) {
   }
   return {{"modes", modes},
           {"dofs", sensor.space().n_dofs()},
-          {"cells", sensor.mesh().n_active_cells()},
+          {"cells", sensor.mesh().n_global_active_cells()},
           {"mass_kg", sensor.mass_kg()}};
 }
 
@@ -41,7 +41,7 @@ report::Table modes_table(const fem::Sensor& sensor) {
 namespace {
 
 ConvergenceLevel level_of(const fem::Sensor& sensor) {
-  return {sensor.parameters().model.mesh_resolution, sensor.mesh().n_active_cells(),
+  return {sensor.parameters().model.mesh_resolution, sensor.mesh().n_global_active_cells(),
           sensor.space().n_dofs(), sensor.modes()[0].frequency_hz};
 }
 

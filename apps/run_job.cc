@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/bode_data.h"
 #include "apps/full_order_check.h"
@@ -14,9 +15,9 @@
 #include "apps/run_figures.h"
 #include "apps/sensor_model.h"
 #include "apps/separation_methods.h"
+#include "fem/processes.h"
 #include "fem/solver_session.h"
 #include "fem/vtk_output.h"
-#include "meshes/mesh_audit.h"
 #include "report/mode_picture.h"
 #include "report/pictures.h"
 #include "report/run_folder.h"
@@ -119,13 +120,12 @@ struct Results {
   std::vector<SeparatedSignal> separated;
 };
 
-Results simulate_and_separate(const fem::Sensor& sensor, const Case& parameters,
-                              const Inputs& inputs, const bool show_progress) {
-  auto model = make_reduced_model(sensor, parameters.sensor, show_progress);
+Results simulate_and_separate(const signals::ReducedModel& model, const Case& parameters,
+                              const Inputs& inputs) {
   auto records = measure_on_rig(model, parameters, inputs);
   auto identified = identify(records, parameters);
   auto separated = separate(model, identified, records, parameters.separation);
-  return {std::move(model), std::move(records), std::move(identified), std::move(separated)};
+  return {model, std::move(records), std::move(identified), std::move(separated)};
 }
 
 void write_results(const report::RunFolder& folder, const fem::Sensor& sensor,
@@ -147,31 +147,44 @@ void write_results(const report::RunFolder& folder, const fem::Sensor& sensor,
   }
 }
 
-void write_mode_files(const report::RunFolder& folder, const fem::Sensor& sensor) {
+void write_mode_animations(const fs::path& folder, const fem::Sensor& sensor) {
+  fs::create_directories(folder);
   const std::size_t n = std::min(n_animated_modes, sensor.modes().size());
-  for (std::size_t k = 1; k <= n; ++k) {
-    fem::write_mode_animation(folder.file("vtk/any").parent_path(), sensor, k);
-  }
+  for (std::size_t k = 1; k <= n; ++k) fem::write_mode_animation(folder, sensor, k);
+}
+
+void write_picture_of_first_mode(const report::RunFolder& folder, const fem::Sensor& sensor) {
   const auto& first = sensor.modes()[0];
   report::write_mode_picture(
       folder.path(), {.name = "mode_1",
                       .title = "First mode, " + report::Cell(first.frequency_hz).rounded(4) + " Hz",
                       .caption = "Shape at a size that can be seen; the size has no meaning.",
-                      .vtu = "vtk/mode_1_0.vtu",
+                      .vtu = fem::n_processes() == 1 ? "vtk/mode_1_0.vtu" : "vtk/mode_1_0.pvtu",
                       .displacement = "displacement_m",
                       .colour_label = "Displacement (relative)",
                       .scale = 1.});
 }
 
-nlohmann::json summarise(const fem::Sensor& sensor, const Case& parameters,
-                         const Results& results) {
-  nlohmann::json summary = modes_json(sensor);
-  summary["identification"] = identification_json(results.identified);
-  summary["separation"] = separation_json(results.separated);
-  if (parameters.sensor.model.calibration_note) {
-    summary["calibration_note"] = *parameters.sensor.model.calibration_note;
-  }
-  return summary;
+/// What needs no solid: of the first process.
+void do_signals_part(const report::RunFolder& folder, const fem::Sensor& sensor,
+                     const Case& parameters, const Inputs& inputs,
+                     const signals::ReducedModel& model, RunOutcome& outcome) {
+  const Results results = simulate_and_separate(model, parameters, inputs);
+  write_results(folder, sensor, results);
+  outcome.separated = results.separated;
+  outcome.summary["identification"] = identification_json(results.identified);
+  outcome.summary["separation"] = separation_json(results.separated);
+}
+
+report::RunFolder new_run_folder(const CaseOptions& chosen, const CaseFile& file,
+                                 const Case& parameters, const fem::Sensor& sensor,
+                                 const std::vector<std::string>& command_line) {
+  auto folder = report::RunFolder::given_or_free(
+      parameters.output.folder, fs::path("runs") / fs::path(chosen.case_file).stem());
+  folder.write_text("resolved.prm", file.resolved());
+  folder.write_run(
+      {command_line, parameters.records.seed, {{"mesh_sha256", sensor.mesh_sha256()}}});
+  return folder;
 }
 
 }  // namespace
@@ -185,27 +198,30 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
 
-  const auto folder = report::RunFolder::given_or_free(
-      parameters.output.folder, fs::path("runs") / fs::path(chosen.case_file).stem());
-  folder.write_text("resolved.prm", file.resolved());
-  folder.write_run({command_line,
-                    parameters.records.seed,
-                    {{"mesh_sha256", meshes::mesh_sha256(sensor.mesh())}}});
-
+  std::optional<report::RunFolder> folder;  // of the first process
+  if (fem::is_first_process())
+    folder = new_run_folder(chosen, file, parameters, sensor, command_line);
   RunOutcome outcome;
-  outcome.folder = folder.path();
-  const Results results = simulate_and_separate(sensor, parameters, inputs, !quiet);
-  write_results(folder, sensor, results);
-  outcome.separated = results.separated;
-  outcome.summary = summarise(sensor, parameters, results);
-  if (parameters.output.vtk) write_mode_files(folder, sensor);
-  if (parameters.output.full_order_duration_s > 0.) {
-    outcome.summary["full_order_check"] = check_full_order(
-        sensor, results.model, parameters, inputs, folder.file("vtk/any").parent_path(), !quiet);
+  outcome.folder = fem::from_first_process(folder ? folder->path().string() : "");
+  const fs::path vtk_folder = outcome.folder / "vtk";
+
+  const auto model = make_reduced_model(sensor, parameters.sensor, !quiet);
+  outcome.summary = modes_json(sensor);
+  if (parameters.sensor.model.calibration_note)
+    outcome.summary["calibration_note"] = *parameters.sensor.model.calibration_note;
+  if (folder) do_signals_part(*folder, sensor, parameters, inputs, model, outcome);
+  if (parameters.output.vtk) {
+    write_mode_animations(vtk_folder, sensor);
+    if (folder) write_picture_of_first_mode(*folder, sensor);
   }
-  if (parameters.output.pictures) outcome.pictures = report::draw_pictures(folder.path());
-  outcome.summary["folder"] = folder.path().string();
-  folder.write_json("summary.json", outcome.summary);
+  if (parameters.output.full_order_duration_s > 0.) {
+    outcome.summary["full_order_check"] =
+        check_full_order(sensor, model, parameters, inputs, vtk_folder, !quiet);
+  }
+  if (!folder) return outcome;
+  if (parameters.output.pictures) outcome.pictures = report::draw_pictures(folder->path());
+  outcome.summary["folder"] = folder->path().string();
+  folder->write_json("summary.json", outcome.summary);
   return outcome;
 }
 

@@ -20,7 +20,8 @@ struct RunOutcome {
 
 /// The main job: sensor, resonances, base motion and wind, records, identification, separation,
 /// pictures; everything into a new run folder, summary.json last. Throws UserError for a bad case
-/// or bad inputs before anything is written, and when writing fails.
+/// or bad inputs before anything is written, and when writing fails. With several processes the
+/// outcome of the first is whole; the others take part in what the solid needs.
 RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& command_line,
                    bool quiet);
 

@@ -2,7 +2,6 @@
 
 #include "fem/reduction.h"
 #include "fem/sensitivity.h"
-#include "meshes/mesh_audit.h"
 #include "report/revision.h"
 #include "signals/progress.h"
 
@@ -14,7 +13,7 @@ signals::ReducedModel make_reduced_model(const fem::Sensor& sensor,
   signals::ReducedModel model = fem::reduce(sensor);
   model.name = parameters.geometry.fin == meshes::FinShape::none ? "whisker sensor" : "flow sensor";
   model.provenance["program_revision"] = report::program_revision();
-  model.provenance["mesh_sha256"] = meshes::mesh_sha256(sensor.mesh());
+  model.provenance["mesh_sha256"] = sensor.mesh_sha256();
   if (parameters.model.calibration_note) {
     model.provenance["calibration"] = *parameters.model.calibration_note;
   }

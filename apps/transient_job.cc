@@ -1,5 +1,7 @@
 #include "apps/transient_job.h"
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -10,9 +12,9 @@
 #include "fem/checkpoint.h"
 #include "fem/linear_transient.h"
 #include "fem/nonlinear_transient.h"
+#include "fem/processes.h"
 #include "fem/solver_session.h"
 #include "fem/vtk_output.h"
-#include "meshes/mesh_audit.h"
 #include "report/json_file.h"
 #include "report/revision.h"
 #include "report/run_folder.h"
@@ -40,6 +42,11 @@ std::string sha256_of(const Inputs& inputs) {
   return digest.hex();
 }
 
+/// Processes stop and write together, whichever was asked to.
+bool any_process(const bool here) {
+  return dealii::Utilities::MPI::max(here ? 1 : 0, MPI_COMM_WORLD) == 1;
+}
+
 /// A run folder with the run that belongs to it.
 class Job {
  public:
@@ -50,8 +57,7 @@ class Job {
         inputs_(inputs),
         sensor_(sensor),
         owner_{file.resolved(),
-               {{"mesh", meshes::mesh_sha256(sensor.mesh())},
-                {"base motion or wind", sha256_of(inputs)}},
+               {{"mesh", sensor.mesh_sha256()}, {"base motion or wind", sha256_of(inputs)}},
                report::program_revision()},
         run_(driven(), parameters.records.n_samples(), sensor.parameters().model.axial_direction(),
              true) {}
@@ -77,8 +83,9 @@ class Job {
       run_.advance();
       write_frame();
       progress.advance();
-      const bool stops = interruption.is_requested() && !run_.is_done();
-      if (stops || is_checkpoint_due(written)) {
+      if (run_.is_done()) break;
+      const bool stops = any_process(interruption.is_requested());
+      if (stops || any_process(is_checkpoint_due(written))) {
         fem::write_checkpoint(checkpoint(), run_, owner_);
         written = Clock::now();
       }
@@ -88,10 +95,11 @@ class Job {
   }
 
   nlohmann::json finish() const {
+    const auto summary = summarise();
+    if (!fem::is_first_process()) return summary;
     write_pvd();
     signals::write_record(folder_ / "record.csv", record());
     if (!run_.output().energy.empty()) write_energy();
-    const auto summary = summarise();
     report::write_json(folder_ / "summary.json", summary);
     fs::remove(checkpoint());
     return summary;
@@ -117,22 +125,21 @@ class Job {
 
   bool is_checkpoint_due(const Clock::time_point written) const {
     const auto& solid = parameters_.transient;
-    if (run_.is_done()) return false;
     if (solid.checkpoint_samples > 0 && (run_.n_done() - 1) % solid.checkpoint_samples == 0)
       return true;
     const std::chrono::duration<double> since = Clock::now() - written;
     return solid.checkpoint_minutes > 0. && since.count() > 60. * solid.checkpoint_minutes;
   }
 
-  std::string frame_name(const std::size_t frame) const {
-    return "transient_" + std::to_string(frame) + ".vtu";
+  static std::string frame_name(const std::size_t frame, const char* const extension) {
+    return "transient_" + std::to_string(frame) + extension;
   }
 
   void write_frame() const {
     const std::size_t every = parameters_.transient.vtk_samples, sample = run_.n_done() - 1;
     if (every == 0 || sample % every != 0) return;
     fs::create_directories(folder_ / "vtk");
-    fem::write_vtu(folder_ / "vtk" / frame_name(sample / every), sensor_,
+    fem::write_vtu(folder_ / "vtk" / frame_name(sample / every, ".vtu"), sensor_,
                    run_.sensor().state().displacement, time_s(sample));
   }
 
@@ -143,7 +150,7 @@ class Job {
     std::vector<std::string> names;
     for (std::size_t sample = 0; sample < run_.n_samples(); sample += every) {
       times.push_back(time_s(sample));
-      names.push_back(frame_name(sample / every));
+      names.push_back(frame_name(sample / every, fem::n_processes() == 1 ? ".vtu" : ".pvtu"));
     }
     fem::write_pvd(folder_ / "vtk" / "transient.pvd", times, names);
   }
@@ -216,6 +223,17 @@ TransientOutcome go_on(Job& job, const fs::path& folder, const bool show_progres
   return outcome;
 }
 
+fs::path new_run_folder(const CaseOptions& chosen, const CaseFile& file, const Case& parameters,
+                        const fem::Sensor& sensor, const std::vector<std::string>& command_line) {
+  const auto folder = report::RunFolder::given_or_free(
+      parameters.output.folder,
+      fs::path("runs") / (fs::path(chosen.case_file).stem().string() + "-transient"));
+  folder.write_text("resolved.prm", file.resolved());
+  folder.write_run(
+      {command_line, parameters.records.seed, {{"mesh_sha256", sensor.mesh_sha256()}}});
+  return folder.path();
+}
+
 }  // namespace
 
 TransientOutcome run_transient(const CaseOptions& chosen,
@@ -226,15 +244,12 @@ TransientOutcome run_transient(const CaseOptions& chosen,
   const Inputs inputs = make_inputs(parameters);
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
-  const auto folder = report::RunFolder::given_or_free(
-      parameters.output.folder,
-      fs::path("runs") / (fs::path(chosen.case_file).stem().string() + "-transient"));
-  folder.write_text("resolved.prm", file.resolved());
-  folder.write_run({command_line,
-                    parameters.records.seed,
-                    {{"mesh_sha256", meshes::mesh_sha256(sensor.mesh())}}});
-  Job job(folder.path(), file, parameters, inputs, sensor);
-  return go_on(job, folder.path(), show_progress);
+  const fs::path path = fem::from_first_process(
+      fem::is_first_process()
+          ? new_run_folder(chosen, file, parameters, sensor, command_line).string()
+          : "");
+  Job job(path, file, parameters, inputs, sensor);
+  return go_on(job, path, show_progress);
 }
 
 TransientOutcome resume_transient(const fs::path& folder, const bool show_progress) {

@@ -178,20 +178,18 @@ void step_against_calculix(benchmark::State& state) {
   std::filesystem::remove_all(folder);
   std::filesystem::create_directory(folder);
   const auto& space = swing.sensor->space();
-  fem::write_calculix_dynamic(folder / "sensor.inp", space,
-                              swing.parameters.materials.by_region(), {-1., 0., 0.},
-                              swing.acceleration, 1. / sampling_rate_hz);
+  fem::write_calculix_dynamic(folder / "sensor.inp", space, swing.parameters.materials.by_region(),
+                              {-1., 0., 0.}, swing.acceleration, 1. / sampling_rate_hz);
   fem::TransientOutput output;
   double ours_s = 0., theirs_s = 0., u = 0.;
   for (auto _ : state) {
     auto start = std::chrono::steady_clock::now();
-    output = swing.run([&](std::size_t, const fem::SolidState& solid) {
-      u = solid.displacement.linfty_norm();
-    });
+    output = swing.run(
+        [&](std::size_t, const fem::SolidState& solid) { u = solid.displacement.linfty_norm(); });
     ours_s += seconds_since(start);
     start = std::chrono::steady_clock::now();
-    const std::string command = "cd '" + folder.string() +
-                                "' && OMP_NUM_THREADS=1 ccx -i sensor > ccx.log 2>&1";
+    const std::string command =
+        "cd '" + folder.string() + "' && OMP_NUM_THREADS=1 ccx -i sensor > ccx.log 2>&1";
     if (std::system(command.c_str()) != 0) state.SkipWithError("ccx failed");
     theirs_s += seconds_since(start);
   }

@@ -156,9 +156,7 @@ std::vector<Eigenpair> Lanczos::pairs(const Eigen::Index n) const {
     auto& pair = pairs.emplace_back();
     pair.eigenvalue = 1. / ritz_.eigenvalues()[size - 1 - k];
     pair.vector = Vector(owned, mass_.get_mpi_communicator());
-    Eigen::Index row = 0;
-    for (const auto i : owned) pair.vector[i] = vectors(row++, k);
-    pair.vector.compress(dealii::VectorOperation::insert);
+    set_owned_entries(vectors.col(k), pair.vector);
   }
   return pairs;
 }

@@ -119,8 +119,7 @@ std::vector<std::vector<double>> gather(const std::vector<double>& own, MPI_Comm
   std::vector<std::vector<double>> of_processes;
   if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0) return of_processes;
   for (std::size_t rank = 0; rank < sizes.size(); ++rank)
-    of_processes.emplace_back(all.begin() + starts[rank],
-                              all.begin() + starts[rank] + sizes[rank]);
+    of_processes.emplace_back(all.begin() + starts[rank], all.begin() + starts[rank] + sizes[rank]);
   return of_processes;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "fem/element_matrices.h"
 #include "fem/internal_force.h"
@@ -19,8 +20,8 @@ std::map<std::string, double> strain_energy_shares(
   for (const auto& [region, material] : materials) energy[region] = 0.;
   const Vector ghosted = space.make_ghosted(shape);
   ElementMatrices element(space);
-  ElementMatrices::CellMatrix stiffness;
-  Eigen::Matrix<double, SolidSpace::dofs_per_cell, 1> local;
+  CellElasticity elasticity;
+  CellElasticity::Nodal local{}, force{};
   std::vector<dealii::types::global_dof_index> cell_dofs(SolidSpace::dofs_per_cell);
   for (const auto& cell : space.dofs().active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
@@ -32,8 +33,8 @@ std::map<std::string, double> strain_energy_shares(
       }
     }
     element.reinit(cell);
-    element.stiffness(materials.at(region), stiffness);
-    energy[region] += 0.5 * local.dot(stiffness * local);
+    elasticity.force_of_linear_model(element.integrals(), materials.at(region), local, force);
+    energy[region] += 0.5 * std::inner_product(local.begin(), local.end(), force.begin(), 0.);
   }
   double total = 0.;
   for (auto& [region, value] : energy) {

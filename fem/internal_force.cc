@@ -30,7 +30,7 @@ void InternalForce::append(const CellNodes& nodes, const std::string& region,
 
 InternalForce::Values InternalForce::known_values(const Vector& u) const {
   Values values(local_dofs_.size());
-  if (local_dofs_.size() == u.size()) {
+  if (dealii::Utilities::MPI::n_mpi_processes(space_.dofs().get_communicator()) == 1) {
     u.extract_subvector_to(local_dofs_.begin(), local_dofs_.end(), values.begin());
   } else {
     const Vector ghosted = space_.make_ghosted(u);

@@ -69,6 +69,24 @@ struct DenseView {
 
 }  // namespace
 
+Eigen::VectorXd owned_entries(const Vector& vector) {
+  const auto n = static_cast<Eigen::Index>(vector.locally_owned_size());
+  const Vec raw = vector;
+  const double* values = nullptr;
+  check_petsc(VecGetArrayRead(raw, &values), "VecGetArrayRead");
+  const Eigen::VectorXd entries = Eigen::Map<const Eigen::VectorXd>(values, n);
+  check_petsc(VecRestoreArrayRead(raw, &values), "VecRestoreArrayRead");
+  return entries;
+}
+
+void set_owned_entries(const Eigen::VectorXd& entries, Vector& vector) {
+  const Vec raw = vector;
+  double* values = nullptr;
+  check_petsc(VecGetArray(raw, &values), "VecGetArray");
+  Eigen::Map<Eigen::VectorXd>(values, entries.size()) = entries;
+  check_petsc(VecRestoreArray(raw, &values), "VecRestoreArray");
+}
+
 Columns multiply(const Matrix& matrix, const Columns& x) {
   const DenseView in(x, matrix.get_mpi_communicator());
   const Mat raw = matrix;
@@ -189,6 +207,23 @@ Columns CholeskySolver::solve(const Columns& right_hand_sides) const {
   const DenseView out(solution, matrix_.get_mpi_communicator());
   check_petsc(KSPMatSolve(factors_->solver, in.matrix, out.matrix), "KSPMatSolve");
   return solution;
+}
+
+FactorCost CholeskySolver::cost() const {
+  constexpr PetscInt operations_info = 3, entries_info = 29, memory_info = 22;
+  PC preconditioner = nullptr;
+  Mat factors = nullptr;
+  check_petsc(KSPGetPC(factors_->solver, &preconditioner), "KSPGetPC");
+  check_petsc(PCFactorGetMatrix(preconditioner, &factors), "PCFactorGetMatrix");
+  FactorCost cost;
+  PetscInt entries = 0, megabytes = 0;
+  check_petsc(MatMumpsGetInfog(factors, entries_info, &entries), "MatMumpsGetInfog");
+  check_petsc(MatMumpsGetInfog(factors, memory_info, &megabytes), "MatMumpsGetInfog");
+  check_petsc(MatMumpsGetRinfog(factors, operations_info, &cost.operations), "MatMumpsGetRinfog");
+  // Beyond the range of an integer MUMPS counts in millions, with a minus.
+  cost.entries = entries < 0 ? -1e6 * entries : entries;
+  cost.memory_mib = megabytes * 1e6 / 1048576.;
+  return cost;
 }
 
 void CholeskySolver::solve_once(const Vector& right_hand_side, Vector& solution) const {

@@ -36,6 +36,10 @@ void zero_entries(Vector& vector, const dealii::IndexSet& entries);
 /// a x + b y; the pattern of y must lie within that of x.
 std::unique_ptr<Matrix> combine(double a, const Matrix& x, double b, const Matrix& y);
 
+/// The entries that this process owns, in order.
+Eigen::VectorXd owned_entries(const Vector& vector);
+void set_owned_entries(const Eigen::VectorXd& entries, Vector& vector);
+
 /// A x for several vectors at once.
 Columns multiply(const Matrix& matrix, const Columns& x);
 
@@ -46,6 +50,13 @@ Columns sum_over_processes(const Columns& part, MPI_Comm communicator);
 class IndefiniteMatrix : public signals::UserError {
  public:
   using signals::UserError::UserError;
+};
+
+/// What factors cost, over all processes.
+struct FactorCost {
+  double entries = 0.;     // of the factors
+  double operations = 0.;  // of one factorisation
+  double memory_mib = 0.;  // that the factorisation worked in
 };
 
 /// Sparse Cholesky factors of a symmetric positive definite matrix (MUMPS), kept for any number of
@@ -68,6 +79,7 @@ class CholeskySolver {
   void solve_once(const Vector& right_hand_side, Vector& solution) const;
   /// Several right-hand sides at once, without refinement: about the price of two.
   Columns solve(const Columns& right_hand_sides) const;
+  FactorCost cost() const;
 
  private:
   struct Factors;

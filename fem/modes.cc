@@ -7,6 +7,8 @@
 #include <string>
 
 #include "fem/block_lanczos.h"
+#include "fem/eigenpair_refinement.h"
+#include "fem/internal_force.h"
 #include "signals/error.h"
 
 namespace vibrissa::fem {
@@ -49,14 +51,45 @@ void align_pair(Mode& first, Mode& second, const std::array<double, 3>& axis) {
   }
 }
 
-void fix_sign(Mode& mode) {
-  const auto largest =
-      std::max_element(mode.participation.begin(), mode.participation.end(),
-                       [](const double a, const double b) { return std::abs(a) < std::abs(b); });
-  if (*largest >= 0.) return;
-  mode.shape *= -1.;
-  for (auto& value : mode.participation) value = -value;
-  for (auto& value : mode.moment_participation) value = -value;
+/// Fields that a mode's sign is told by: translations; rotations; shears, which modes of the blades
+/// against each other have where they have none of the others.
+using Fields = std::array<std::array<Vector, 3>, 3>;
+
+Fields sign_fields(const SolidSpace& space) {
+  Fields fields;
+  for (unsigned int d = 0; d < 3; ++d) {
+    fields[0][d] = space.translation(d);
+    fields[1][d] = space.rotation(d);
+    Eigen::VectorXd shear = owned_entries(space.rotation(d));
+    for (Eigen::Index i = (d + 1) % 3; i < shear.size(); i += 3) shear[i] = -shear[i];
+    fields[2][d] = space.make_vector();
+    set_owned_entries(shear, fields[2][d]);
+  }
+  return fields;
+}
+
+// Which of two equal parts is the larger, and which sign a part has that should be zero, is left to
+// rounding: such parts must not decide.
+void fix_sign(Mode& mode, const SolidOperators& operators, const Fields& fields) {
+  constexpr double rounding = 1e-6;
+  Vector momentum(mode.shape);
+  for (const auto& group : fields) {
+    std::array<double, 3> part{};
+    for (unsigned int d = 0; d < 3; ++d) {
+      operators.mass->vmult(momentum, group[d]);
+      part[d] = (momentum * mode.shape) / std::sqrt(momentum * group[d]);
+    }
+    const double largest = std::max({std::abs(part[0]), std::abs(part[1]), std::abs(part[2])});
+    if (largest < rounding) continue;
+    const auto deciding = std::find_if(part.begin(), part.end(), [&](const double value) {
+      return std::abs(value) > (1. - rounding) * largest;
+    });
+    if (*deciding > 0.) return;
+    mode.shape *= -1.;
+    for (auto& value : mode.participation) value = -value;
+    for (auto& value : mode.moment_participation) value = -value;
+    return;
+  }
 }
 
 }  // namespace
@@ -72,12 +105,18 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
   if (n_modes == 0) throw signals::UserError("the number of modes must be at least 1");
   const CholeskySolver stiffness(*operators.clamped_stiffness);
   // One more, so that the last one asked for is not torn from its pair.
-  const auto pairs = smallest_eigenpairs(stiffness, *operators.clamped_mass, n_modes + 1);
+  auto pairs = smallest_eigenpairs(stiffness, *operators.clamped_mass, n_modes + 1);
   if (pairs.size() < n_modes) {
     throw signals::UserError("the mesh has only " + std::to_string(pairs.size()) + " of the " +
                              std::to_string(n_modes) +
                              " modes asked for; ask for fewer or refine the mesh");
   }
+  const auto product = [&](const Vector& x, Vector& force) {
+    force = 0.;
+    operators.internal_force->add(1., x, force);
+    zero_entries(force, space.clamped());
+  };
+  refine(pairs, stiffness, product, *operators.clamped_mass);
   std::vector<Mode> modes;
   for (const auto& pair : pairs) {
     auto& mode = modes.emplace_back();
@@ -94,7 +133,8 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
     }
   }
   modes.resize(n_modes);
-  for (auto& mode : modes) fix_sign(mode);
+  const Fields fields = sign_fields(space);
+  for (auto& mode : modes) fix_sign(mode, operators, fields);
   return modes;
 }
 

@@ -22,8 +22,9 @@ struct Mode {
 
 /// The lowest modes by block Lanczos about zero, ascending.
 /// Pairs of equal frequency (within 1e-4) are turned so that the second has no participation along
-/// axial_direction; signs are such that the largest participation is positive. Throws UserError
-/// when n_modes is zero or not all converge.
+/// axial_direction; signs are such that the largest participation is positive (without any: the
+/// largest part of a rotation, then of a shear). Throws UserError when n_modes is zero or not all
+/// converge.
 std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& operators,
                               unsigned int n_modes,
                               const std::array<double, 3>& axial_direction = {1., 0., 0.});

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <deal.II/grid/tria.h>
+#include <mpi.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "fem/damping.h"
@@ -29,10 +31,15 @@ struct SensorParameters {
 class Sensor {
  public:
   /// Meshes (or reads), assembles and solves. Throws UserError for parameters that make no sensor.
-  explicit Sensor(const SensorParameters& parameters);
+  /// The processes of the communicator share the mesh and all work: its making, and all of this
+  /// room that a Sensor is given to, are collective.
+  explicit Sensor(const SensorParameters& parameters, MPI_Comm communicator = MPI_COMM_WORLD);
 
   const SensorParameters& parameters() const { return parameters_; }
+  /// With several processes the part of this one.
   const dealii::Triangulation<3>& mesh() const { return *mesh_; }
+  /// mesh_sha256 of the whole mesh, however many processes share it.
+  std::string mesh_sha256() const;
   const SolidSpace& space() const { return *space_; }
   const SolidOperators& operators() const { return operators_; }
   const std::vector<Mode>& modes() const { return modes_; }

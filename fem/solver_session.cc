@@ -7,18 +7,35 @@
 
 namespace vibrissa::fem {
 
+namespace {
+
+bool is_running = false;
+MPI_Comm of_failures = MPI_COMM_NULL;
+
+}  // namespace
+
 struct SolverSession::Session {
   int n_arguments = 0;
   char** arguments = nullptr;
   dealii::Utilities::MPI::MPI_InitFinalize mpi{n_arguments, arguments, 1};
 };
 
-SolverSession::SolverSession() : session_(std::make_unique<Session>()) {
+SolverSession::SolverSession() {
+  if (is_running) return;
+  session_ = std::make_unique<Session>();
+  is_running = true;
+  MPI_Comm_dup(MPI_COMM_WORLD, &of_failures);
   // Errors come back as codes, which we turn into exceptions; signals are the program's affair.
   check_petsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "PetscPushErrorHandler");
   check_petsc(PetscPopSignalHandler(), "PetscPopSignalHandler");
 }
 
-SolverSession::~SolverSession() = default;
+SolverSession::~SolverSession() {
+  if (session_) is_running = false;
+}
+
+MPI_Comm SolverSession::failure_communicator() {
+  return of_failures;
+}
 
 }  // namespace vibrissa::fem

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "fem/processes.h"
 #include "meshes/regions.h"
 #include "signals/output_file.h"
 
@@ -51,10 +52,31 @@ CellStress mean_cell_stress(const Sensor& sensor, const Vector& displacement) {
   return stress;
 }
 
+std::filesystem::path write_parts(const std::filesystem::path& file, const dealii::DataOut<3>& out,
+                                  MPI_Comm communicator) {
+  const auto write_vtu = [&](std::ostream& stream) { out.write_vtu(stream); };
+  const unsigned int n = dealii::Utilities::MPI::n_mpi_processes(communicator);
+  if (n == 1) {
+    signals::write_file(file, write_vtu);
+    return file;
+  }
+  const unsigned int number = dealii::Utilities::MPI::this_mpi_process(communicator);
+  std::vector<std::string> parts;
+  for (unsigned int k = 0; k < n; ++k)
+    parts.push_back(file.stem().string() + "." + std::to_string(k) + ".vtu");
+  signals::write_file(file.parent_path() / parts[number], write_vtu);
+  MPI_Barrier(communicator);
+  auto list = file;
+  list.replace_extension(".pvtu");
+  if (number == 0)
+    signals::write_file(list, [&](std::ostream& stream) { out.write_pvtu_record(stream, parts); });
+  return list;
+}
+
 }  // namespace
 
-void write_vtu(const std::filesystem::path& file, const Sensor& sensor, const Vector& displacement,
-               const double time_s) {
+std::filesystem::path write_vtu(const std::filesystem::path& file, const Sensor& sensor,
+                                const Vector& displacement, const double time_s) {
   using Interpretation = dealii::DataComponentInterpretation::DataComponentInterpretation;
   const auto& space = sensor.space();
   const CellStress stress = mean_cell_stress(sensor, displacement);
@@ -71,11 +93,12 @@ void write_vtu(const std::filesystem::path& file, const Sensor& sensor, const Ve
   out.add_data_vector(stress.pressure, "pressure_Pa");
   out.add_data_vector(stress.region, "region");
   out.build_patches(space.mapping(), SolidSpace::degree, dealii::DataOut<3>::curved_inner_cells);
-  signals::write_file(file, [&](std::ostream& stream) { out.write_vtu(stream); });
+  return write_parts(file, out, space.dofs().get_communicator());
 }
 
 void write_pvd(const std::filesystem::path& file, const std::span<const double> times_s,
                const std::span<const std::string> vtu_names) {
+  if (!is_first_process()) return;
   std::vector<std::pair<double, std::string>> list;
   for (std::size_t i = 0; i < vtu_names.size(); ++i) list.emplace_back(times_s[i], vtu_names[i]);
   signals::write_file(
@@ -96,8 +119,9 @@ std::filesystem::path write_mode_animation(const std::filesystem::path& folder,
     Vector frame(mode.shape);
     frame *= amplitude * std::cos(2. * dealii::numbers::PI * turn);
     times.push_back(turn / mode.frequency_hz);
-    names.push_back(stem + "_" + std::to_string(i) + ".vtu");
-    write_vtu(folder / names.back(), sensor, frame, times.back());
+    const auto written =
+        write_vtu(folder / (stem + "_" + std::to_string(i) + ".vtu"), sensor, frame, times.back());
+    names.push_back(written.filename().string());
   }
   const auto file = folder / (stem + ".pvd");
   write_pvd(file, times, names);

@@ -11,11 +11,13 @@ namespace vibrissa::fem {
 
 /// Writes one .vtu of quadratic cells: displacement [m] at the nodes; region, von Mises stress and
 /// pressure [Pa] per cell (means over the cell; pressure from the projected volume change, positive
-/// in compression). time_s is written as the file's TimeValue.
-void write_vtu(const std::filesystem::path& file, const Sensor& sensor, const Vector& displacement,
-               double time_s);
+/// in compression). time_s is written as the file's TimeValue. Several processes write a part each,
+/// NAME.K.vtu, and the first NAME.pvtu, which lists them, once they are there. Collective; returns
+/// the file to open. Proven by tests/fem/vtk_output_test.cc and processes_test.cc.
+std::filesystem::path write_vtu(const std::filesystem::path& file, const Sensor& sensor,
+                                const Vector& displacement, double time_s);
 
-/// A .pvd that lists .vtu files beside it with their times.
+/// A .pvd that lists .vtu or .pvtu files beside it with their times; written by the first process.
 void write_pvd(const std::filesystem::path& file, std::span<const double> times_s,
                std::span<const std::string> vtu_names);
 

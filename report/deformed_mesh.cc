@@ -14,6 +14,7 @@
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkWarpVector.h>
+#include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
@@ -36,10 +37,9 @@ class Complaints : public vtkCommand {
   bool any = false;
 };
 
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file))
-    throw UserError(file.string() + ": there is no such file");
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
+template <class Reader>
+vtkSmartPointer<vtkUnstructuredGrid> read_grid_by(const std::filesystem::path& file) {
+  vtkNew<Reader> reader;
   vtkNew<Complaints> complaints;
   reader->AddObserver(vtkCommand::ErrorEvent, complaints);
   reader->AddObserver(vtkCommand::WarningEvent, complaints);
@@ -51,10 +51,18 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& file
     throw UserError(file.string() + ": no VTK file of an unstructured mesh (.vtu)");
   reader->Update();
   if (complaints->any || reader->GetErrorCode() != 0)
-    throw UserError(file.string() + ": this .vtu file is damaged or not complete");
+    throw UserError(file.string() + ": this " + file.extension().string() +
+                    " file is damaged or not complete");
   if (reader->GetOutput()->GetNumberOfCells() == 0)
     throw UserError(file.string() + ": the mesh has no cells");
   return reader->GetOutput();
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file))
+    throw UserError(file.string() + ": there is no such file");
+  return file.extension() == ".pvtu" ? read_grid_by<vtkXMLPUnstructuredGridReader>(file)
+                                     : read_grid_by<vtkXMLUnstructuredGridReader>(file);
 }
 
 std::vector<std::string> names_of(vtkDataSetAttributes& data, const int n_components) {

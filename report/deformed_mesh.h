@@ -21,7 +21,8 @@ struct DeformedMesh {
 inline constexpr const char* colour_array = "vibrissa_colour";
 
 /// Reads a .vtu file (compressed or not; linear, quadratic or Lagrange cells, points shared by
-/// cells or repeated in each as deal.II writes them). Throws UserError with the file for: a missing
+/// cells or repeated in each as deal.II writes them), or a .pvtu with the parts that it lists.
+/// Throws UserError with the file for: a missing
 /// or damaged file, no cells, a field that is not there (lists those there are) or has another
 /// number of components, values that are not finite. Proven by tests/report/deformed_mesh_test.cc.
 DeformedMesh read_deformed_mesh(const std::filesystem::path& vtu, const ModePicture& picture);

@@ -1,0 +1,152 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "report/child_process.h"
+#include "signals/record_io.h"
+#include "signals/reduced_model.h"
+#include "tests/apps/program.h"
+
+namespace vibrissa::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double as_alone = 1e-9;
+// A hanging job must not hang the tests.
+constexpr double time_limit_s = 300.;
+
+/// vibrissa by several processes; without mpirun there is nothing to test.
+class Processes : public testing::Test {
+ protected:
+  void SetUp() override {
+    mpirun_ = report::find_program("mpirun");
+    if (mpirun_.empty()) GTEST_SKIP() << "no mpirun";
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  }
+  report::ChildResult together(const std::string& arguments, const int n = 2) const {
+    return by_shell("-np " + std::to_string(n) + " " + VIBRISSA_PROGRAM + " " + arguments);
+  }
+  report::ChildResult by_shell(const std::string& arguments) const {
+    return report::run_child({"/bin/sh", "-c", "exec " + mpirun_ + " --oversubscribe " + arguments},
+                             time_limit_s);
+  }
+  static std::size_t times(const std::string& text, const std::string& what) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+      ++n;
+    return n;
+  }
+
+  const Folder folder_;
+
+ private:
+  std::string mpirun_;
+};
+
+/// A short record of the whole solid, and the model.
+std::string simulation(const Folder& folder, const std::string& name) {
+  return "simulate '" + case_file("flow_sensor.prm") +
+         "' --full-order --substeps 1 --duration 0.1 --set Model/Sensitivities=false --set "
+         "'Model/Mesh resolution=1' --json --quiet --record '" +
+         folder.file(name + ".csv") + "' --model '" + folder.file(name + ".json") + "'";
+}
+
+TEST_F(Processes, SimulateWhatOneSimulates) {
+  ASSERT_EQ(vibrissa(simulation(folder_, "alone")).status, 0);
+  const auto job = together(simulation(folder_, "together"), 3);
+  ASSERT_TRUE(job.succeeded()) << job.output;
+  EXPECT_EQ(times(job.output, "\"samples\""), 1u) << "only the first speaks:\n" << job.output;
+  EXPECT_EQ(folder_.n_entries(), 4u);
+
+  const auto expected = signals::read_record(folder_.file("alone.csv"));
+  const auto record = signals::read_record(folder_.file("together.csv"));
+  const auto m = record.channel(signals::channel::base_moment),
+             alone = expected.channel(signals::channel::base_moment);
+  ASSERT_EQ(m.size(), alone.size());
+  double peak = 0., difference = 0.;
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    peak = std::max(peak, std::abs(alone[i]));
+    difference = std::max(difference, std::abs(m[i] - alone[i]));
+  }
+  EXPECT_GT(peak, 0.);
+  EXPECT_LT(difference, as_alone * peak);
+
+  const auto model = signals::read_reduced_model(folder_.file("together.json")),
+             one = signals::read_reduced_model(folder_.file("alone.json"));
+  EXPECT_EQ(model.provenance, one.provenance) << "the mesh has another hash";
+  for (std::size_t k = 0; k < one.modes.size(); ++k)
+    EXPECT_NEAR(model.modes[k].frequency_hz / one.modes[k].frequency_hz, 1., as_alone) << k;
+}
+
+TEST_F(Processes, ListTheModesOnce) {
+  const std::string coarse =
+      folder_.write("coarse.prm", "subsection Model\n  set Mesh resolution = 1\nend\n");
+  const auto job = together("modes '" + coarse + "' --no-convergence --json");
+  ASSERT_TRUE(job.succeeded()) << job.output;
+  EXPECT_EQ(times(job.output, "\"mass_kg\""), 1u) << job.output;
+}
+
+TEST_F(Processes, DoTheMainJob) {
+  const std::string out = folder_.file("run");
+  const auto job = together("run '" + case_file("flow_sensor.prm") +
+                            "' --set 'Model/Mesh resolution=1' --set Model/Sensitivities=false "
+                            "--set 'Output/Full-order duration=0.02' --set Output/Pictures=false "
+                            "--quiet --out '" +
+                            out + "'");
+  ASSERT_TRUE(job.succeeded()) << job.output;
+  EXPECT_EQ(times(job.output, "Results: "), 1u) << job.output;
+  const auto summary = nlohmann::json::parse(content(out + "/summary.json"));
+  EXPECT_TRUE(summary.contains("separation"));
+  EXPECT_LT(summary["full_order_check"]["two_moment_routes_relative_difference"], 1e-6);
+  EXPECT_THAT(content(out + "/vtk/transient.pvd"), HasSubstr("transient_0.pvtu"));
+  EXPECT_TRUE(fs::exists(out + "/vtk/mode_1_0.pvtu"));
+}
+
+TEST_F(Processes, SayOnceWhatIsWrongForAll) {
+  const auto job = together("modes /nonexistent.prm");
+  EXPECT_EQ(job.code, 2) << job.output;
+  EXPECT_EQ(times(job.output, "vibrissa: "), 1u) << job.output;
+  EXPECT_THAT(job.output, HasSubstr("/nonexistent.prm"));
+}
+
+TEST_F(Processes, AreRefusedWorkForOne) {
+  const auto job = together("bode '" + case_file("flow_sensor.prm") + "'");
+  EXPECT_EQ(job.code, 2) << job.output;
+  EXPECT_EQ(times(job.output, "vibrissa: "), 1u) << job.output;
+  EXPECT_THAT(job.output, HasSubstr("without mpirun"));
+}
+
+// The first alone finds out that it cannot write, while the others wait for it.
+TEST_F(Processes, EndWhenTheFirstFails) {
+  const std::string out = folder_.file("run");
+  fs::create_directories(out);
+  folder_.write("run/old.txt", "of an earlier run");
+  const auto job =
+      together("run '" + case_file("flow_sensor.prm") + "'" + quick + " --out '" + out + "'");
+  EXPECT_EQ(job.end, report::ChildResult::End::exited) << job.output;
+  EXPECT_EQ(job.code, 2) << job.output;
+  EXPECT_EQ(times(job.output, "vibrissa: "), 1u) << job.output;
+  EXPECT_THAT(job.output, HasSubstr("not empty"));
+}
+
+// The second is given another case, which is none.
+TEST_F(Processes, EndWhenAnotherFails) {
+  const std::string program = std::string("-np 1 ") + VIBRISSA_PROGRAM + " modes ";
+  const auto job = by_shell(program + case_file("flow_sensor.prm") + " : " + program +
+                            folder_.file("missing.prm"));
+  EXPECT_EQ(job.end, report::ChildResult::End::exited) << job.output;
+  EXPECT_EQ(job.code, 2) << job.output;
+  EXPECT_EQ(times(job.output, "vibrissa: "), 1u) << job.output;
+  EXPECT_THAT(job.output, HasSubstr("missing.prm"));
+}
+
+}  // namespace
+}  // namespace vibrissa::apps
