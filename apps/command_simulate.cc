@@ -64,7 +64,7 @@ void simulate(const SimulateOptions& options) {
   if (options.input_file)
     throw signals::UserError("--inputs is for a mended model; a case file names its own inputs");
   const Case parameters = options.chosen.load().read();
-  if (!options.full_order) check_reduced_wind(parameters);
+  check_reduced_wind(parameters);
   const Inputs inputs = make_inputs(parameters);
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);

@@ -50,7 +50,7 @@ void check_reduced_wind(const Case& parameters) {
   if (parameters.sensor.wind.relative_velocity)
     throw signals::UserError(
         "Wind/Relative velocity is true, but the reduced model's wind does not feel the whisker's "
-        "motion; use the full-order solid (vibrissa simulate --full-order), or set it to false");
+        "motion; use the full-order solid (vibrissa transient), or set it to false");
 }
 
 RigRecords measure_on_rig(const signals::ReducedModel& model, const Case& parameters,

@@ -47,6 +47,23 @@ std::string by_chance(std::vector<std::string> experiments, const std::string& r
   return experiments.empty() ? "" : experiments[(hash >> 32) % experiments.size()];
 }
 
+/// After the recommended experiment and after another one; why not, where that fails: the first
+/// answer stands.
+json answers_after(const TrialIndex& trial, const TrialEntry& entry, const signals::Dataset& real,
+                   const diagnosis::NominalModel& nominal,
+                   const diagnosis::DiagnoseOptions& settings, const std::string& recommended) {
+  const fs::path folder = trial.folder / entry.name;
+  json out = json::object();
+  try {
+    out["recommended"] = answer_after(recommended, folder, real, nominal, settings);
+    const std::string other = by_chance(trial.further_experiments, recommended, entry.name);
+    if (!other.empty()) out["by_chance"] = answer_after(other, folder, real, nominal, settings);
+  } catch (const std::exception& error) {
+    out["further_message"] = error.what();
+  }
+  return out;
+}
+
 json answer(const TrialIndex& trial, const TrialEntry& entry,
             const diagnosis::NominalModel& nominal, const TrialRunOptions& options) {
   diagnosis::DiagnoseOptions settings;
@@ -68,10 +85,8 @@ json answer(const TrialIndex& trial, const TrialEntry& entry,
     out["diagnosis"] = json::parse(diagnosis::diagnosis_json(said));
     out["exit_status"] = 0;
     out["seconds"] = seconds_since(start);
-    if (!options.further || said.confidence_set.size() < 2 || said.next.name == "none") return out;
-    out["recommended"] = answer_after(said.next.name, folder, real, nominal, settings);
-    const std::string other = by_chance(trial.further_experiments, said.next.name, entry.name);
-    if (!other.empty()) out["by_chance"] = answer_after(other, folder, real, nominal, settings);
+    if (options.further && said.confidence_set.size() > 1 && said.next.name != "none")
+      out.update(answers_after(trial, entry, real, nominal, settings, said.next.name));
   } catch (const diagnosis::TooPoorData& error) {
     return failed(too_poor_data, error.what());
   } catch (const signals::UserError& error) {

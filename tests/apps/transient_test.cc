@@ -18,10 +18,10 @@ using testing::HasSubstr;
 const std::string coarse =
     " --set 'Model/Mesh resolution=1' --set Model/Sensitivities=false --duration 0.2";
 
-/// A whisker at 1 g and its resonance, finite strain, 50 samples, a checkpoint at every second one.
+/// A whisker at 1 g and its resonance, finite strain, 64 samples, a checkpoint at every second one.
 const std::string swinging =
     "transient '" + case_file("whisker_sensor.prm") + "'" + coarse +
-    " --set 'Records/Sampling rate=250' --set 'Base motion/Lines=27'"
+    " --set 'Records/Sampling rate=320' --set 'Base motion/Lines=27'"
     " --set 'Base motion/Peak=9.81' --set 'Transient/Checkpoint interval=2'";
 
 /// Starts the program and ends it by a signal after a time; true when that came before its own end.
@@ -42,16 +42,16 @@ bool interrupt(const std::string& arguments, const double after_s, const int sig
 
 TEST(Transient, WritesRecordEnergiesFieldsAndASummary) {
   const Folder folder;
-  const auto result = vibrissa(swinging + " --set 'Transient/VTK interval=25' --json -o '" +
+  const auto result = vibrissa(swinging + " --set 'Transient/VTK interval=30' --json -o '" +
                                folder.file("run") + "'");
   ASSERT_EQ(result.status, 0) << result.errors;
   const auto summary = result.json();
-  EXPECT_EQ(summary["samples"], 50);
+  EXPECT_EQ(summary["samples"], 64);
   EXPECT_EQ(summary["strain"], "finite");
   EXPECT_LT(summary["two_moment_routes_relative_difference"], 1e-6);
   EXPECT_LT(summary["energy_error_over_largest_work"], 1e-3);
   const auto record = signals::read_record(folder.file("run/record.csv"));
-  EXPECT_EQ(record.n_samples(), 50u);
+  EXPECT_EQ(record.n_samples(), 64u);
   EXPECT_TRUE(record.has(signals::channel::base_moment));
   EXPECT_TRUE(fs::exists(folder.file("run/energy.csv")));
   EXPECT_TRUE(fs::exists(folder.file("run/vtk/transient.pvd")));
