@@ -35,8 +35,10 @@ class Processes : public testing::Test {
     return by_shell("-np " + std::to_string(n) + " " + VIBRISSA_PROGRAM + " " + arguments);
   }
   report::ChildResult by_shell(const std::string& arguments) const {
-    return report::run_child({"/bin/sh", "-c", "exec " + mpirun_ + " --oversubscribe " + arguments},
-                             time_limit_s);
+    return report::run_child(
+        {"/bin/sh", "-c",
+         "exec " + mpirun_ + " --oversubscribe --mca mpi_yield_when_idle 1 " + arguments},
+        time_limit_s);
   }
   static std::size_t times(const std::string& text, const std::string& what) {
     std::size_t n = 0;
@@ -54,7 +56,10 @@ class Processes : public testing::Test {
 /// A short record of the whole solid, and the model.
 std::string simulation(const Folder& folder, const std::string& name) {
   return "simulate '" + case_file("flow_sensor.prm") +
-         "' --full-order --substeps 1 --duration 0.1 --set Model/Sensitivities=false --set "
+         "' --full-order --substeps 1 --duration 0.66 --set 'Records/Sampling rate=100' --set "
+         "'Base "
+         "motion/Lines=2, 5, 9, 30' --set 'Separation/Settling time=0.05' --set "
+         "Model/Sensitivities=false --set "
          "'Model/Mesh resolution=1' --json --quiet --record '" +
          folder.file(name + ".csv") + "' --model '" + folder.file(name + ".json") + "'";
 }
@@ -99,7 +104,7 @@ TEST_F(Processes, DoTheMainJob) {
   const auto job = together("run '" + case_file("flow_sensor.prm") +
                             "' --set 'Model/Mesh resolution=1' --set Model/Sensitivities=false "
                             "--set 'Output/Full-order duration=0.02' --set Output/Pictures=false "
-                            "--quiet --out '" +
+                            "--quiet --output '" +
                             out + "'");
   ASSERT_TRUE(job.succeeded()) << job.output;
   EXPECT_EQ(times(job.output, "Results: "), 1u) << job.output;
@@ -130,7 +135,7 @@ TEST_F(Processes, EndWhenTheFirstFails) {
   fs::create_directories(out);
   folder_.write("run/old.txt", "of an earlier run");
   const auto job =
-      together("run '" + case_file("flow_sensor.prm") + "'" + quick + " --out '" + out + "'");
+      together("run '" + case_file("flow_sensor.prm") + "'" + quick + " --output '" + out + "'");
   EXPECT_EQ(job.end, report::ChildResult::End::exited) << job.output;
   EXPECT_EQ(job.code, 2) << job.output;
   EXPECT_EQ(times(job.output, "vibrissa: "), 1u) << job.output;
