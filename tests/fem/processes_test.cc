@@ -2,10 +2,13 @@
 
 #include "fem/processes.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <regex>
 #include <sstream>
 
@@ -94,7 +97,7 @@ TEST_P(Processes, EachHoldsAnEqualPartOfOneMesh) {
         ASSERT_EQ(unknowns[together().space().cell_dof(node, c)] % 3, c);
   }
   const auto n_cells = static_cast<double>(alone().mesh().n_active_cells());
-  EXPECT_NEAR(n_owned, n_cells / n, 0.1 * n_cells / n);
+  EXPECT_NEAR(n_owned, n_cells / n, 0.2 * n_cells / n);
   EXPECT_EQ(together().mesh().n_global_active_cells(), alone().mesh().n_active_cells());
   EXPECT_EQ(together().space().n_dofs(), alone().space().n_dofs());
   EXPECT_EQ(together().mesh_sha256(), alone().mesh_sha256());
@@ -132,8 +135,8 @@ TEST_P(Processes, ReduceToTheModelOfEachAlone) {
 }
 
 TEST_P(Processes, MoveLinearlyAsEachAlone) {
-  const auto a = wave(30, 5., 30.), cross = wave(30, 3., 50.);
-  auto wind = wave(30, 3., 20.);
+  const auto a = wave(10, 5., 30.), cross = wave(10, 3., 50.);
+  auto wind = wave(10, 3., 20.);
   const TransientInput input{rate_hz, a.size(), a, cross, wind};
   const auto output = simulate_linear(together(), input, {0.9, 2, true});
   const auto expected = simulate_linear(alone(), input, {0.9, 2, true});
@@ -143,8 +146,8 @@ TEST_P(Processes, MoveLinearlyAsEachAlone) {
 }
 
 TEST_P(Processes, MoveAtFiniteStrainAsEachAlone) {
-  const auto a = wave(6, 60., 30.), cross = wave(6, 30., 50.);
-  const auto wind = wave(6, 3., 20.);
+  const auto a = wave(4, 60., 30.), cross = wave(4, 30., 50.);
+  const auto wind = wave(4, 3., 20.);
   const TransientInput input{rate_hz, a.size(), a, cross, wind};
   NonlinearOptions options;
   options.gravity_m_s2 = {0., 0., -9.81};
@@ -157,11 +160,10 @@ TEST_P(Processes, MoveAtFiniteStrainAsEachAlone) {
 }
 
 StaticSolution under_pressure(const Sensor& sensor) {
-  const FollowerPressure pressure(sensor.space(), {meshes::boundary::silicone_surface});
+  const FollowerPressure pressure(sensor.space(), {meshes::boundary::silicone_surface}, 2e3);
   StaticLoad load;
   load.body_acceleration_m_s2 = {3., 1., -9.81};
-  load.pressure = &pressure;
-  load.pressure_pa = 2e3;
+  load.following = &pressure;
   return solve_static(sensor.space(), sensor.operators(), load);
 }
 
