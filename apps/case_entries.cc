@@ -186,9 +186,6 @@ void check(const Case& all) {
       }
     }
   }
-  if (all.separation.settling_s >= 0.5 * all.records.duration_s) {
-    throw UserError("Separation/Settling time must be less than half of Records/Duration");
-  }
   if (all.base.kind == BaseMotionKind::none && all.sensor.wind.kind == flow::WindKind::none) {
     throw UserError("Base motion/Kind and Wind/Kind are both none: nothing moves the sensor");
   }

@@ -21,9 +21,11 @@
 #include "report/mode_picture.h"
 #include "report/pictures.h"
 #include "report/run_folder.h"
+#include "report/table.h"
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
 #include "separation/identify.h"
+#include "signals/error.h"
 #include "signals/record_io.h"
 
 namespace vibrissa::apps {
@@ -187,12 +189,22 @@ report::RunFolder new_run_folder(const CaseOptions& chosen, const CaseFile& file
   return folder;
 }
 
+void check_settling(const Case& parameters) {
+  if (parameters.separation.settling_s >= 0.5 * parameters.records.duration_s)
+    throw signals::UserError(
+        "Separation/Settling time (" + report::Cell(parameters.separation.settling_s).exact() +
+        " s) must be less than half of Records/Duration (" +
+        report::Cell(parameters.records.duration_s).exact() +
+        " s): the scores leave it out; shorten it or lengthen the records");
+}
+
 }  // namespace
 
 RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& command_line,
                    const bool quiet) {
   CaseFile file = chosen.load();
   const Case parameters = file.read();
+  check_settling(parameters);
   check_reduced_wind(parameters);
   const Inputs inputs = make_inputs(parameters);
   const fem::SolverSession session;

@@ -70,6 +70,12 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
     if (damping_) damping_->correct(step);
   }
 
+  /// What a force out of balance leads to within a step (T14.5).
+  void acceleration_of_a_step(const Vector& out_of_balance, Vector& acceleration) const {
+    solver_->solve(out_of_balance, acceleration);
+    acceleration *= mass_factor_;
+  }
+
   const dealii::IndexSet held_;
   Vector known_force;              // all that does not depend on u
   Vector known_velocity;           // at the step's end, likewise
@@ -164,7 +170,9 @@ void FiniteStrainStepper::start(const Vector& displacement, const Vector& veloci
                                 const Vector& force) {
   state_ = {displacement, velocity, space_.make_vector()};
   force_ = with_state_load(force);
+  algorithmic_ = 0.;
   energy_ = {};
+  count_ = {};
   if (problem_->relaxation) operators_.internal_force->rest(displacement, *problem_->relaxation);
   update_forces();
   add_relaxing_force();
@@ -175,12 +183,13 @@ void FiniteStrainStepper::start(const Vector& displacement, const Vector& veloci
   if (right.l2_norm() > 0.) {
     const auto regular = with_clamped_rows(*operators_.mass, problem_->held_, 1.);
     CholeskySolver(*regular).solve(right, state_.acceleration);
+    problem_->factorise(displacement, displacement);
+    problem_->acceleration_of_a_step(right, algorithmic_);
+    count_.n_factorisations = 1;
   }
-  algorithmic_ = state_.acceleration;
   algorithmic_before_ = algorithmic_;
   operators_.mass->vmult(momentum, velocity);
   energy_.kinetic_j = 0.5 * (velocity * momentum);
-  count_ = {};
 }
 
 TransientMemory FiniteStrainStepper::memory() const {
@@ -257,9 +266,14 @@ void FiniteStrainStepper::step(const Vector& force) {
 
   Vector u(predicted);
   u.add(2. * b * dt * dt, algorithmic_, -b * dt * dt, algorithmic_before_);
-  const NewtonReport report = solve_balance(*problem_, state_.displacement, u, options_.newton);
-  count_.n_iterations += report.residuals.size() - 1;
-  count_.n_factorisations += report.n_factorisations;
+  NewtonReport report = solve_balance(*problem_, state_.displacement, u, options_.newton);
+  add_to_count(report);
+  if (!report.converged) {
+    // After a jump of the load the extrapolation may lead out of the body's states.
+    u = state_.displacement;
+    report = solve_balance(*problem_, state_.displacement, u, options_.newton);
+    add_to_count(report);
+  }
   if (!report.converged) give_up(report);
 
   const Vector before(state_.displacement);
@@ -297,6 +311,11 @@ void FiniteStrainStepper::add_energies(const Vector& before, const Vector& mean_
   update_forces();
   add_relaxing_force();
   energy_.dissipated_j += 0.5 * (way * damping_force_ + way * relaxing_force_);
+}
+
+void FiniteStrainStepper::add_to_count(const NewtonReport& report) {
+  if (!report.residuals.empty()) count_.n_iterations += report.residuals.size() - 1;
+  count_.n_factorisations += report.n_factorisations;
 }
 
 void FiniteStrainStepper::give_up(const NewtonReport& report) const {

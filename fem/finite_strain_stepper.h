@@ -62,6 +62,7 @@ class FiniteStrainStepper {
   /// Of the step whose end the state is at.
   void add_relaxing_force();
   Vector with_state_load(const Vector& force) const;
+  void add_to_count(const NewtonReport& report);
   [[noreturn]] void give_up(const NewtonReport& report) const;
 
   const SolidSpace& space_;

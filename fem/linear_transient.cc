@@ -23,8 +23,11 @@ class DampedSolver {
   }
 
   void solve(const Vector& right_hand_side, Vector& solution) const {
-    factors_.solve(right_hand_side, solution);
+    solve_undamped(right_hand_side, solution);
     damping_.correct(solution);
+  }
+  void solve_undamped(const Vector& right_hand_side, Vector& solution) const {
+    factors_.solve(right_hand_side, solution);
   }
 
  private:
@@ -144,6 +147,7 @@ class LinearStepper : public DrivenSensor {
     };
   }
 
+  // As (T14.5).
   void start() {
     force_before_ = force_after_;
     Vector right(force_after_);
@@ -151,7 +155,8 @@ class LinearStepper : public DrivenSensor {
     if (right.l2_norm() == 0.) return;
     const auto regular = with_clamped_rows(*sensor_.operators().mass, space_.clamped(), 1.);
     CholeskySolver(*regular).solve(right, state_.acceleration);
-    algorithmic_ = state_.acceleration;
+    solver_.solve_undamped(right, algorithmic_);
+    algorithmic_ *= 1. - alpha_.alpha_m;
   }
 
   // Drag takes the velocity that is foreseen for the end of a step: second order, and no part of

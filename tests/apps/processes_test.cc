@@ -55,7 +55,7 @@ class Processes : public testing::Test {
 
 const std::string short_and_coarse =
     " --duration 0.2 --set 'Records/Sampling rate=320' --set 'Base motion/Lines=2, 5, 9, 30'"
-    " --set 'Separation/Settling time=0.05' --set Model/Sensitivities=false"
+    " --set Model/Sensitivities=false"
     " --set 'Model/Mesh resolution=1' --json --quiet";
 
 /// A short record of the whole solid at finite strain.

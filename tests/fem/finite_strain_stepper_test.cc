@@ -97,10 +97,9 @@ TEST_F(RubberBar, FollowsAManufacturedMotionWithErrorsOfSecondOrder) {
   Vector shape = space->make_vector();
   for (const auto i : shape.locally_owned_elements()) {
     const double z = space->rotation(1)[i];
-    shape[i] = 15. * z * z;
+    shape[i] = space->translation(0)[i] * 8. * z * z;  // keeps its volume
   }
   shape.compress(dealii::VectorOperation::insert);
-  zero_entries(shape, space->clamped());
   const double duration = 0.02, angular = 0.5 * M_PI / duration;
   const auto error = [&](const unsigned int n_steps) {
     const double dt = duration / n_steps;
