@@ -25,10 +25,12 @@ MPI_Comm communicator_of(const TransientRun& run) {
   return run.sensor().state().displacement.get_mpi_communicator();
 }
 
-/// Begins the file: what it is, and by which the rest is known to be whole.
-std::string seal_of(const std::string& image) {
-  return std::string(kind) + "\nsha256 " +
-         signals::sha256(std::string_view(image).substr(Hdf5Writer::user_block)) + "\n";
+/// Stands before the HDF5 file: what it is, and by which the rest is known to be whole.
+constexpr std::size_t seal_size = 512;
+std::string seal_of(const std::string_view image) {
+  std::string seal = std::string(kind) + "\nsha256 " + signals::sha256(image) + "\n";
+  seal.resize(seal_size, '\0');
+  return seal;
 }
 
 std::vector<double> columns_of(const std::vector<EnergyBalance>& energy) {
@@ -136,7 +138,8 @@ void check_whole(const std::filesystem::path& file, const std::string& image) {
   if (image.rfind(kind, 0) != 0)
     throw UserError(file.string() + ": is no checkpoint of a transient (it should begin with '" +
                     kind + "')");
-  if (image.size() <= Hdf5Writer::user_block || image.rfind(seal_of(image), 0) != 0)
+  if (image.size() <= seal_size ||
+      image.rfind(seal_of(std::string_view(image).substr(seal_size)), 0) != 0)
     throw UserError(file.string() +
                     ": the checkpoint is damaged (its content does not fit its SHA-256); begin the "
                     "run anew, or take a copy of the file");
@@ -183,10 +186,8 @@ void write_checkpoint(const std::filesystem::path& file, const TransientRun& run
   content.add("owner/program_revision", owner.program_revision);
   const double n_processes = dealii::Utilities::MPI::n_mpi_processes(communicator);
   content.add("owner/n_processes", std::span(&n_processes, 1));
-  std::string image = content.image();
-  const std::string seal = seal_of(image);
-  image.replace(0, seal.size(), seal);
-  signals::write_file(file, [&](std::ostream& out) { out << image; });
+  const std::string image = content.image();
+  signals::write_file(file, [&](std::ostream& out) { out << seal_of(image) << image; });
 }
 
 std::string read_checkpoint(const std::filesystem::path& file, const CheckpointOwner& owner,

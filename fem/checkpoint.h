@@ -15,10 +15,11 @@ struct CheckpointOwner {
   std::string program_revision;                // told, not compared
 };
 
-/// Writes what a run needs to go on and its record so far, whole or not at all, as an HDF5 file of
-/// vectors/, numbers/, own/ (of each process), record/ and owner/, with the SHA-256 of all that in
-/// its user block. On several processes the first one writes; all must call. Throws UserError when
-/// it cannot be written. Proven by tests/fem/checkpoint_test.cc and tests/apps/transient_test.cc.
+/// Writes what a run needs to go on and its record so far, whole or not at all: an HDF5 file of
+/// vectors/, numbers/, own/ (of each process), record/ and owner/ behind 512 bytes of text with its
+/// SHA-256, where HDF5 looks for a file's beginning, too. On several processes the first one
+/// writes; all must call. Throws UserError when it cannot be written. Proven by
+/// tests/fem/checkpoint_test.cc and tests/apps/transient_test.cc.
 void write_checkpoint(const std::filesystem::path& file, const TransientRun& run,
                       const CheckpointOwner& owner);
 

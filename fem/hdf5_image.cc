@@ -48,9 +48,7 @@ Handle in_memory() {
 
 Handle create_file() {
   silence_library();
-  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a file's properties");
-  require(H5Pset_userblock(creation, Hdf5Writer::user_block), "reserve a user block");
-  return {H5Fcreate("in memory", H5F_ACC_TRUNC, creation, in_memory()), H5Fclose, "make a file"};
+  return {H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory()), H5Fclose, "make a file"};
 }
 
 Handle open_file(const std::string& image) {

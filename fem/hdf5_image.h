@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,9 +15,9 @@ class Hdf5Writer {
   ~Hdf5Writer();
   void add(const std::string& path, std::span<const double> values);
   void add(const std::string& path, const std::string& text);
-  /// The whole file, behind a block of zeros for the writer's own use (HDF5's user block).
+  /// The whole file. It may stand behind a block of 512 bytes of the writer's own: HDF5 looks for
+  /// its beginning there, too.
   std::string image();
-  static constexpr std::size_t user_block = 512;
 
  private:
   struct File;

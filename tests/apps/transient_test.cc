@@ -18,6 +18,13 @@ using testing::HasSubstr;
 const std::string coarse =
     " --set 'Model/Mesh resolution=1' --set Model/Sensitivities=false --duration 0.2";
 
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  result += text;
+  result += "'";
+  return result;
+}
+
 /// A whisker at 1 g and its resonance, finite strain, 64 samples, a checkpoint at every second one.
 const std::string swinging =
     "transient '" + case_file("whisker_sensor.prm") + "'" + coarse +
@@ -94,7 +101,7 @@ TEST(Transient, KilledAgainAndAgainAndGoneOnWithLeavesTheSameFiles) {
   while (n_killed < n_kills && interrupt(command, after_s(random), SIGKILL)) {
     ++n_killed;
     if (fs::exists(killed + "/resolved.prm"))
-      command = "transient --quiet --resume '" + killed + "'";
+      command = "transient --quiet --resume " + quoted(killed);
   }
   if (!fs::exists(killed + "/summary.json")) {
     const auto last = vibrissa(command);
@@ -125,18 +132,18 @@ TEST(Transient, RefusesToGoOnWithWhatIsNoRunOrDoneOrAnotherCase) {
     EXPECT_EQ(result.status, 2);
     return result.errors;
   };
-  EXPECT_THAT(refusal("--resume '" + folder.file("absent") + "'"), HasSubstr("holds no run"));
+  EXPECT_THAT(refusal("--resume " + quoted(folder.file("absent"))), HasSubstr("holds no run"));
   EXPECT_THAT(refusal(""), HasSubstr("name a case file"));
   const std::string run = folder.file("run");
   ASSERT_TRUE(interrupt(swinging + " --quiet -o '" + run + "'", 4., SIGINT));
-  EXPECT_THAT(refusal("'" + case_file("flow_sensor.prm") + "' --resume '" + run + "'"),
+  EXPECT_THAT(refusal(quoted(case_file("flow_sensor.prm")) + " --resume " + quoted(run)),
               HasSubstr("nothing beside it"));
   const std::string file = run + "/resolved.prm";
   std::string text = content(file);
   const auto at = text.find("set Spectral radius");
   text.replace(text.find("0.9", at), 3, "0.8");
   std::ofstream(file) << text;
-  EXPECT_THAT(refusal("--resume '" + run + "'"),
+  EXPECT_THAT(refusal("--resume " + quoted(run)),
               testing::AllOf(HasSubstr("checkpoint.h5"), HasSubstr("in 'Transient'"),
                              HasSubstr("0.9"), HasSubstr("0.8")));
 }
