@@ -3,6 +3,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/vector.h>
 
+#include <algorithm>
 #include <fstream>
 #include <numeric>
 #include <sstream>
@@ -28,8 +29,11 @@ MPI_Comm communicator_of(const TransientRun& run) {
 /// Stands before the HDF5 file: what it is, and by which the rest is known to be whole.
 constexpr std::size_t seal_size = 512;
 std::string seal_of(const std::string_view image) {
-  std::string seal = std::string(kind) + "\nsha256 " + signals::sha256(image) + "\n";
-  seal.resize(seal_size, '\0');
+  std::ostringstream text;
+  text << kind << "\nsha256 " << signals::sha256(image) << "\n";
+  std::string seal(seal_size, '\0');
+  const std::string line = text.str();
+  std::copy(line.begin(), line.end(), seal.begin());
   return seal;
 }
 

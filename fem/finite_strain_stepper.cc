@@ -54,6 +54,7 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
   void factorise(const Vector& u, const Vector& stressed) override {
     tangent_at = u;
     stressed_at = stressed;
+    if (relaxation) relaxing_at = relaxation->memory();
     tangent_.start(mass_factor_);
     // A state load's stiffness is nothing beside a step's inertia, and a tangent that is kept would
     // have to remember the instant that it was made at.
@@ -81,6 +82,7 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
   Vector known_velocity;           // at the step's end, likewise
   Vector tangent_at, stressed_at;  // where the tangent was last made
   std::optional<RelaxingStress> relaxation;
+  std::vector<double> relaxing_at;  // its memory there
 
  private:
   Vector velocity(const Vector& u) const {
@@ -214,6 +216,7 @@ TransientMemory FiniteStrainStepper::memory() const {
   if (problem_->relaxation) {
     memory.vectors.emplace("relaxing_force", relaxing_force_);
     memory.own.emplace("relaxing_stress", problem_->relaxation->memory());
+    memory.own.emplace("relaxing_at", problem_->relaxing_at);
   }
   return memory;
 }
@@ -233,16 +236,19 @@ void FiniteStrainStepper::restore(const TransientMemory& memory) {
   if (problem_->relaxation) {
     relaxing_force_ = memory.vectors.at("relaxing_force");
     elastic_force_ += relaxing_force_;
-    problem_->relaxation->restore(memory.own.at("relaxing_stress"));
   }
   energy_.kinetic_j = memory.numbers.at("kinetic_j");
   energy_.dissipated_j = memory.numbers.at("dissipated_j");
   energy_.numerical_j = memory.numbers.at("numerical_j");
   energy_.work_j = memory.numbers.at("work_j");
   count_ = {count("n_steps"), count("n_iterations"), count("n_factorisations")};
+  auto& relaxation = problem_->relaxation;
   const auto tangent_at = memory.vectors.find("tangent_at");
-  if (tangent_at != memory.vectors.end())
+  if (tangent_at != memory.vectors.end()) {
+    if (relaxation) relaxation->restore(memory.own.at("relaxing_at"));
     problem_->factorise(tangent_at->second, memory.vectors.at("stressed_at"));
+  }
+  if (relaxation) relaxation->restore(memory.own.at("relaxing_stress"));
 }
 
 // With a = (u - u_p)/(beta dt^2): what of M u'' + C u' does not depend on u goes to the other side.

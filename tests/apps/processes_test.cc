@@ -67,7 +67,7 @@ std::string transient(const Folder& folder, const std::string& name) {
 
 TEST_F(Processes, TakeTheSolidThroughARecordAsOneDoes) {
   ASSERT_EQ(vibrissa(transient(folder_, "alone")).status, 0);
-  const auto job = together(transient(folder_, "together"), 3);
+  const auto job = together(transient(folder_, "together"));
   ASSERT_TRUE(job.succeeded()) << job.output;
   EXPECT_EQ(times(job.output, "\"samples\""), 1u) << "only the first speaks:\n" << job.output;
   EXPECT_THAT(content(folder_.file("together/vtk/transient.pvd")), HasSubstr("transient_1.pvtu"));
@@ -93,7 +93,7 @@ TEST_F(Processes, MakeTheModelThatOneMakes) {
            folder_.file(name + ".csv") + "' --model '" + folder_.file(name + ".json") + "'";
   };
   ASSERT_EQ(vibrissa(simulation("alone")).status, 0);
-  const auto job = together(simulation("together"), 3);
+  const auto job = together(simulation("together"));
   ASSERT_TRUE(job.succeeded()) << job.output;
   EXPECT_EQ(folder_.n_entries(), 4u);
   const auto model = signals::read_reduced_model(folder_.file("together.json")),
