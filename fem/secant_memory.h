@@ -9,7 +9,7 @@
 namespace vibrissa::fem {
 
 /// What the last steps of an iteration have shown of a stiffness beside a factorised one that is no
-/// longer true: limited-memory BFGS on its inverse (T13.2; Nocedal and Wright, Numerical
+/// longer true: limited-memory BFGS on its inverse (Nocedal and Wright, Numerical
 /// Optimization, 2006, algorithm 7.4). Stays positive definite. Proven by tests/fem/newton_test.cc.
 class SecantMemory {
  public:

@@ -18,7 +18,7 @@ struct SteadyMoment {
 };
 
 /// In steady winds along the axial direction, each reached from the one before; the pressure acts
-/// on the surface that the sensor's parameters name (T13.2). Throws UserError for a speed that is
+/// on the surface that the sensor's parameters name (T13.3). Throws UserError for a speed that is
 /// not finite, and with the speed reached and advice when there is no equilibrium.
 /// Proven by tests/fem/steady_moment_test.cc.
 std::vector<SteadyMoment> steady_wind_moments(const Sensor& sensor,
