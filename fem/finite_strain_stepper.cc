@@ -37,8 +37,7 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
 
   double forces(const Vector& u, Vector& out_of_balance) override {
     elastic_ = 0.;
-    const double energy =
-        operators_.internal_force->add_finite(1., u, elastic_, relaxation ? &*relaxation : nullptr);
+    const double energy = operators_.internal_force->add_finite(1., u, elastic_, relaxing());
     operators_.mass->vmult(inertia_, u);
     inertia_ *= mass_factor_;
     out_of_balance = known_force;
@@ -58,8 +57,7 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
     tangent_.start(mass_factor_);
     // A state load's stiffness is nothing beside a step's inertia, and a tangent that is kept would
     // have to remember the instant that it was made at.
-    operators_.internal_force->add_tangent(1., u, stressed, tangent_,
-                                           relaxation ? &*relaxation : nullptr);
+    operators_.internal_force->add_tangent(1., u, stressed, tangent_, relaxing());
     tangent_.finish(mass_factor_);
     renew_factors(tangent_, solver_);
     if (damping_) damping_->renew(solved_damping_forces());
@@ -85,6 +83,8 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
   std::vector<double> relaxing_at;  // its memory there
 
  private:
+  const RelaxingStress* relaxing() const { return relaxation ? &*relaxation : nullptr; }
+
   Vector velocity(const Vector& u) const {
     Vector v(known_velocity);
     v.add(velocity_factor_, u);
@@ -95,18 +95,15 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
   std::vector<Vector> solved_damping_forces() const {
     const std::vector<Vector>& forces = damping_->forces();
     if (forces.empty()) return {};
-    std::vector<dealii::types::global_dof_index> rows;
-    elastic_.locally_owned_elements().fill_index_vector(rows);
-    Columns right(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(forces.size()));
+    Columns right(static_cast<Eigen::Index>(elastic_.locally_owned_size()),
+                  static_cast<Eigen::Index>(forces.size()));
     for (std::size_t k = 0; k < forces.size(); ++k)
-      forces[k].extract_subvector_to(rows.begin(), rows.end(),
-                                     right.col(static_cast<Eigen::Index>(k)).data());
+      right.col(static_cast<Eigen::Index>(k)) = owned_entries(forces[k]);
     const Columns columns = solver_->solve(right);
     std::vector<Vector> solved;
     for (const auto& column : columns.colwise()) {
       solved.push_back(space_.make_vector());
-      solved.back().set(rows, std::vector<double>(column.begin(), column.end()));
-      solved.back().compress(dealii::VectorOperation::insert);
+      set_owned_entries(column, solved.back());
     }
     return solved;
   }

@@ -53,10 +53,10 @@ void InternalForce::add_forces(const double factor, const Vector& u, Vector& for
   const Values known = known_values(u);
   Values sum(known.size(), 0.);
   CellElasticity::Nodal out;
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const Cell& cell = cells_[c];
+  for (std::size_t number = 0; number < cells_.size(); ++number) {
+    const Cell& cell = cells_[number];
     if (!cell.owned) continue;
-    cell_force(c, known, out);
+    cell_force(number, known, out);
     for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
       for (std::size_t c = 0; c < 3; ++c) sum[cell.nodes[i] + c] += factor * out[3 * i + c];
     }
