@@ -125,6 +125,26 @@ TEST(SecantMemory, MeetsTheLastPairAndStaysPositive) {
   }
 }
 
+// H <- (1 - s y^T / y.s) H (1 - y s^T / y.s) + s s^T / y.s, pair by pair.
+TEST(SecantMemory, IsTheInverseThatBfgsGives) {
+  const Eigen::Vector2d steps[] = {{1., 0.}, {1., 3.}}, growths[] = {{7., 1.}, {2., 5.}};
+  SecantMemory memory(3);
+  Eigen::Matrix2d inverse = 0.5 * Eigen::Matrix2d::Identity();
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d &s = steps[i], &y = growths[i];
+    memory.add(two(s[0], s[1]), two(y[0], y[1]));
+    const Eigen::Matrix2d left = Eigen::Matrix2d::Identity() - s * y.transpose() / y.dot(s);
+    inverse = left * inverse * left.transpose() + s * s.transpose() / y.dot(s);
+  }
+  Vector x = two(0., 0.);
+  for (const double angle : {0., 1., 2., 3.}) {
+    const Eigen::Vector2d f(std::cos(angle), std::sin(angle)), expected = inverse * f;
+    memory.solve(halve, two(f[0], f[1]), x);
+    EXPECT_NEAR(x[0], expected[0], 1e-14);
+    EXPECT_NEAR(x[1], expected[1], 1e-14);
+  }
+}
+
 TEST(SecantMemory, LeavesOutWhatNoPositiveStiffnessHas) {
   SecantMemory memory(3);
   Vector x = two(0., 0.);
