@@ -13,11 +13,13 @@ using dealii::ParameterHandler;
 using signals::UserError;
 
 void declare_recorded(ParameterHandler& prm, const std::string& unit) {
-  prm.declare_entry("File", "", Patterns::Anything(), "CSV file with the recorded channel.");
-  prm.declare_entry("Column", "", Patterns::Anything(),
-                    "Its column; empty: the column named as the channel.");
-  prm.declare_entry("Scale", "1", Patterns::Double(),
-                    "Factor from the column's unit to " + unit + ".");
+  prm.declare_entry("File", "", Patterns::Anything(),
+                    "Recorded channel: CSV, MATLAB, HDF5, NumPy, Universal File 58 or WAV.");
+  prm.declare_entry(
+      "Column", "", Patterns::Anything(),
+      "Its column, with its unit in brackets where that is not SI, as in ax[g]; empty: "
+      "the column named as the channel.");
+  prm.declare_entry("Scale", "1", Patterns::Double(), "Further factor to " + unit + ".");
   prm.declare_entry("Sampling rate", "", Patterns::List(Patterns::Double(1e-3), 0, 1),
                     "Of the file [Hz]; empty: from its time_s column.");
   prm.declare_entry("First row", "1", Patterns::Integer(1), "First data row used, from 1.");

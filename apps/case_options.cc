@@ -4,7 +4,6 @@
 
 #include "apps/record_options.h"
 #include "signals/error.h"
-#include "signals/number_text.h"
 #include "signals/record_io.h"
 
 namespace vibrissa::apps {
@@ -54,8 +53,8 @@ void set_for(CaseFile& file, const std::string& text, const std::string& option,
 void set_column(CaseFile& file, const std::string& text) {
   const auto choice = signals::parse_column_choice(text);
   const std::string section = section_of(choice.channel, "--column");
-  file.set(section, "Column", choice.column, "--column");
-  file.set(section, "Scale", signals::to_text(choice.scale), "--column");
+  file.set(section, "Column", split(text, "--column").second, "--column");
+  file.set(section, "Scale", "1", "--column");
 }
 
 void set_rows(CaseFile& file, const std::string& text) {
@@ -88,11 +87,12 @@ void set_entry(CaseFile& file, const std::string& text) {
 void CaseOptions::add_to(CLI::App& command) {
   command.add_option("case", case_file, "Case file (.prm)")->required();
   command.add_option("--base-acceleration", base_acceleration_file,
-                     "CSV file with a recorded base acceleration");
-  command.add_option("--wind", wind_file, "CSV file with a recorded wind speed");
-  command.add_option("--column", columns,
-                     "CHANNEL=COLUMN[*SCALE] of these files, e.g. base_acceleration=z_mps2; "
-                     "channels: base_acceleration, wind_speed; repeatable");
+                     "File with a recorded base acceleration (CSV, .mat, .h5, .npy, .uff, .wav)");
+  command.add_option("--wind", wind_file, "File with a recorded wind speed");
+  command.add_option(
+      "--column", columns,
+      "CHANNEL=COLUMN[unit]*FACTOR[unit] of these files, e.g. 'base_acceleration=ax[g]'; "
+      "channels: base_acceleration, wind_speed; repeatable");
   command.add_option("--rate", rates, "[CHANNEL=]HZ: sampling rate of these files; repeatable");
   command.add_option("--rows", rows, "CHANNEL=FIRST:LAST data rows used; repeatable");
   command.add_option("--range", ranges, "CHANNEL=LOW:HIGH: scaled to this range; repeatable");

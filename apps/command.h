@@ -33,10 +33,15 @@ void print_json(const nlohmann::json& document);
 /// Each adds its subcommand; the work happens in the subcommand's callback.
 void add_benchmark_command(CLI::App& app);
 void add_bode_command(CLI::App& app);
+void add_completion_command(CLI::App& app);
+void add_convert_command(CLI::App& app);
 void add_diagnose_command(CLI::App& app);
+void add_doctor_command(CLI::App& app);
 void add_draw_command(CLI::App& app);
 void add_excite_command(CLI::App& app);
 void add_identify_command(CLI::App& app);
+void add_init_command(CLI::App& app);
+void add_manual_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_modes_command(CLI::App& app);
 void add_plan_command(CLI::App& app);

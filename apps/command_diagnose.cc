@@ -6,6 +6,7 @@
 #include "apps/diagnosis_figures.h"
 #include "apps/figure_diagnosis.h"
 #include "apps/nominal_input.h"
+#include "apps/record_options.h"
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/mended_model_json.h"
 #include "diagnosis/next_experiment.h"
@@ -20,7 +21,8 @@ namespace {
 struct DiagnoseCommand {
   CommonOptions common;
   NominalInput simulation;
-  FigureInput figures;  // in place of records
+  FigureInput figures;   // in place of records
+  RecordOptions record;  // of the real sensor
   std::optional<std::string> real;
   std::optional<std::filesystem::path> folder;
   std::size_t max_effects = 3;
@@ -50,7 +52,7 @@ void diagnose_records(const DiagnoseCommand& options) {
   diagnosis::check_menu_names(options.possible_experiments);
   const bool show = options.common.is_talkative();
   const auto [model, rate_hz] = options.simulation.read(show);
-  const signals::Dataset real = signals::read_dataset(*options.real);
+  const signals::Dataset real = signals::read_dataset(*options.real, options.record.read_options());
   // About forty single effects and combinations are fitted.
   constexpr std::size_t usual_fits = 75;
   signals::Progress progress("fitting effects", usual_fits, show);
@@ -88,7 +90,9 @@ void add_diagnose_command(CLI::App& app) {
       "The simulation as a case file (.prm), a reduced model or a mended model (.json)");
   command->add_option("--sim", options->simulation.simulation,
                       "The simulation as a dataset: a folder of records with dataset.json");
-  command->add_option("--real", options->real, "Dataset of the real sensor");
+  command->add_option("--real", options->real,
+                      "Dataset of the real sensor: a folder, or one record");
+  options->record.add_to(*command);
   options->figures.add_to(*command);
   command->add_option("-o,--out", options->folder,
                       "New folder for diagnosis.json, mended_model.json, ranking.csv and pictures");
@@ -104,6 +108,9 @@ void add_diagnose_command(CLI::App& app) {
   add_common_options(*command, options->common);
   command->footer(
       "Examples:\n  vibrissa diagnose --sim simulated --real bench --out diagnosis\n"
+      "  vibrissa diagnose --model case.prm --real bench.csv --column 'base_acceleration=ax[g]' "
+      "\\\n"
+      "    --column 'base_moment=hall[uT]*0.18[N m/T]' --column 'time=t[s]'\n"
       "  vibrissa diagnose --resonance 37.32:31.47 --damping 0.05:0.027 --model model.json\n"
       "  vibrissa diagnose --example paper-gap\n"
       "Exit status: 0 an answer, 2 bad input, 3 too little data to say anything.");

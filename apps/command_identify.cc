@@ -55,7 +55,7 @@ void identify_from_output(const IdentifyCommandOptions& options) {
   const auto found = separation::identify_output_only(record.channel(signals::channel::base_moment),
                                                       record.sampling_rate_hz(), output_only);
   if (options.common.json) {
-    print_json(output_only_json(found));
+    print_json(separation::output_only_json(found));
     return;
   }
   std::cout << output_only_table(found).to_text() << found.words << "\n";
@@ -79,13 +79,9 @@ void identify(const IdentifyCommandOptions& options) {
     separation::write_c_header(*options.c_header_file, result.fit.model,
                                {all.sampling_rate_hz(), result.hold});
   }
-  const ModelEvidence evidence = examine(result, fit, held_out);
+  const separation::ModelEvidence evidence = separation::examine(result, fit, held_out);
   if (options.common.json) {
-    nlohmann::json document = identification_json(result);
-    document.update(evidence_json(evidence));
-    document["order_words"] = result.order_words;
-    document["method"] = options.method;
-    print_json(document);
+    print_json(separation::identification_report(result, evidence, options.method));
     return;
   }
   std::cout << identification_table(result).to_text() << "direct term "

@@ -7,12 +7,12 @@
 #include "apps/command.h"
 #include "apps/record_options.h"
 #include "apps/separation_methods.h"
-#include "apps/stream_methods.h"
 #include "diagnosis/mended_model_json.h"
 #include "diagnosis/record_simulation.h"
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
 #include "separation/input_hold.h"
+#include "separation/stream_methods.h"
 #include "separation/wind_speed.h"
 #include "signals/error.h"
 #include "signals/output_file.h"
@@ -62,7 +62,7 @@ std::vector<SeparatedSignal> separate_all(const SeparateOptions& options,
                             options.settling_s));
   }
   for (const auto& name : options.methods) {
-    const auto separator = stream_method(name).make(options.fdaf);
+    const auto separator = separation::stream_method(name).make(options.fdaf);
     signals.push_back(score(name, separation::separate_record(*separator, record), record, truth,
                             options.settling_s));
   }
@@ -159,7 +159,8 @@ void add_separate_command(CLI::App& app) {
                    "Base acceleration between samples: first_order, zero_order or band_limited")
       ->capture_default_str();
   std::string known;
-  for (const auto& method : stream_methods()) known += "\n  " + method.name + ": " + method.about;
+  for (const auto& method : separation::stream_methods())
+    known += "\n  " + method.name + ": " + method.about;
   command
       ->add_option("--method", options->methods,
                    "Methods that need no model (may be repeated):" + known)

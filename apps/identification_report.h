@@ -1,45 +1,18 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "report/table.h"
-#include "separation/hold_check.h"
-#include "separation/identify.h"
-#include "separation/output_only.h"
-#include "separation/poles_zeros.h"
-#include "separation/residual_tests.h"
+#include "separation/identification_json.h"
 
 namespace vibrissa::apps {
 
-/// {"modes": [{"frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd",
-/// "static_gain_kg_m",
-///  "static_gain_sd_kg_m"}], "direct_term", "direct_term_sd", "fit_percent", "vaf_percent",
-///  "order", "hold", "end"}.
-nlohmann::json identification_json(const separation::Identification& identification);
 report::Table identification_table(const separation::Identification& identification);
 
-/// {"modes": [{"frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd", "n_orders"}],
-///  "undamped": [{"frequency_hz", "frequency_sd_hz"}], "n_orders", "words"}.
-nlohmann::json output_only_json(const separation::OutputOnlyIdentification& found);
 /// One row a mode, and one without damping for each frequency that does not decay.
 report::Table output_only_table(const separation::OutputOnlyIdentification& found);
 
-/// What a record says about a model beyond its fit.
-struct ModelEvidence {
-  separation::PolesAndZeros poles_zeros;
-  separation::ResidualTests residual;
-  separation::HoldDiagnosis hold;  // of the input between its samples
-};
-
-/// Tests the residual on the held-out record and the hold on the record that was fitted.
-ModelEvidence examine(const separation::Identification& identification,
-                      const signals::Record& fitted, const signals::Record& held_out);
-
-/// {"poles": [{"real_rad_s", "imaginary_rad_s", "real_sd_rad_s", "imaginary_sd_rad_s"}], "zeros",
-///  "residual_white", "residual_independent_of_input", "residual_words", "hold_words"}.
-nlohmann::json evidence_json(const ModelEvidence& evidence);
-/// The same in words.
-std::string evidence_text(const ModelEvidence& evidence);
+/// What else the records say of the model, in words.
+std::string evidence_text(const separation::ModelEvidence& evidence);
 
 }  // namespace vibrissa::apps

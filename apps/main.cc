@@ -9,6 +9,7 @@
 
 #include "apps/blas_kernel.h"
 #include "apps/command.h"
+#include "apps/parse_advice.h"
 #include "diagnosis/diagnosis.h"
 #include "fem/processes.h"
 #include "fem/solver_session.h"
@@ -40,6 +41,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version",
                        std::string("vibrissa ") + vibrissa::report::program_revision());
   app.require_subcommand(1);
+  vibrissa::apps::add_init_command(app);
   vibrissa::apps::add_run_command(app);
   vibrissa::apps::add_modes_command(app);
   vibrissa::apps::add_mesh_command(app);
@@ -50,15 +52,23 @@ int run(int argc, char** argv) {
   vibrissa::apps::add_excite_command(app);
   vibrissa::apps::add_identify_command(app);
   vibrissa::apps::add_separate_command(app);
+  vibrissa::apps::add_convert_command(app);
   vibrissa::apps::add_plan_command(app);
   vibrissa::apps::add_diagnose_command(app);
   vibrissa::apps::add_reproduce_command(app);
   vibrissa::apps::add_trial_command(app);
   vibrissa::apps::add_benchmark_command(app);
   vibrissa::apps::add_draw_command(app);
+  vibrissa::apps::add_doctor_command(app);
+  vibrissa::apps::add_completion_command(app);
+  vibrissa::apps::add_manual_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) {
+      if (const std::string advice = vibrissa::apps::parse_advice(app, argc, argv); !advice.empty())
+        std::cerr << "vibrissa: " << advice << "\n";
+    }
     return app.exit(error) == 0 ? 0 : bad_input;
   }
   return 0;

@@ -1,9 +1,11 @@
 #include "apps/record_options.h"
 
 #include <charconv>
+#include <iostream>
 
+#include "signals/channel_name.h"
 #include "signals/error.h"
-#include "signals/resample.h"
+#include "signals/plausibility.h"
 
 namespace vibrissa::apps {
 
@@ -34,14 +36,19 @@ RowRange parse_rows(const std::string& text, const std::string& option) {
 }
 
 std::string full_channel_name(const std::string& name) {
-  return signals::parse_column_choice(name + "=any").channel;
+  const std::string channel = signals::full_channel_name(name);
+  if (channel.empty())
+    throw signals::UserError(signals::unknown_name("channel", name, signals::known_channels()));
+  return channel;
 }
 
 void RecordOptions::add_to(CLI::App& command) {
   command.add_option("--column", columns,
-                     "CHANNEL=COLUMN[*SCALE]: takes a column of the file as a channel, in SI units "
-                     "after the scale, e.g. base_moment=hall_mT*1.8e-4; repeatable");
-  command.add_option("--rate", rate_hz, "Sampling rate [Hz], when the file has no time_s column");
+                     "CHANNEL=COLUMN[unit]*FACTOR[unit]: takes a column of the file as a channel, "
+                     "units converted to SI, e.g. 'base_acceleration=ax[g]', "
+                     "'base_moment=B[uT]*0.18[N m/T]', base_moment=hall_mT*1.8e-4, 'time=t[ms]'; "
+                     "repeatable");
+  command.add_option("--rate", rate_hz, "Sampling rate [Hz], when the file tells no time");
   command.add_option("--rows", rows, "FIRST:LAST data rows used, counted from 1");
   command.add_option("--remove-mean", remove_mean, "Channel whose mean is taken off; repeatable");
 }
@@ -49,29 +56,28 @@ void RecordOptions::add_to(CLI::App& command) {
 signals::ReadOptions RecordOptions::read_options() const {
   signals::ReadOptions options;
   options.sampling_rate_hz = rate_hz;
+  options.remove_mean = remove_mean;
   if (rows) {
     const RowRange range = parse_rows(*rows, "--rows");
     options.first_row = range.first;
     options.n_rows = range.count;
   }
+  for (const auto& text : columns) options.columns.push_back(signals::parse_column_choice(text));
   return options;
 }
 
 signals::Record RecordOptions::read(const std::string& file) const {
-  signals::ReadOptions options = read_options();
-  for (const auto& text : columns) options.columns.push_back(signals::parse_column_choice(text));
-  signals::Record record = signals::read_record(file, options);
-  for (const auto& name : remove_mean) {
-    const std::string channel = full_channel_name(name);
-    record.set_channel(channel, signals::remove_mean(record.channel(channel)));
-  }
+  signals::Record record = signals::read_record(file, read_options());
+  for (const std::string& remark : signals::implausible_magnitudes(record))
+    std::cerr << "warning: " << file << ": " << remark << std::endl;
   return record;
 }
 
 std::vector<double> RecordOptions::read_column(const std::string& file,
                                                const std::string& column) const {
   signals::ReadOptions options = read_options();
-  options.columns = {{column, column, 1.}};
+  options.columns = {{.channel = column, .column = column}};
+  options.remove_mean.clear();
   const signals::Record record = signals::read_record(file, options);
   const auto values = record.channel(column);
   return {values.begin(), values.end()};

@@ -19,12 +19,12 @@ struct RecordOptions {
 
   void add_to(CLI::App& command);
   /// Throws UserError as read_record does, and for rows that are not FIRST:LAST.
+  /// Warns on standard error of magnitudes that look like another unit's.
   signals::Record read(const std::string& file) const;
+  /// What read_record is told. Throws UserError as read does.
+  signals::ReadOptions read_options() const;
   /// One further column of the same rows, in its own unit.
   std::vector<double> read_column(const std::string& file, const std::string& column) const;
-
- private:
-  signals::ReadOptions read_options() const;
 };
 
 /// FIRST:LAST, data rows counted from 1. Throws UserError naming the option.

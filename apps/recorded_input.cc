@@ -9,8 +9,10 @@ namespace vibrissa::apps {
 std::vector<double> load_input(const RecordedInput& input, const std::string& channel,
                                const double sampling_rate_hz, const std::size_t n_samples) {
   signals::ReadOptions options;
-  const std::string column = input.column.empty() ? channel : input.column;
-  options.columns = {{channel, column, input.scale}};
+  options.columns = {signals::parse_column_choice(channel + "=" +
+                                                  (input.column.empty() ? channel : input.column))};
+  options.columns.front().scale *= input.scale;
+  options.columns.front().offset *= input.scale;
   options.sampling_rate_hz = input.sampling_rate_hz;
   options.first_row = input.first_row;
   options.n_rows = input.n_rows;

@@ -13,7 +13,7 @@ namespace vibrissa::apps {
 /// done to it, in this order: scale, mean removed, range, resampled to the run's rate.
 struct RecordedInput {
   std::filesystem::path file;
-  std::string column;  // empty: the channel's own name
+  std::string column;  // with its unit, as in --column; empty: the channel's own name
   double scale = 1.;
   std::optional<double> sampling_rate_hz;  // needed when the file has no time_s
   std::size_t first_row = 1;

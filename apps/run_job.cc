@@ -174,7 +174,7 @@ void do_signals_part(const report::RunFolder& folder, const fem::Sensor& sensor,
   const Results results = simulate_and_separate(model, parameters, inputs);
   write_results(folder, sensor, results);
   outcome.separated = results.separated;
-  outcome.summary["identification"] = identification_json(results.identified);
+  outcome.summary["identification"] = separation::identification_json(results.identified);
   outcome.summary["separation"] = separation_json(results.separated);
 }
 

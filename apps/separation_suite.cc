@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/paper_rig.h"
-#include "apps/stream_methods.h"
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
 #include "separation/identify.h"
+#include "separation/stream_methods.h"
 #include "separation/wiener.h"
 
 namespace vibrissa::apps {
@@ -43,7 +43,7 @@ std::vector<double> by_wiener(const Scenario& scenario) {
 
 std::vector<Method> make_methods() {
   std::vector<Method> list = {{"nothing removed", by_nothing}, {"bvrm", by_bvrm}};
-  for (const auto& method : stream_methods()) {
+  for (const auto& method : separation::stream_methods()) {
     list.push_back({method.name, [&method](const Scenario& scenario) {
                       const auto separator = method.make(separation::FdafOptions{});
                       return separation::separate_record(*separator, scenario.record);

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fem/hdf5_image.h"
 #include "signals/error.h"
+#include "signals/hdf5_image.h"
 #include "signals/output_file.h"
 #include "signals/sha256.h"
 
@@ -51,7 +51,7 @@ std::vector<EnergyBalance> energies_of(const std::vector<double>& values) {
   return energy;
 }
 
-void add_record(Hdf5Writer& file, const TransientOutput& output) {
+void add_record(signals::Hdf5Writer& file, const TransientOutput& output) {
   file.add("record/base_moment_N_m", output.base_moment);
   file.add("record/cross_moment_N_m", output.cross_moment);
   file.add("record/energy_J", columns_of(output.energy));
@@ -62,7 +62,7 @@ void add_record(Hdf5Writer& file, const TransientOutput& output) {
   file.add("record/routes_and_counts", rest);
 }
 
-TransientOutput read_record(const Hdf5Reader& file) {
+TransientOutput read_record(const signals::Hdf5Reader& file) {
   TransientOutput output;
   output.base_moment = file.numbers("record/base_moment_N_m");
   output.cross_moment = file.numbers("record/cross_moment_N_m");
@@ -75,7 +75,7 @@ TransientOutput read_record(const Hdf5Reader& file) {
   return output;
 }
 
-TransientMemory read_memory(const Hdf5Reader& file, const Vector& like) {
+TransientMemory read_memory(const signals::Hdf5Reader& file, const Vector& like) {
   TransientMemory memory;
   const auto rank =
       std::to_string(dealii::Utilities::MPI::this_mpi_process(like.get_mpi_communicator()));
@@ -149,7 +149,7 @@ void check_whole(const std::filesystem::path& file, const std::string& image) {
                     "run anew, or take a copy of the file");
 }
 
-void check_owner(const std::filesystem::path& file, const Hdf5Reader& content,
+void check_owner(const std::filesystem::path& file, const signals::Hdf5Reader& content,
                  const CheckpointOwner& owner, const double n_processes) {
   const auto refuse = [&](const std::string& reason) {
     throw UserError(file.string() + ": the checkpoint is another run's: " + reason);
@@ -170,7 +170,7 @@ void write_checkpoint(const std::filesystem::path& file, const TransientRun& run
                       const CheckpointOwner& owner) {
   const MPI_Comm communicator = communicator_of(run);
   const bool writes = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-  Hdf5Writer content;
+  signals::Hdf5Writer content;
   const TransientMemory memory = run.sensor().memory();
   for (const auto& [name, vector] : memory.vectors) {
     const dealii::Vector<double> whole(vector);
@@ -199,7 +199,7 @@ std::string read_checkpoint(const std::filesystem::path& file, const CheckpointO
   const std::string image = read_file(file);
   check_whole(file, image);
   try {
-    const Hdf5Reader content(image);
+    const signals::Hdf5Reader content(image);
     check_owner(file, content, owner,
                 dealii::Utilities::MPI::n_mpi_processes(communicator_of(run)));
     run.restore(read_memory(content, run.sensor().state().displacement), read_record(content));

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "signals/error.h"
+#include "signals/formats/record_table.h"
 #include "signals/json_input.h"
-#include "signals/record_io.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -15,9 +15,9 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-const std::vector<std::string> record_keys{"file",    "excitation",   "period_samples",
-                                           "split",   "setup",        "sampling_rate_hz",
-                                           "readout", "clock_start_s"};
+const std::vector<std::string> record_keys{
+    "file",    "excitation",    "period_samples", "split",      "setup", "sampling_rate_hz",
+    "readout", "clock_start_s", "columns",        "remove_mean"};
 
 /// Where an entry of dataset.json stands, and what is wrong with it.
 [[noreturn]] void refuse(const std::string& where, const std::string& reason) {
@@ -72,24 +72,62 @@ BenchSetup setup_of(const json& document, const json& entry, const std::string& 
                                     : BenchSetup{};
 }
 
+/// An entry of the record, or else of the whole dataset; nothing where neither has it.
+const json* either(const json& document, const json& entry, const std::string& key) {
+  if (entry.contains(key)) return &entry[key];
+  return document.contains(key) ? &document[key] : nullptr;
+}
+
+std::vector<ColumnChoice> columns_of(const json& chosen, const std::string& where) {
+  if (!chosen.is_object()) refuse(where, "is no object of channels and their columns");
+  std::vector<ColumnChoice> choices;
+  for (const auto& [channel, column] : chosen.items()) {
+    if (!column.is_string()) refuse(where + "/" + channel, "names no column");
+    try {
+      choices.push_back(parse_column_choice(channel + "=" + column.get<std::string>()));
+    } catch (const UserError& error) {
+      refuse(where, error.what());
+    }
+  }
+  return choices;
+}
+
+std::vector<std::string> names_of(const json& list, const std::string& where) {
+  if (!list.is_array()) refuse(where, "is no list of channels");
+  std::vector<std::string> names;
+  for (const json& name : list) {
+    if (!name.is_string()) refuse(where, "is no list of channels");
+    names.push_back(name);
+  }
+  return names;
+}
+
+ReadOptions options_of(const json& document, const json& entry, const std::string& where,
+                       const ReadOptions& given) {
+  ReadOptions options = given;
+  if (const json* const rate = either(document, entry, "sampling_rate_hz")) {
+    if (!rate->is_number()) refuse(where + "/sampling_rate_hz", "is no number");
+    options.sampling_rate_hz = rate->get<double>();
+  }
+  if (const json* const columns = either(document, entry, "columns"))
+    options.columns = columns_of(*columns, where + "/columns");
+  if (const json* const names = either(document, entry, "remove_mean"))
+    options.remove_mean = names_of(*names, where + "/remove_mean");
+  return options;
+}
+
 DatasetRecord read_entry(const fs::path& folder, const json& document, const json& entry,
-                         const std::string& where) {
+                         const std::string& where, const ReadOptions& given) {
   if (!entry.is_object()) refuse(where, "is no object");
   for (const auto& item : entry.items())
     if (std::find(record_keys.begin(), record_keys.end(), item.key()) == record_keys.end())
       refuse(where, unknown_name("entry", item.key(), record_keys));
   const std::string file = text_of(entry, "file", where, "");
   if (file.empty()) refuse(where, "names no file");
-  ReadOptions options;
-  const json& rated = entry.contains("sampling_rate_hz") ? entry : document;
-  if (rated.contains("sampling_rate_hz")) {
-    if (!rated["sampling_rate_hz"].is_number()) refuse(where + "/sampling_rate_hz", "is no number");
-    options.sampling_rate_hz = rated["sampling_rate_hz"].get<double>();
-  }
   const std::string readout = text_of(document, "readout", where, "moment");
   DatasetRecord result{
       .name = fs::path(file).stem().string(),
-      .record = read_record(folder / file, options),
+      .record = read_record(folder / file, options_of(document, entry, where, given)),
       .excitation = excitation_of(text_of(entry, "excitation", where, ""), where + "/excitation"),
       .period_samples = period_of(entry, where),
       .split = split_of(text_of(entry, "split", where, "fit"), where + "/split"),
@@ -102,7 +140,7 @@ DatasetRecord read_entry(const fs::path& folder, const json& document, const jso
   return result;
 }
 
-Dataset read_described(const fs::path& folder, const fs::path& file) {
+Dataset read_described(const fs::path& folder, const fs::path& file, const ReadOptions& given) {
   const json document = read_json(file);
   const std::string name = file.string();
   if (!document.is_object() || text_of(document, "schema", name, "") != "vibrissa-dataset-1")
@@ -113,7 +151,7 @@ Dataset read_described(const fs::path& folder, const fs::path& file) {
   Dataset dataset;
   for (std::size_t i = 0; i < document["records"].size(); ++i)
     dataset.records.push_back(read_entry(folder, document, document["records"][i],
-                                         name + ": /records/" + std::to_string(i)));
+                                         name + ": /records/" + std::to_string(i), given));
   return dataset;
 }
 
@@ -123,16 +161,24 @@ bool moves(const Record& record, const std::string& channel) {
   return std::any_of(values.begin(), values.end(), [&](double v) { return v != values.front(); });
 }
 
-Dataset guess(const fs::path& folder) {
+std::vector<fs::path> record_files(const fs::path& folder) {
+  static const std::vector<std::string> extensions{".csv", ".mat", ".h5",  ".hdf5",
+                                                   ".npy", ".uff", ".unv", ".uf58"};
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".csv") files.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string extension = formats::extension_of(entry.path());
+    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
+      files.push_back(entry.path());
+  }
   std::sort(files.begin(), files.end());
-  if (files.empty())
-    throw UserError(folder.string() + ": holds neither dataset.json nor a CSV record");
+  if (files.empty()) throw UserError(folder.string() + ": holds neither dataset.json nor a record");
+  return files;
+}
+
+Dataset guess(const std::vector<fs::path>& files, const ReadOptions& options) {
   Dataset dataset;
   for (const fs::path& file : files) {
-    const Record record = read_record(file);
+    const Record record = read_record(file, options);
     const Excitation excitation{.base = moves(record, channel::base_acceleration),
                                 .wind = moves(record, channel::wind_speed)};
     const std::size_t n_fit = record.n_samples() * 2 / 3;
@@ -157,13 +203,15 @@ std::string to_string(const Excitation& excitation) {
   return excitation.wind ? "wind" : "none";
 }
 
-Dataset read_dataset(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw UserError(folder.string() + ": is no folder");
-  const fs::path description = folder / "dataset.json";
-  Dataset dataset = fs::exists(description) ? read_described(folder, description) : guess(folder);
+Dataset read_dataset(const fs::path& source, const ReadOptions& options) {
+  if (!fs::exists(source)) throw UserError(source.string() + ": is not there");
+  const fs::path description = source / "dataset.json";
+  Dataset dataset = !fs::is_directory(source) ? guess({source}, options)
+                    : fs::exists(description) ? read_described(source, description, options)
+                                              : guess(record_files(source), options);
   for (const DatasetRecord& entry : dataset.records)
     if (!entry.record.has(channel::base_moment))
-      throw UserError((folder / entry.name).string() + ": has no channel " + channel::base_moment);
+      throw UserError((source / entry.name).string() + ": has no channel " + channel::base_moment);
   return dataset;
 }
 

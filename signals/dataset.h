@@ -7,6 +7,7 @@
 
 #include "signals/bench_setup.h"
 #include "signals/record.h"
+#include "signals/record_io.h"
 
 namespace vibrissa::signals {
 
@@ -46,11 +47,13 @@ struct Dataset {
 };
 
 /// Reads FOLDER/dataset.json ("vibrissa-dataset-1") and its records. Without dataset.json: every
-/// CSV file, excitation guessed from the columns that move, the last third of each record held out.
-/// Throws UserError with file and entry for: no such folder, no records, a wrong schema or entry
-/// (lists the known words), a rate that contradicts time_s, a period longer than its record, a
-/// record without a base moment, and whatever read_record refuses. Proven by
-/// tests/signals/dataset_test.cc.
-Dataset read_dataset(const std::filesystem::path& folder);
+/// record file of the folder, or the one file that is named, excitation guessed from the columns
+/// that move, the last third of each record held out. dataset.json may say, for all records or for
+/// one, "columns": {"base_acceleration": "ax[g]"} and "remove_mean": ["base_acceleration"]; where
+/// it does not, the options given here hold. Throws UserError with file and entry for: nothing
+/// there, no records, a wrong schema or entry (lists the known words), a rate that contradicts
+/// time_s, a period longer than its record, a record without a base moment, and whatever
+/// read_record refuses. Proven by tests/signals/dataset_test.cc.
+Dataset read_dataset(const std::filesystem::path& source, const ReadOptions& options = {});
 
 }  // namespace vibrissa::signals

@@ -23,7 +23,8 @@ double rounding_s(const PrintedTimes& times, const std::size_t i) {
 }
 
 std::string moment(const PrintedTimes& times, const std::size_t i) {
-  return "line " + std::to_string(times.first_line + i) + " (" + to_text(times.times_s[i]) + " s)";
+  return times.row_word + " " + std::to_string(times.first_line + i) + " (" +
+         to_text(times.times_s[i]) + " s)";
 }
 
 std::string between(const PrintedTimes& times, const std::size_t i) {

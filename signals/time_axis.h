@@ -20,7 +20,7 @@ class TimeDigits {
   int decimals_ = 0, significant_ = 1;
 };
 
-/// Times as a file gives them. Sample i is in line first_line + i.
+/// Times as a file gives them. Sample i is in line (or row) first_line + i.
 struct PrintedTimes {
   std::span<const double> times_s;
   TimeDigits digits;
@@ -28,6 +28,7 @@ struct PrintedTimes {
   std::string file;
   std::size_t first_line = 2;
   std::string column = "time_s";
+  std::string row_word = "line";
 };
 
 struct TimeAxis {

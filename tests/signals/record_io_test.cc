@@ -295,48 +295,6 @@ TEST_F(ReadRecord, SaysHowManyRowsThereAreWhenMoreAreChosen) {
               ThrowsMessage<UserError>(HasSubstr("first row is row 1")));
 }
 
-TEST(ParseColumnChoice, TakesAChannelWithOrWithoutItsUnit) {
-  for (const char* const text : {"base_acceleration=z_mps2", "base_acceleration_m_s2 = z_mps2 "}) {
-    const ColumnChoice choice = parse_column_choice(text);
-    EXPECT_EQ(choice.channel, "base_acceleration_m_s2");
-    EXPECT_EQ(choice.column, "z_mps2");
-    EXPECT_EQ(choice.scale, 1.);
-  }
-  EXPECT_EQ(parse_column_choice("wind_speed=v").channel, "wind_speed_m_s");
-  EXPECT_EQ(parse_column_choice("base_acceleration_2=v").channel, "base_acceleration_2_m_s2");
-  EXPECT_EQ(parse_column_choice("time=v").channel, "time_s");
-}
-
-TEST(ParseColumnChoice, TakesAScaleBehindTheLastStar) {
-  const ColumnChoice choice = parse_column_choice("base_moment=a*b * -1.8e-4");
-  EXPECT_EQ(choice.channel, "base_moment_N_m");
-  EXPECT_EQ(choice.column, "a*b");
-  EXPECT_EQ(choice.scale, -1.8e-4);
-}
-
-TEST(ParseColumnChoice, ListsTheChannelsWhenOneIsUnknown) {
-  EXPECT_THAT([] { parse_column_choice("base_acc=z"); },
-              ThrowsMessage<UserError>(AllOf(
-                  HasSubstr("unknown channel 'base_acc'; did you mean 'base_acceleration_m_s2'?"),
-                  HasSubstr("Known: base_acceleration_m_s2, cross_acceleration_m_s2, "
-                            "wind_speed_m_s, base_moment_N_m"))));
-}
-
-TEST(ParseColumnChoice, RefusesAScaleThatIsNoFiniteNumberOrZero) {
-  for (const char* const scale : {"", "0", "-0.0", "abc", "nan", "inf", "1e999", "2 3"})
-    EXPECT_THAT([&] { parse_column_choice(std::string("base_moment=hall*") + scale); },
-                ThrowsMessage<UserError>(AllOf(HasSubstr(std::string("the scale '") + scale + "'"),
-                                               HasSubstr("other than 0"))));
-}
-
-TEST(ParseColumnChoice, RefusesTextThatIsNoChoice) {
-  EXPECT_THAT([] { parse_column_choice("base_moment"); },
-              ThrowsMessage<UserError>(HasSubstr("expected channel=column")));
-  for (const char* const text : {"base_moment=", "base_moment= ", "base_moment=*2"})
-    EXPECT_THAT([&] { parse_column_choice(text); },
-                ThrowsMessage<UserError>(HasSubstr("the name of the column is missing")));
-}
-
 TEST_F(WriteRecord, WritesTimeThenTheChannelsInTheirOrder) {
   Record record(500., 2, 1.);
   for (const char* const name : {"cross_moment_N_m", "base_moment_N_m", "Zeta_V", "wind_speed_m_s",

@@ -1,12 +1,13 @@
-#include "fem/hdf5_image.h"
+#include "signals/hdf5_image.h"
 
 #include <hdf5.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
-namespace vibrissa::fem {
+namespace vibrissa::signals {
 
 namespace {
 
@@ -75,6 +76,17 @@ void write(const hid_t file, const std::string& path, const hid_t type, const hi
   require(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write '" + path + "'");
 }
 
+std::vector<std::size_t> shape_of(const hid_t set, const std::string& path) {
+  const Handle space(H5Dget_space(set), H5Sclose, "read the shape of '" + path + "'");
+  const int rank = H5Sget_simple_extent_ndims(space);
+  require(rank, "read the shape of '" + path + "'");
+  std::vector<hsize_t> lengths(static_cast<std::size_t>(rank));
+  if (rank > 0)
+    require(H5Sget_simple_extent_dims(space, lengths.data(), nullptr),
+            "read the shape of '" + path + "'");
+  return {lengths.begin(), lengths.end()};
+}
+
 }  // namespace
 
 struct Hdf5Writer::File {
@@ -95,6 +107,16 @@ void Hdf5Writer::add(const std::string& path, const std::string& text) {
   const Handle type = text_type();
   require(H5Tset_size(type, text.size() + 1), "make a type of text");
   write(file_->handle, path, type, space, text.c_str());
+}
+
+void Hdf5Writer::describe(const std::string& attribute, const std::string& text) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a shape");
+  const Handle type = text_type();
+  require(H5Tset_size(type, text.size() + 1), "make a type of text");
+  const Handle made(
+      H5Acreate2(file_->handle, attribute.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+      "make '" + attribute + "'");
+  require(H5Awrite(made, type, text.c_str()), "write '" + attribute + "'");
 }
 
 std::string Hdf5Writer::image() {
@@ -157,4 +179,31 @@ std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
   return found;
 }
 
-}  // namespace vibrissa::fem
+std::size_t Hdf5Reader::Array::size() const {
+  std::size_t n = 1;
+  for (const std::size_t length : shape)
+    if (__builtin_mul_overflow(n, length, &n)) return std::numeric_limits<std::size_t>::max();
+  return n;
+}
+
+std::vector<Hdf5Reader::Array> Hdf5Reader::arrays() const {
+  std::vector<std::string> paths;
+  const auto keep = [](hid_t, const char* const name, const H5O_info_t* const info,
+                       void* const to) -> herr_t {
+    if (info->type == H5O_TYPE_DATASET)
+      static_cast<std::vector<std::string>*>(to)->emplace_back(name);
+    return 0;
+  };
+  require(H5Ovisit1(file_->handle, H5_INDEX_NAME, H5_ITER_INC, keep, &paths), "list its arrays");
+  std::vector<Array> found;
+  for (const std::string& path : paths) {
+    const Handle set = file_->set(path);
+    const Handle type(H5Dget_type(set), H5Tclose, "read the type of '" + path + "'");
+    const H5T_class_t kind = H5Tget_class(type);
+    if (kind != H5T_FLOAT && kind != H5T_INTEGER) continue;
+    found.push_back({path, shape_of(set, path), kind == H5T_FLOAT && H5Tget_size(type) <= 4});
+  }
+  return found;
+}
+
+}  // namespace vibrissa::signals

@@ -8,13 +8,13 @@
 #include "separation/fdaf.h"
 #include "separation/separator.h"
 
-namespace vibrissa::apps {
+namespace vibrissa::separation {
 
 /// A separator that learns from the record alone, sample by sample.
 struct StreamMethod {
   std::string name;   // as a user gives it, and of its column
   std::string about;  // a line
-  std::function<std::unique_ptr<separation::Separator>(const separation::FdafOptions&)> make;
+  std::function<std::unique_ptr<Separator>(const FdafOptions&)> make;
 };
 
 /// All of them. Lengths and steps of the frequency-domain filters follow the options where they
@@ -24,4 +24,4 @@ const std::vector<StreamMethod>& stream_methods();
 /// Throws UserError that lists the known names.
 const StreamMethod& stream_method(const std::string& name);
 
-}  // namespace vibrissa::apps
+}  // namespace vibrissa::separation

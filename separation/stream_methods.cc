@@ -1,4 +1,4 @@
-#include "apps/stream_methods.h"
+#include "separation/stream_methods.h"
 
 #include "separation/kalman_filter.h"
 #include "separation/line_canceller.h"
@@ -6,24 +6,23 @@
 #include "separation/rls.h"
 #include "signals/error.h"
 
-namespace vibrissa::apps {
+namespace vibrissa::separation {
 
 namespace {
 
-using separation::FdafOptions;
-using Made = std::unique_ptr<separation::Separator>;
+using Made = std::unique_ptr<Separator>;
 
 Made make_kalman(const FdafOptions& options) {
-  separation::KalmanOptions kalman;
+  KalmanOptions kalman;
   kalman.block_length = options.block_length;
   kalman.filter_length = options.filter_length;
-  return std::make_unique<separation::PartitionedKalman>(kalman);
+  return std::make_unique<PartitionedKalman>(kalman);
 }
 
 Made make_nlms(const FdafOptions& options) {
-  separation::NlmsOptions nlms;
+  NlmsOptions nlms;
   nlms.filter_length = options.filter_length;
-  return std::make_unique<separation::Nlms>(nlms);
+  return std::make_unique<Nlms>(nlms);
 }
 
 }  // namespace
@@ -31,16 +30,14 @@ Made make_nlms(const FdafOptions& options) {
 const std::vector<StreamMethod>& stream_methods() {
   static const std::vector<StreamMethod> methods = {
       {"fdaf", "partitioned frequency-domain adaptive filter",
-       [](const FdafOptions& o) -> Made { return std::make_unique<separation::Fdaf>(o); }},
+       [](const FdafOptions& o) -> Made { return std::make_unique<Fdaf>(o); }},
       {"kalman", "partitioned frequency-domain Kalman filter", make_kalman},
       {"nlms", "normalised least mean squares in the time domain", make_nlms},
       {"rls", "recursive least squares, 64 taps",
-       [](const FdafOptions&) -> Made {
-         return std::make_unique<separation::Rls>(separation::RlsOptions{});
-       }},
+       [](const FdafOptions&) -> Made { return std::make_unique<Rls>(RlsOptions{}); }},
       {"line_canceller", "delay-based canceller of lines, without accelerometer",
        [](const FdafOptions&) -> Made {
-         return std::make_unique<separation::LineCanceller>(separation::LineCancellerOptions{});
+         return std::make_unique<LineCanceller>(LineCancellerOptions{});
        }}};
   return methods;
 }
@@ -54,4 +51,4 @@ const StreamMethod& stream_method(const std::string& name) {
   throw signals::UserError("unknown separation method '" + name + "'; known: " + known);
 }
 
-}  // namespace vibrissa::apps
+}  // namespace vibrissa::separation

@@ -5,16 +5,19 @@
 #include <string>
 #include <vector>
 
-namespace vibrissa::fem {
+namespace vibrissa::signals {
 
 /// An HDF5 file in memory, of arrays of doubles and texts under paths such as "vectors/velocity";
-/// any HDF5 tool reads it. Proven by tests/fem/checkpoint_test.cc.
+/// any HDF5 tool reads it. Proven by tests/fem/checkpoint_test.cc and
+/// tests/signals/formats/exchange.py.
 class Hdf5Writer {
  public:
   Hdf5Writer();
   ~Hdf5Writer();
   void add(const std::string& path, std::span<const double> values);
   void add(const std::string& path, const std::string& text);
+  /// A text that belongs to the whole file.
+  void describe(const std::string& attribute, const std::string& text);
   /// The whole file. It may stand behind a block of 512 bytes of the writer's own: HDF5 looks for
   /// its beginning there, too.
   std::string image();
@@ -36,9 +39,19 @@ class Hdf5Reader {
   /// What a group holds, in alphabetical order.
   std::vector<std::string> names(const std::string& group) const;
 
+  /// An array of real numbers anywhere in the file.
+  struct Array {
+    std::string path;
+    std::vector<std::size_t> shape;  // empty: one number
+    bool single_precision = false;
+    std::size_t size() const;  // saturates
+  };
+  /// All of them, in alphabetical order of their paths; other kinds are left out.
+  std::vector<Array> arrays() const;
+
  private:
   struct File;
   std::unique_ptr<File> file_;
 };
 
-}  // namespace vibrissa::fem
+}  // namespace vibrissa::signals

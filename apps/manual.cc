@@ -1,0 +1,109 @@
+#include "apps/manual.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace vibrissa::apps {
+namespace {
+
+// Troff reads a backslash as a command, and a point or a quote that begins a line.
+std::string escaped(const std::string& text) {
+  std::string result;
+  bool begins_line = true;
+  for (const char c : text) {
+    if (begins_line && (c == '.' || c == '\'')) result += "\\&";
+    if (c == '\\')
+      result += "\\\\";
+    else if (c == '-')
+      result += "\\-";
+    else
+      result += c;
+    begins_line = c == '\n';
+  }
+  return result;
+}
+
+std::string option_heading(const CLI::Option& option) {
+  std::string heading = option.get_name(false, true);
+  std::replace(heading.begin(), heading.end(), ',', ' ');
+  if (option.get_expected_max() > 0 && option.get_type_size() != 0 && !option.get_positional())
+    heading += " " + option.get_type_name();
+  return heading;
+}
+
+void add_options(const CLI::App& command, std::ostream& page) {
+  for (const CLI::Option* const option : command.get_options()) {
+    if (option->get_lnames() == std::vector<std::string>{"help"}) continue;
+    page << ".TP\n.B " << escaped(option_heading(*option)) << "\n"
+         << escaped(option->get_description());
+    if (!option->get_default_str().empty())
+      page << " (default: " << escaped(option->get_default_str()) << ")";
+    page << "\n";
+  }
+}
+
+// A footer holds examples, which are lines of their own.
+void add_footer(const CLI::App& command, std::ostream& page) {
+  if (command.get_footer().empty()) return;
+  page << ".PP\n.nf\n" << escaped(command.get_footer()) << "\n.fi\n";
+}
+
+void add_commands(CLI::App& app, const std::string& before, std::ostream& page) {
+  for (CLI::App* const command : app.get_subcommands({})) {
+    const std::string name = before + command->get_name();
+    page << ".SS " << escaped(name) << "\n" << escaped(command->get_description()) << "\n";
+    add_options(*command, page);
+    add_footer(*command, page);
+    add_commands(*command, name + " ", page);
+  }
+}
+
+std::string words(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text.append(text.empty() ? "" : " ").append(name);
+  return text;
+}
+
+std::vector<std::string> names_of_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* const option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+}  // namespace
+
+std::string manual_page(CLI::App& app) {
+  std::ostringstream page;
+  page << ".TH VIBRISSA 1\n.SH NAME\nvibrissa \\- why a whisker or airflow sensor differs from its "
+          "simulation\n.SH SYNOPSIS\n.B vibrissa\n.I command\n[options]\n.SH DESCRIPTION\n"
+       << escaped(app.get_description()) << "\n";
+  add_footer(app, page);
+  page << ".SH COMMANDS\n";
+  add_commands(app, "vibrissa ", page);
+  return page.str();
+}
+
+std::string completion_script(CLI::App& app, const std::string& shell) {
+  std::ostringstream script;
+  std::vector<std::string> commands;
+  if (shell == "zsh") script << "autoload -U +X bashcompinit && bashcompinit\n";
+  script << "_vibrissa() {\n  local word=\"${COMP_WORDS[COMP_CWORD]}\" options=\"\"\n"
+            "  case \"${COMP_WORDS[1]}\" in\n";
+  for (const CLI::App* const command : app.get_subcommands({})) {
+    commands.push_back(command->get_name());
+    std::vector<std::string> known = names_of_options(*command);
+    for (const CLI::App* const inner : command->get_subcommands({})) {
+      known.push_back(inner->get_name());
+      for (const std::string& name : names_of_options(*inner)) known.push_back(name);
+    }
+    script << "    " << command->get_name() << ") options=\"" << words(known) << "\" ;;\n";
+  }
+  script << "  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    options=\"" << words(commands)
+         << "\"\n  fi\n"
+            "  COMPREPLY=($(compgen -W \"$options\" -- \"$word\") $(compgen -f -- \"$word\"))\n}\n"
+            "complete -o filenames -F _vibrissa vibrissa\n";
+  return script.str();
+}
+
+}  // namespace vibrissa::apps

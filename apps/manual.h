@@ -1,0 +1,15 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace vibrissa::apps {
+
+/// The manual page (section 1) of all commands in troff, from the very descriptions that --help
+/// prints. Proven by tests/apps/manual_test.cc.
+std::string manual_page(CLI::App& app);
+
+/// A script that completes the names of commands and options, and files. shell: bash or zsh.
+std::string completion_script(CLI::App& app, const std::string& shell);
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,16 @@
+// The signal half as a Python module: needs no deal.II. What people import is vibrissa/__init__.py.
+#include <pybind11/pybind11.h>
+
+#include "diagnosis/diagnosis.h"
+#include "python/methods.h"
+#include "python/records.h"
+#include "signals/error.h"
+
+PYBIND11_MODULE(_core, module) {
+  namespace py = pybind11;
+  py::register_exception<vibrissa::signals::UserError>(module, "UserError", PyExc_ValueError);
+  py::register_exception<vibrissa::diagnosis::TooPoorData>(module, "TooPoorData",
+                                                           PyExc_RuntimeError);
+  vibrissa::python::add_records(module);
+  vibrissa::python::add_methods(module);
+}

@@ -1,0 +1,168 @@
+#include "python/methods.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <nlohmann/json.hpp>
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/mended_model_json.h"
+#include "diagnosis/nominal_from_model.h"
+#include "diagnosis/nominal_identification.h"
+#include "diagnosis/record_simulation.h"
+#include "separation/bvrm_separator.h"
+#include "separation/identification_json.h"
+#include "separation/identify.h"
+#include "separation/stream_methods.h"
+#include "signals/output_file.h"
+
+namespace vibrissa::python {
+namespace {
+
+namespace py = pybind11;
+using separation::Bvrm;
+using signals::Record;
+
+py::array_t<double> to_array(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+// Model and report of `vibrissa identify --json`.
+std::pair<Bvrm, std::string> identify(const Record& record, const std::optional<Record>& held_out,
+                                      const std::optional<std::size_t> order,
+                                      const std::size_t max_order, const std::size_t period_samples,
+                                      const std::string& method,
+                                      const std::optional<std::string>& hold,
+                                      const bool direct_term) {
+  separation::IdentifyOptions options;
+  options.method = separation::parse_identify_method(method);
+  options.order = order;
+  options.max_order = max_order;
+  options.period_samples = period_samples;
+  if (hold) options.hold = separation::parse_hold(*hold);
+  options.direct_term = direct_term;
+  const auto [fit, scored] = held_out ? separation::SplitRecord{record, *held_out}
+                                      : separation::hold_out_last_third(record);
+  const auto found = separation::identify_bvrm(fit, scored, options);
+  const auto report =
+      separation::identification_report(found, separation::examine(found, fit, scored), method);
+  return {found.fit.model, report.dump()};
+}
+
+std::map<std::string, py::array_t<double>> separate(const Record& record,
+                                                    const std::optional<Bvrm>& model,
+                                                    const std::vector<std::string>& methods,
+                                                    const std::size_t block, const std::size_t taps,
+                                                    const std::optional<double> step,
+                                                    const std::string& hold) {
+  std::map<std::string, std::vector<double>> found;
+  {
+    const py::gil_scoped_release released;
+    if (model) {
+      separation::BvrmSeparator bvrm(*model, record.sampling_rate_hz(),
+                                     separation::parse_hold(hold));
+      found["bvrm"] = separation::separate_record(bvrm, record);
+    }
+    separation::FdafOptions options = {block, taps, {}, {}, 0.};
+    if (step) options.step.step = *step;
+    for (const std::string& name : methods) {
+      const auto separator = separation::stream_method(name).make(options);
+      found[name] = separation::separate_record(*separator, record);
+    }
+  }
+  std::map<std::string, py::array_t<double>> arrays;
+  for (const auto& [name, values] : found) arrays[name] = to_array(values);
+  return arrays;
+}
+
+// Model and the report that `vibrissa diagnose --json` prints, and its words.
+struct Answer {
+  diagnosis::MendedModel mended;
+  std::string json, words;
+};
+
+Answer diagnose(const diagnosis::MendedModel& simulation, const signals::Dataset& real,
+                const std::size_t max_effects, const double simulated_rate_hz,
+                const std::vector<std::string>& possible_experiments) {
+  diagnosis::DiagnoseOptions options;
+  options.search.max_effects = max_effects;
+  options.simulated_rate_hz = simulated_rate_hz;
+  options.possible_experiments = possible_experiments;
+  const diagnosis::Diagnosis found = diagnosis::diagnose(simulation, real, options);
+  return {found.mended, diagnosis::diagnosis_json(found), diagnosis::verdict_text(found)};
+}
+
+// A reduced model or a mended model.
+diagnosis::MendedModel read_model(const std::filesystem::path& file) {
+  if (diagnosis::is_mended_model(file)) return diagnosis::read_mended_model(file);
+  return diagnosis::nominal_from(signals::read_reduced_model(file));
+}
+
+py::array_t<double> simulate(const diagnosis::MendedModel& model, const Record& inputs,
+                             const bool periodic) {
+  std::vector<double> moment;
+  {
+    const py::gil_scoped_release released;
+    moment = diagnosis::simulate_moment(
+        model, inputs, periodic ? diagnosis::Start::periodic : diagnosis::Start::settled);
+  }
+  return to_array(moment);
+}
+
+void add_models(py::module_& module) {
+  py::class_<Bvrm>(module, "Bvrm",
+                   "Base vibration response model: base acceleration to base moment.")
+      .def_static("read", &separation::read_bvrm, py::arg("file"))
+      .def(
+          "write",
+          [](const Bvrm& model, const std::filesystem::path& file) {
+            separation::write_bvrm(file, model);
+          },
+          py::arg("file"))
+      .def(
+          "response",
+          [](const Bvrm& model, const std::vector<double>& frequency_hz) {
+            const auto values = separation::response(model, frequency_hz);
+            return py::array_t<std::complex<double>>(static_cast<py::ssize_t>(values.size()),
+                                                     values.data());
+          },
+          py::arg("frequency_hz"), "Base moment over base acceleration [kg m], exp(+j w t).")
+      .def_property_readonly("json",
+                             [](const Bvrm& model) { return separation::to_json(model).dump(); });
+  py::class_<diagnosis::MendedModel>(
+      module, "Model", "A simulation: nominal model and the effects known to be there.")
+      .def_static("read", &read_model, py::arg("file"), "model.json or mended_model.json.")
+      .def_static("from_records", &diagnosis::identify_nominal, py::arg("simulated"),
+                  "The nominal model that simulated records say.")
+      .def(
+          "write",
+          [](const diagnosis::MendedModel& model, const std::filesystem::path& file) {
+            signals::write_file(
+                file, [&](std::ostream& out) { out << diagnosis::mended_model_json(model); });
+          },
+          py::arg("file"))
+      .def("simulate", &simulate, py::arg("inputs"), py::kw_only(), py::arg("periodic") = false,
+           "Base moment [N m] under a record's base acceleration and wind speed, without noise.");
+}
+
+}  // namespace
+
+void add_methods(py::module_& module) {
+  add_models(module);
+  const auto without_lock = py::call_guard<py::gil_scoped_release>();
+  module.def("identify", &identify, without_lock, py::arg("record"), py::arg("held_out"),
+             py::arg("order"), py::arg("max_order"), py::arg("period_samples"), py::arg("method"),
+             py::arg("hold"), py::arg("direct_term"));
+  module.def("separate", &separate, py::arg("record"), py::arg("model"), py::arg("methods"),
+             py::arg("block"), py::arg("taps"), py::arg("step"), py::arg("hold"));
+  py::class_<Answer>(module, "Answer")
+      .def_readonly("mended", &Answer::mended)
+      .def_readonly("json", &Answer::json)
+      .def_readonly("words", &Answer::words);
+  module.def("diagnose", &diagnose, without_lock, py::arg("simulation"), py::arg("real"),
+             py::arg("max_effects"), py::arg("simulated_rate_hz"), py::arg("possible_experiments"));
+}
+
+}  // namespace vibrissa::python

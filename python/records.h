@@ -1,0 +1,12 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace vibrissa::python {
+
+namespace py = pybind11;
+
+/// Record, Dataset, and how they are read and written.
+void add_records(py::module_& module);
+
+}  // namespace vibrissa::python

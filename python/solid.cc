@@ -1,0 +1,68 @@
+// Case files: what needs the solid. Records pass through files' channels, not through C++ types, so
+// that this module and _core need not share any.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "apps/case_options.h"
+#include "apps/inputs.h"
+#include "apps/rig.h"
+#include "apps/sensor_model.h"
+#include "fem/solver_session.h"
+#include "signals/error.h"
+
+namespace vibrissa::python {
+namespace {
+
+namespace py = pybind11;
+
+apps::Case read_case(const std::string& file, const std::vector<std::string>& settings) {
+  apps::CaseOptions options;
+  options.case_file = file;
+  options.settings = settings;
+  return options.load().read();
+}
+
+// Rate, start and channels of the record that `vibrissa simulate` writes.
+py::tuple simulate(const std::string& file, const std::vector<std::string>& settings) {
+  const apps::Case parameters = read_case(file, settings);
+  apps::check_reduced_wind(parameters);
+  const apps::Inputs inputs = apps::make_inputs(parameters);
+  const fem::SolverSession session;
+  const fem::Sensor sensor(parameters.sensor);
+  const auto model = apps::make_reduced_model(sensor, parameters.sensor, false);
+  const signals::Record record = apps::measure_on_rig(model, parameters, inputs).both;
+  py::dict channels;
+  for (const std::string& name : record.channel_names()) {
+    const auto values = record.channel(name);
+    channels[py::str(name)] =
+        py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+  }
+  return py::make_tuple(record.sampling_rate_hz(), record.time_s(0), channels);
+}
+
+void write_model(const std::string& file, const std::vector<std::string>& settings,
+                 const std::string& to) {
+  const apps::Case parameters = read_case(file, settings);
+  const fem::SolverSession session;
+  signals::write_reduced_model(
+      to, apps::make_reduced_model(fem::Sensor(parameters.sensor), parameters.sensor, false));
+}
+
+}  // namespace
+}  // namespace vibrissa::python
+
+PYBIND11_MODULE(_solid, module) {
+  namespace py = pybind11;
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const vibrissa::signals::UserError& error) {
+      const auto kind = py::module_::import("vibrissa._core").attr("UserError");
+      PyErr_SetString(kind.ptr(), error.what());
+    }
+  });
+  module.def("simulate", &vibrissa::python::simulate, py::arg("case"), py::arg("settings"));
+  module.def("write_model", &vibrissa::python::write_model, py::arg("case"), py::arg("settings"),
+             py::arg("to"));
+}

@@ -1,0 +1,55 @@
+#include "signals/formats/csv_table.h"
+
+#include <cassert>
+
+#include "signals/error.h"
+#include "signals/number_text.h"
+
+namespace vibrissa::signals::formats {
+namespace {
+
+std::string shortened(const std::string_view text) {
+  constexpr std::size_t most = 40;
+  return std::string(text.substr(0, most)) + (text.size() > most ? "..." : "");
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> CsvTable::read(const ColumnRange& range) const {
+  std::vector<std::vector<double>> values(range.columns.size(), std::vector<double>(range.n_rows));
+  std::size_t i = 0;
+  const auto read_row = [&](const std::size_t line,
+                            const std::span<const std::string_view> fields) {
+    for (std::size_t c = 0; c < range.columns.size(); ++c) {
+      const std::string_view field = fields[range.columns[c]];
+      const std::optional<double> number = to_number(field);
+      if (!number)
+        throw UserError(
+            file_.place(line) + "column '" + file_.columns()[range.columns[c]] + "': " +
+            (field.empty() ? "the field is empty" : "'" + shortened(field) + "' is no number"));
+      values[c][i] = *number;
+    }
+    ++i;
+  };
+  file_.for_each_row(range.first_row, range.n_rows, read_row);
+  return values;
+}
+
+std::string CsvTable::text(const std::size_t row, const std::size_t column) const {
+  std::string field;
+  file_.for_each_row(row, 1, [&](std::size_t, const std::span<const std::string_view> fields) {
+    field = shortened(fields[column]);
+  });
+  return field;
+}
+
+TimeDigits CsvTable::digits(const ColumnRange& one_column) const {
+  TimeDigits digits;
+  file_.for_each_row(one_column.first_row, one_column.n_rows,
+                     [&](std::size_t, const std::span<const std::string_view> fields) {
+                       digits.see(fields[one_column.columns.front()]);
+                     });
+  return digits;
+}
+
+}  // namespace vibrissa::signals::formats

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "signals/csv_file.h"
+#include "signals/formats/record_table.h"
+
+namespace vibrissa::signals::formats {
+
+/// A CSV file as a table: fields become numbers when they are read. Proven by
+/// tests/signals/record_io_test.cc.
+class CsvTable : public RecordTable {
+ public:
+  explicit CsvTable(const std::filesystem::path& file) : file_(file) {}
+
+  const std::vector<std::string>& columns() const override { return file_.columns(); }
+  std::size_t n_rows() const override { return file_.n_rows(); }
+  /// Line 1 holds the names.
+  std::string place(std::size_t row) const override { return file_.place(row + 1); }
+  RowNames row_names() const override { return {"line", 1}; }
+  std::vector<std::vector<double>> read(const ColumnRange& range) const override;
+  std::string text(std::size_t row, std::size_t column) const override;
+  TimeDigits digits(const ColumnRange& one_column) const override;
+
+ private:
+  CsvFile file_;
+};
+
+}  // namespace vibrissa::signals::formats

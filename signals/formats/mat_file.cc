@@ -1,0 +1,202 @@
+#include "signals/formats/mat_file.h"
+
+#include <matio.h>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+
+#include "signals/error.h"
+#include "signals/formats/file_bytes.h"
+#include "signals/formats/matrix_columns.h"
+#include "signals/formats/record_columns.h"
+
+namespace vibrissa::signals::formats {
+namespace {
+
+struct Close {
+  void operator()(mat_t* file) const { Mat_Close(file); }
+  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+};
+using MatFile = std::unique_ptr<mat_t, Close>;
+using Variable = std::unique_ptr<matvar_t, Close>;
+
+std::size_t n_values(const matvar_t& variable) {
+  std::size_t n = 1;
+  for (int i = 0; i < variable.rank; ++i)
+    if (__builtin_mul_overflow(n, variable.dims[i], &n))
+      return std::numeric_limits<std::size_t>::max();
+  return n;
+}
+
+template <typename Number>
+std::vector<double> numbers(const matvar_t& variable) {
+  const auto* const first = static_cast<const Number*>(variable.data);
+  return {first, first + n_values(variable)};
+}
+
+std::vector<double> values_of(const matvar_t& variable) {
+  switch (variable.class_type) {
+    case MAT_C_DOUBLE:
+      return numbers<double>(variable);
+    case MAT_C_SINGLE:
+      return numbers<float>(variable);
+    case MAT_C_INT8:
+      return numbers<std::int8_t>(variable);
+    case MAT_C_UINT8:
+      return numbers<std::uint8_t>(variable);
+    case MAT_C_INT16:
+      return numbers<std::int16_t>(variable);
+    case MAT_C_UINT16:
+      return numbers<std::uint16_t>(variable);
+    case MAT_C_INT32:
+      return numbers<std::int32_t>(variable);
+    case MAT_C_UINT32:
+      return numbers<std::uint32_t>(variable);
+    case MAT_C_INT64:
+      return numbers<std::int64_t>(variable);
+    case MAT_C_UINT64:
+      return numbers<std::uint64_t>(variable);
+    default:
+      return {};
+  }
+}
+
+bool is_real_array(const matvar_t& variable) {
+  return variable.isComplex == 0 && variable.class_type >= MAT_C_DOUBLE &&
+         variable.class_type <= MAT_C_UINT64;
+}
+
+void add_columns(const matvar_t& variable, const std::string& name,
+                 std::vector<NumericColumn>& columns) {
+  if (variable.class_type == MAT_C_STRUCT && n_values(variable) == 1) {
+    // matio's own signature takes no const.
+    auto& fields = const_cast<matvar_t&>(variable);
+    const unsigned n_fields = Mat_VarGetNumberOfFields(&fields);
+    char* const* const names = Mat_VarGetStructFieldnames(&variable);
+    for (unsigned i = 0; i < n_fields; ++i) {
+      const matvar_t* const field = Mat_VarGetStructFieldByIndex(&fields, i, 0);
+      if (field != nullptr) add_columns(*field, name + "." + names[i], columns);
+    }
+    return;
+  }
+  if (!is_real_array(variable) || variable.data == nullptr || n_values(variable) == 0) return;
+  const std::vector<std::size_t> shape(variable.dims, variable.dims + variable.rank);
+  for (NumericColumn& column :
+       columns_of({name, shape, values_of(variable), variable.class_type == MAT_C_SINGLE, true}))
+    columns.push_back(std::move(column));
+}
+
+// What a variable with all its fields claims to hold.
+std::size_t claimed(const matvar_t& variable) {
+  std::size_t n = n_values(variable);
+  if (variable.class_type != MAT_C_STRUCT || n != 1) return n;
+  auto& fields = const_cast<matvar_t&>(variable);
+  const unsigned n_fields = Mat_VarGetNumberOfFields(&fields);
+  for (unsigned i = 0; i < n_fields; ++i)
+    if (const auto* const field = Mat_VarGetStructFieldByIndex(&fields, i, 0))
+      if (__builtin_add_overflow(n, claimed(*field), &n))
+        return std::numeric_limits<std::size_t>::max();
+  return n;
+}
+
+void check_claims(mat_t* const file, const std::string& name) {
+  std::size_t left = most_numbers;
+  while (const Variable variable{Mat_VarReadNextInfo(file)}) {
+    const std::size_t n = claimed(*variable);
+    if (n > left)
+      throw UserError(name + ": variable '" + (variable->name ? variable->name : "") + "' claims " +
+                      std::to_string(n) + " numbers; at most " + std::to_string(most_numbers) +
+                      " are read of a file");
+    left -= n;
+  }
+}
+
+// matio writes by name only: into a folder of its own first.
+class ScratchFile {
+ public:
+  ScratchFile() {
+    std::string name = (std::filesystem::temp_directory_path() / "vibrissa-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw UserError(name + ": no folder for unfinished files can be made");
+    folder_ = name;
+  }
+  ~ScratchFile() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  std::string name() const { return (folder_ / "unfinished.mat").string(); }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+std::uint32_t number_at(const std::string& bytes, const std::size_t at, const bool is_swapped) {
+  std::uint32_t number;
+  std::memcpy(&number, bytes.data() + at, sizeof number);
+  return is_swapped ? __builtin_bswap32(number) : number;
+}
+
+// The elements of a version 5 file fill it to its last byte; matio takes what is left of one that
+// was cut, and does not notice a full disk.
+void check_is_whole(const std::string& bytes, const std::string& name) {
+  constexpr std::size_t header = 128, tag = 8, version_at = 124;
+  if (bytes.size() < header) return;
+  const std::string mark = bytes.substr(version_at, 4);
+  const bool is_swapped = mark == std::string("\1\0MI", 4);
+  if (!is_swapped && mark != std::string("\0\1IM", 4)) return;
+  std::size_t at = header;
+  while (at + tag <= bytes.size()) at += tag + number_at(bytes, at + 4, is_swapped);
+  if (at != bytes.size())
+    throw UserError(name + ": is damaged: its variables do not end where the file does");
+}
+
+void add(mat_t* const file, const std::string& name, const std::span<const double> values) {
+  std::array<std::size_t, 2> shape{values.size(), 1};
+  // matio only reads what it is given here, though it does not say so.
+  auto* const data = const_cast<double*>(values.data());
+  const Variable variable(Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, shape.data(),
+                                        data, MAT_F_DONT_COPY_DATA));
+  if (!variable || Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE) != 0)
+    throw UserError("'" + name + "' cannot be written as a MATLAB variable");
+}
+
+}  // namespace
+
+std::unique_ptr<RecordTable> read_mat(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  check_is_whole(read_bytes(file), name);
+  const MatFile opened(Mat_Open(name.c_str(), MAT_ACC_RDONLY));
+  if (!opened) throw UserError(name + ": cannot be read as a MATLAB file (version 4, 5 or 7.3)");
+  check_claims(opened.get(), name);
+  Mat_Rewind(opened.get());
+  std::vector<NumericColumn> columns;
+  while (const Variable variable{Mat_VarReadNext(opened.get())})
+    if (variable->name != nullptr) add_columns(*variable, variable->name, columns);
+  return std::make_unique<NumericTable>(name, std::move(columns));
+}
+
+void write_mat(const std::filesystem::path& file, const Record& record, const MatVersion version) {
+  constexpr std::size_t most_in_v5 = (std::size_t{1} << 31) / sizeof(double) - 16;
+  const bool is_v5 = version == MatVersion::v5 && record.n_samples() < most_in_v5;
+  const ScratchFile scratch;
+  {
+    // A header of its own, because matio's holds the time of day: equal records give equal files.
+    const char* const header = is_v5 ? "MATLAB 5.0 MAT-file, written by vibrissa"
+                                     : "MATLAB 7.3 MAT-file, written by vibrissa";
+    const MatFile made(
+        Mat_CreateVer(scratch.name().c_str(), header, is_v5 ? MAT_FT_MAT5 : MAT_FT_MAT73));
+    if (!made) throw UserError(scratch.name() + ": cannot be written");
+    for_each_array(record, [&](const std::string& name, const std::span<const double> values) {
+      add(made.get(), name, values);
+    });
+  }
+  const std::string bytes = read_bytes(scratch.name());
+  check_is_whole(bytes, scratch.name());
+  write_bytes(file, bytes);
+}
+
+}  // namespace vibrissa::signals::formats

@@ -1,0 +1,113 @@
+#include "signals/formats/uff58_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "signals/error.h"
+#include "signals/formats/numeric_table.h"
+#include "signals/formats/record_columns.h"
+#include "signals/formats/uff58_file.h"
+#include "signals/number_text.h"
+
+namespace vibrissa::signals::formats {
+namespace {
+
+Uff58Axis axis_of_channel(const std::string& channel) {
+  Uff58Axis axis{.label = channel};
+  if (channel.ends_with("_N_m")) {
+    axis = {
+        .quantity = 9, .length_exponent = 1, .force_exponent = 1, .label = "Moment", .unit = "N m"};
+  } else if (channel.ends_with("_m_s2")) {
+    axis = {.quantity = 12, .label = "Acceleration", .unit = "m/s^2"};
+  } else if (channel.ends_with("_m_s")) {
+    axis = {.quantity = 11, .label = "Velocity", .unit = "m/s"};
+  }
+  return axis;
+}
+
+const std::string clock_start = "sampling_rate_hz=", clock_middle = " start_s=";
+
+std::string clock_line(const Record& record) {
+  return clock_start + to_text(record.sampling_rate_hz()) + clock_middle +
+         to_text(record.time_s(0));
+}
+
+std::optional<TimeAxis> clock_in(const std::string& line) {
+  const auto middle = line.find(clock_middle);
+  if (!line.starts_with(clock_start) || middle == std::string::npos) return {};
+  const auto rate =
+      to_number(std::string_view(line).substr(clock_start.size(), middle - clock_start.size()));
+  const auto start = to_number(std::string_view(line).substr(middle + clock_middle.size()));
+  if (!rate || !start || !(*rate > 0.)) return {};
+  return TimeAxis{*start, *rate};
+}
+
+std::string degree_of_freedom(const Uff58Function& function) {
+  static constexpr std::array<const char*, 7> directions = {"", "X", "Y", "Z", "RX", "RY", "RZ"};
+  const int direction = std::clamp(function.response_direction, -6, 6);
+  return std::to_string(function.response_node) + (direction < 0 ? "-" : "+") +
+         directions[static_cast<std::size_t>(std::abs(direction))];
+}
+
+std::vector<std::string> names_of(const std::vector<Uff58Function>& functions) {
+  std::vector<std::string> names;
+  std::set<std::string> different;
+  for (const Uff58Function& function : functions) {
+    names.push_back(function.id_lines[0]);
+    different.insert(function.id_lines[0]);
+  }
+  const bool tell_apart =
+      different.size() == names.size() && different.count("") == 0 && different.count("NONE") == 0;
+  for (std::size_t i = 0; !tell_apart && i < names.size(); ++i)
+    names[i] = degree_of_freedom(functions[i]);
+  return names;
+}
+
+}  // namespace
+
+std::unique_ptr<RecordTable> read_uff58_table(const std::filesystem::path& file) {
+  std::vector<Uff58Function> functions = read_uff58(file);
+  std::erase_if(functions, [](const Uff58Function& function) {
+    return function.function_type != 1 || function.is_complex || !function.abscissa.empty() ||
+           !(function.abscissa_step > 0.);
+  });
+  if (functions.empty()) throw UserError(file.string() + ": holds no evenly sampled time response");
+  const Uff58Function first = functions.front();
+  std::erase_if(functions, [&](const Uff58Function& function) {
+    return function.values.size() != first.values.size() ||
+           function.abscissa_step != first.abscissa_step;
+  });
+  const std::vector<std::string> names = names_of(functions);
+  std::vector<NumericColumn> columns;
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    columns.push_back({names[i], {}, functions[i].single_precision});
+    for (const auto& value : functions[i].values) columns.back().values.push_back(value.real());
+  }
+  const auto exact = clock_in(first.id_lines[3]);
+  return std::make_unique<NumericTable>(
+      file.string(), std::move(columns),
+      exact.value_or(TimeAxis{first.abscissa_start, 1. / first.abscissa_step}));
+}
+
+void write_uff58(const std::filesystem::path& file, const Record& record) {
+  std::vector<Uff58Function> functions;
+  for (const std::string& name : channels_in_writing_order(record)) {
+    Uff58Function function;
+    function.id_lines = {name, "SI units; time response", "written by vibrissa", clock_line(record),
+                         "NONE"};
+    function.response_node = 1;
+    function.response_direction = name.starts_with("cross") ? 2 : 1;
+    function.abscissa_start = record.time_s(0);
+    function.abscissa_step = 1. / record.sampling_rate_hz();
+    function.abscissa_axis = {.quantity = 17, .label = "Time", .unit = "s"};
+    function.ordinate_axis = axis_of_channel(name);
+    for (const double value : record.channel(name)) function.values.emplace_back(value, 0.);
+    functions.push_back(std::move(function));
+  }
+  write_uff58(file, functions);
+}
+
+}  // namespace vibrissa::signals::formats

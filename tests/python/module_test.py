@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""The Python package gives, to the last bit, what the program gives.
+
+usage: module_test.py VIBRISSA CASE
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import vibrissa
+
+PROGRAM, CASE = sys.argv[1], sys.argv[2]
+QUICK = ["Model/Mesh resolution=1", "Model/Sensitivities=false", "Records/Duration=8"]
+
+
+def program(*arguments):
+    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+class Module(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = pathlib.Path(cls.folder.name)
+        settings = [word for setting in QUICK for word in ("--set", setting)]
+        program("simulate", CASE, "--record", str(cls.path / "r.csv"), "--model",
+                str(cls.path / "model.json"), "--quiet", *settings)
+        cls.record = vibrissa.read_record(cls.path / "r.csv")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_simulates_the_same_record(self):
+        record = vibrissa.simulate(CASE, settings=QUICK)
+        self.assertEqual(record.channel_names, self.record.channel_names)
+        for name in record.channel_names:
+            np.testing.assert_array_equal(record[name], self.record[name])
+
+    def test_identifies_the_same_model(self):
+        found = vibrissa.identify(self.record, order=2)
+        said = json.loads(program("identify", str(self.path / "r.csv"), "--order", "2", "-o",
+                                  str(self.path / "bvrm.json"), "--json"))
+        self.assertEqual(found.report, said)
+        self.assertEqual(json.loads(found.model.json),
+                         json.loads((self.path / "bvrm.json").read_text()))
+        self.assertEqual(found.model.response([1.0, 2.0]).shape, (2,))
+
+    def test_separates_the_same_signals(self):
+        found = vibrissa.identify(self.record, order=2)
+        found.model.write(self.path / "m.json")
+        program("separate", str(self.path / "r.csv"), "--model", str(self.path / "m.json"),
+                "--method", "fdaf", "--method", "kalman", "-o", str(self.path / "s.csv"), "--quiet")
+        written = vibrissa.read_record(self.path / "s.csv")
+        for name, values in vibrissa.separate(self.record, model=found,
+                                              methods=["fdaf", "kalman"]).items():
+            np.testing.assert_array_equal(values, written[f"wind_moment_{name}_N_m"])
+
+    def test_diagnoses_the_same(self):
+        model = str(self.path / "model.json")
+        record = vibrissa.read_record(self.path / "r.csv")
+        scaled = {name: record[name].copy() for name in record.channel_names}
+        scaled["base_moment_N_m"] *= 1.3
+        vibrissa.write_record(self.path / "bench.csv", vibrissa.Record(
+            record.sampling_rate_hz, scaled, record.start_s))
+        found = vibrissa.diagnose(self.path / "bench.csv", simulation=model, max_effects=1)
+        said = program("diagnose", "--model", model, "--real", str(self.path / "bench.csv"),
+                       "--max-effects", "1", "--json")
+        self.assertEqual(found.report, json.loads(said))
+        self.assertIn(found.verdict, str(found.report["ranking"][0]["effect"]))
+        np.testing.assert_array_equal(found.mended.simulate(record).shape, (len(record),))
+
+    def test_a_users_mistake_is_a_value_error(self):
+        with self.assertRaisesRegex(vibrissa.UserError, "unknown channel"):
+            vibrissa.read_record(self.path / "r.csv", columns={"base_acc": "x"})
+        with self.assertRaises(ValueError):
+            vibrissa.simulate("missing.prm")
+
+    def test_units_are_converted(self):
+        record = vibrissa.Record(500.0, {"ax_g": np.ones(100), "base_moment_N_m": np.zeros(100)})
+        vibrissa.write_record(self.path / "g.h5", record)
+        read = vibrissa.read_record(self.path / "g.h5", columns={"base_acceleration": "ax_g[g]"})
+        np.testing.assert_allclose(read["base_acceleration_m_s2"], 9.80665, rtol=1e-15)
+
+    def test_stubs_name_all_that_there_is(self):
+        stub = (pathlib.Path(vibrissa.__file__).parent / "__init__.pyi").read_text()
+        for name in vibrissa.__all__:
+            self.assertRegex(stub, rf"(def|class) {name}\b")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
