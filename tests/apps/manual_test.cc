@@ -27,10 +27,10 @@ TEST(Manual, ManReadsItWithoutAWarning) {
 
 TEST(Completion, BashCompletesCommandsAndOptions) {
   const Folder folder;
-  const std::string script = folder.write("completion", vibrissa("completion bash").output);
+  const std::string script = folder.write("script", vibrissa("completion bash").output);
   const auto completed = [&](const std::string& words, const int at) {
-    const std::string command = "bash -c 'source " + script + "; COMP_WORDS=(" + words +
-                                "); COMP_CWORD=" + std::to_string(at) +
+    const std::string command = "cd '" + folder.file("") + "' && bash -c 'source " + script +
+                                "; COMP_WORDS=(" + words + "); COMP_CWORD=" + std::to_string(at) +
                                 "; _vibrissa; echo \"${COMPREPLY[@]}\"' > " + folder.file("out");
     EXPECT_EQ(std::system(command.c_str()), 0);
     return content(folder.file("out"));
