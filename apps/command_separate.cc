@@ -7,6 +7,7 @@
 #include "apps/command.h"
 #include "apps/record_options.h"
 #include "apps/separation_methods.h"
+#include "apps/stream_separation.h"
 #include "diagnosis/mended_model_json.h"
 #include "diagnosis/record_simulation.h"
 #include "separation/bvrm_separator.h"
@@ -34,6 +35,7 @@ struct SeparateOptions {
   std::optional<std::string> sensor_model_file;
   double moment_deviation_n_m = 1e-6;
   double settling_s = 2.;
+  bool stream = false;
 };
 
 /// What is left of the measured moment when a mended model has foretold the part of the base.
@@ -108,7 +110,29 @@ void add_wind_speeds(const SeparateOptions& options, const std::vector<Separated
   }
 }
 
+void separate_as_stream(const SeparateOptions& options) {
+  if (!options.output_file || options.truth_column || options.sensor_model_file)
+    throw signals::UserError(
+        "--stream writes wind moments as it reads (name the file: -o) and holds no record, which "
+        "--truth, --dtw-path and --sensor-model need");
+  signals::RecordStream record(options.record_file, options.record.read_options());
+  std::vector<NamedSeparator> methods;
+  if (options.model_file)
+    methods.push_back(
+        {"bvrm", std::make_unique<separation::BvrmSeparator>(
+                     separation::read_bvrm(*options.model_file), record.sampling_rate_hz(),
+                     separation::parse_hold(options.hold))});
+  for (const auto& name : options.methods)
+    methods.push_back({name, separation::stream_method(name).make(options.fdaf)});
+  separate_stream(record, methods, *options.output_file, options.common.is_talkative());
+  if (options.common.json)
+    print_json({{"record", *options.output_file}, {"samples", record.n_samples()}});
+  else if (!options.common.quiet)
+    std::cout << "wrote " << *options.output_file << ": " << record.n_samples() << " samples\n";
+}
+
 void separate(const SeparateOptions& options) {
+  if (options.stream) return separate_as_stream(options);
   if (options.sensor_model_file && !options.output_file) {
     throw signals::UserError("--sensor-model adds wind speeds to the output record: name it (-o)");
   }
@@ -193,6 +217,9 @@ void add_separate_command(CLI::App& app) {
   command->add_option("--settling", options->settling_s, "Start left out of the scores [s]")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command->add_flag("--stream", options->stream,
+                    "For records of any length: reads and writes (-o, CSV) block by block, without "
+                    "scores");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
   command->callback([options] { separate(*options); });

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
-#include <fstream>
+#include <limits>
 #include <system_error>
 
 #include "signals/error.h"
@@ -12,21 +11,14 @@
 namespace vibrissa::signals {
 namespace {
 
-std::string read_text(const std::filesystem::path& file) {
+FileBytes open_bytes(const std::filesystem::path& file) {
   if (std::error_code ignored; std::filesystem::is_directory(file, ignored))
     throw UserError(file.string() + ": this is a folder, not a CSV file");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  std::vector<char> block(std::size_t{1} << 20);
-  while (stream) {
-    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-  }
-  if (!stream.eof())
-    throw UserError(file.string() + ": cannot be read: " + std::generic_category().message(errno));
-  return text;
+  return FileBytes(file);
 }
+
+constexpr std::size_t everything = std::numeric_limits<std::size_t>::max();
+constexpr const char* blanks = " \t\r\n";
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -71,15 +63,35 @@ std::string without_doubled_quotes(const std::string_view name) {
 
 }  // namespace
 
-CsvFile::CsvFile(const std::filesystem::path& file) : name_(file.string()), text_(read_text(file)) {
+CsvFile::CsvFile(const std::filesystem::path& file)
+    : name_(file.string()), bytes_(open_bytes(file)) {
   const std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  const std::size_t start = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-  text_.erase(text_.find_last_not_of(" \t\r\n") + 1);
-  if (text_.size() <= start) throw UserError(name_ + ": the file is empty");
-  const std::size_t header_end = std::min(text_.find('\n', start), text_.size());
-  read_header(std::string_view(text_).substr(start, header_end - start));
-  n_rows_ = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n'));
-  first_row_at_ = std::min(header_end + 1, text_.size());
+  std::string mark(byte_order_mark.size(), ' ');
+  bytes_.read(0, mark.data(), mark.size());
+  const std::size_t start = mark == byte_order_mark ? byte_order_mark.size() : 0;
+  find_end(start);
+  if (end_ <= start) throw UserError(name_ + ": the file is empty");
+  LineReader lines(bytes_, start, end_);
+  std::string_view header;
+  lines.next(header);
+  read_header(header);
+  first_row_at_ = lines.position();
+  last_ = {1, first_row_at_};
+}
+
+// Blank lines at the end are none.
+void CsvFile::find_end(const std::size_t start) {
+  LineReader lines(bytes_, start, everything);
+  std::size_t n_lines = 0;
+  end_ = start;
+  std::size_t at = lines.position();
+  for (std::string_view line; lines.next(line); at = lines.position()) {
+    ++n_lines;
+    const auto last = line.find_last_not_of(blanks);
+    if (last == std::string_view::npos) continue;
+    end_ = at + last + 1;
+    n_rows_ = n_lines - 1;
+  }
 }
 
 void CsvFile::read_header(const std::string_view line) {
@@ -117,19 +129,22 @@ std::size_t CsvFile::index_of(const std::string& column) const {
 void CsvFile::for_each_row(const std::size_t first, const std::size_t count,
                            const RowReader& read) const {
   assert(first >= 1 && first - 1 <= n_rows_ && count <= n_rows_ - (first - 1));
-  const std::string_view text = text_;
-  std::size_t at = first_row_at_;
-  for (std::size_t row = 1; row < first; ++row) at = text.find('\n', at) + 1;
+  const Place from = first >= last_.row ? last_ : Place{1, first_row_at_};
+  LineReader lines(bytes_, from.at, end_);
+  std::string_view line;
+  const auto go_on = [&](const std::size_t row) {
+    if (!lines.next(line)) throw UserError(place(row + 1) + "the file ended while it was read");
+  };
+  for (std::size_t row = from.row; row < first; ++row) go_on(row);
   std::vector<std::string_view> fields;
   for (std::size_t row = first; row < first + count; ++row) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view line = text.substr(at, end - at);
+    go_on(row);
     split_fields(line, fields);
     if (fields.size() != columns_.size() || trimmed(line).empty())
       refuse_row(row + 1, trimmed(line).empty() ? 0 : fields.size());
     read(row + 1, fields);
-    at = end + 1;
   }
+  last_ = {first + count, lines.position()};
 }
 
 void CsvFile::refuse_row(const std::size_t line, const std::size_t n_fields) const {

@@ -8,12 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "signals/line_reader.h"
+
 namespace vibrissa::signals {
 
 /// A comma-separated text file: column names in its first line, then one row a line. Takes Unix and
 /// Windows line ends, a UTF-8 byte order mark, blank lines at the end, spaces around fields and
 /// fields in quotes (which may hold commas, not line breaks). What the fields mean is not its
-/// affair, so text in a column that nobody reads does no harm.
+/// affair, so text in a column that nobody reads does no harm. The file is not held in memory but
+/// read again for each visit. Not for use by several threads at a time.
 /// Proven by tests/signals/csv_file_test.cc.
 class CsvFile {
  public:
@@ -41,9 +44,17 @@ class CsvFile {
   void read_header(std::string_view line);
   [[noreturn]] void refuse_row(std::size_t line, std::size_t n_fields) const;
 
+  void find_end(std::size_t start);
+
+  struct Place {
+    std::size_t row = 1, at = 0;
+  };
   std::string name_;
-  std::string text_;
+  FileBytes bytes_;
   std::size_t first_row_at_ = 0, n_rows_ = 0;
+  std::size_t end_ = 0;  // behind the last row
+  /// Where the last visit ended, so that one part after the other is not searched for anew.
+  mutable Place last_;
   std::vector<std::string> columns_;
 };
 

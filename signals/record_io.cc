@@ -1,9 +1,5 @@
 #include "signals/record_io.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "signals/channel_name.h"
 #include "signals/error.h"
 #include "signals/formats/csv_record.h"
@@ -11,88 +7,12 @@
 #include "signals/formats/mat_file.h"
 #include "signals/formats/npy_file.h"
 #include "signals/formats/uff58_record.h"
-#include "signals/number_text.h"
+#include "signals/record_rows.h"
 #include "signals/record_sources.h"
 #include "signals/resample.h"
-#include "signals/time_axis.h"
 
 namespace vibrissa::signals {
 namespace {
-
-using formats::RecordTable;
-
-constexpr std::size_t least_samples = 64;
-
-std::size_t number_of_rows(const RecordTable& file, const ReadOptions& options) {
-  const std::size_t there = file.n_rows();
-  if (options.first_row == 0) throw UserError("the first row is row 1, not row 0");
-  const std::size_t skipped = options.first_row - 1;
-  const std::size_t left = there - std::min(there, skipped);
-  const std::size_t count = options.n_rows.value_or(left);
-  if (skipped > there || count > left)
-    throw UserError(file.place(there) + "rows " + std::to_string(options.first_row) + " to " +
-                    (options.n_rows ? std::to_string(skipped + count) : "the last") +
-                    " are asked for, but the file has " + std::to_string(there) + " rows");
-  if (count < least_samples)
-    throw UserError(file.place(there) + "only " + std::to_string(count) +
-                    " samples; a record needs at least " + std::to_string(least_samples));
-  return count;
-}
-
-void convert(const RecordTable& file, const Source& source, const std::size_t first_row,
-             std::vector<double>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double raw = values[i];
-    values[i] = source.scale * raw + source.offset;
-    if (std::isfinite(values[i])) continue;
-    throw UserError(file.place(first_row + i) + "column '" + file.columns()[source.column] +
-                    "': '" + file.text(first_row + i, source.column) + "' is not finite" +
-                    (std::isfinite(raw) ? " once scaled" : "") +
-                    "; missing samples are never filled in: choose rows without any");
-  }
-}
-
-// A column of time in thousandths or millionths of a second, called seconds.
-std::string time_unit_hint(const double ratio) {
-  const auto near = [&](const double factor) { return std::abs(ratio / factor - 1.) < 1e-2; };
-  if (near(1e3)) return "; the column seems to be in ms";
-  return near(1e6) ? "; the column seems to be in us" : "";
-}
-
-// Of the times in a column; a rate that is known beside them must agree and is then the one taken.
-TimeAxis axis_of_column(const RecordTable& file, const std::string& path, const Source& time,
-                        const std::vector<double>& times_s, const ReadOptions& options) {
-  const std::vector<std::size_t> column = {time.column};
-  const RecordTable::RowNames names = file.row_names();
-  TimeAxis axis =
-      find_time_axis({.times_s = times_s,
-                      .digits = file.digits({column, options.first_row, times_s.size()}),
-                      .unit_s = time.scale,
-                      .file = path,
-                      .first_line = options.first_row + names.offset,
-                      .column = file.columns()[time.column],
-                      .row_word = names.word});
-  const auto stated = file.clock();
-  const std::optional<double> known = options.sampling_rate_hz ? options.sampling_rate_hz
-                                      : stated ? std::optional(stated->sampling_rate_hz)
-                                               : std::nullopt;
-  if (!known) return axis;
-  if (std::abs(*known - axis.sampling_rate_hz) > 1e-3 * axis.sampling_rate_hz)
-    throw UserError(path + ": the rate " + to_text(*known) +
-                    " Hz that was given contradicts column '" + file.columns()[time.column] +
-                    "', which says " + to_text(axis.sampling_rate_hz) +
-                    " Hz; correct it (--rate, or sampling_rate_hz in dataset.json or in the file) "
-                    "or the column" +
-                    time_unit_hint(*known / axis.sampling_rate_hz));
-  axis.sampling_rate_hz = *known;
-  return axis;
-}
-
-TimeAxis axis_without_column(const RecordTable& file, const ReadOptions& options) {
-  const TimeAxis stated = file.clock().value_or(TimeAxis{0., 0.});
-  const double rate = options.sampling_rate_hz.value_or(stated.sampling_rate_hz);
-  return {stated.start_s + static_cast<double>(options.first_row - 1) / rate, rate};
-}
 
 void remove_means(const ReadOptions& options, Record& record) {
   for (const std::string& name : options.remove_mean) {
@@ -105,24 +25,11 @@ void remove_means(const ReadOptions& options, Record& record) {
 }  // namespace
 
 Record read_record(const std::filesystem::path& file, const ReadOptions& options) {
-  if (const auto rate = options.sampling_rate_hz; rate && !(std::isfinite(*rate) && *rate > 0.))
-    throw UserError("--rate " + to_text(*rate) +
-                    ": the sampling rate must be a positive number of Hz");
+  check(options);
   const auto table = formats::open_table(file);
-  Sources sources = find_sources(*table, options);
+  const Sources sources = find_sources(*table, options);
   const std::size_t n_rows = number_of_rows(*table, options);
-  if (sources.time) sources.channels.push_back(*sources.time);
-  std::vector<std::size_t> columns;
-  for (const Source& source : sources.channels) columns.push_back(source.column);
-  auto values = table->read({columns, options.first_row, n_rows});
-  for (std::size_t c = 0; c < values.size(); ++c)
-    convert(*table, sources.channels[c], options.first_row, values[c]);
-  const TimeAxis axis =
-      sources.time ? axis_of_column(*table, file.string(), *sources.time, values.back(), options)
-                   : axis_without_column(*table, options);
-  Record record(axis.sampling_rate_hz, n_rows, axis.start_s);
-  for (std::size_t c = 0; c + (sources.time ? 1 : 0) < values.size(); ++c)
-    record.set_channel(sources.channels[c].channel, std::move(values[c]));
+  Record record = read_rows(*table, file.string(), sources, options, n_rows);
   remove_means(options, record);
   return record;
 }

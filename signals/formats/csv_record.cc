@@ -20,26 +20,32 @@ std::string csv_field(const std::string& name) {
   return quoted + "\"";
 }
 
-void write_rows(std::ostream& out, const Record& record, const std::vector<std::string>& names) {
+}  // namespace
+
+void write_csv_header(std::ostream& out, const Record& block) {
+  out << time_channel;
+  for (const std::string& name : channels_in_writing_order(block)) out << ',' << csv_field(name);
+  out << '\n';
+}
+
+void write_csv_rows(std::ostream& out, const Record& block, const TimeAxis& axis,
+                    const std::size_t first_sample) {
   std::vector<std::span<const double>> channels;
-  for (const std::string& name : names) channels.push_back(record.channel(name));
+  for (const std::string& name : channels_in_writing_order(block))
+    channels.push_back(block.channel(name));
   std::string row;
-  for (std::size_t i = 0; i < record.n_samples(); ++i) {
-    row = to_text(record.time_s(i));
+  for (std::size_t i = 0; i < block.n_samples(); ++i) {
+    const auto sample = static_cast<double>(first_sample + i);
+    row = to_text(axis.start_s + sample / axis.sampling_rate_hz);
     for (const auto& values : channels) row.append(1, ',').append(to_text(values[i]));
     out << row.append(1, '\n');
   }
 }
 
-}  // namespace
-
 void write_csv(const std::filesystem::path& file, const Record& record) {
-  const std::vector<std::string> names = channels_in_writing_order(record);
   write_file(file, [&](std::ostream& out) {
-    out << time_channel;
-    for (const std::string& name : names) out << ',' << csv_field(name);
-    out << '\n';
-    write_rows(out, record, names);
+    write_csv_header(out, record);
+    write_csv_rows(out, record, {record.time_s(0), record.sampling_rate_hz()}, 0);
   });
 }
 
