@@ -10,7 +10,7 @@
 namespace vibrissa::signals {
 namespace {
 
-constexpr std::size_t block_samples = std::size_t{1} << 16;
+constexpr std::size_t block_samples = std::size_t{1} << 14;
 
 }  // namespace
 

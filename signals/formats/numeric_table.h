@@ -14,9 +14,9 @@ struct NumericColumn {
   bool single_precision = false;  // the file has 24 binary digits of each value
 };
 
-/// Most numbers that a file may hold or claim: 2 GiB of doubles. What a damaged or hostile file
+/// Most numbers that a file may hold or claim: 1 GiB of doubles. What a damaged or hostile file
 /// says of its size is checked against it before memory is asked for.
-inline constexpr std::size_t most_numbers = std::size_t{1} << 28;
+inline constexpr std::size_t most_numbers = std::size_t{1} << 27;
 
 /// Columns that are in memory. Proven by tests/signals/formats/numeric_table_test.cc.
 class NumericTable : public RecordTable {

@@ -1,0 +1,6 @@
+#include "signals/formats/npy_file.h"
+#include "tests/fuzz/table_of_bytes.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return vibrissa::fuzz::read_table(vibrissa::signals::formats::read_npy, data, size);
+}
