@@ -4,6 +4,7 @@
 
 #include "apps/command.h"
 #include "apps/diagnosis_figures.h"
+#include "apps/diagnosis_page.h"
 #include "apps/figure_diagnosis.h"
 #include "apps/nominal_input.h"
 #include "diagnosis/diagnosis_json.h"
@@ -38,6 +39,7 @@ void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& d
   for (const report::Figure& figure : diagnosis_figures(diagnosis))
     report::write_figure(folder.path(), figure);
   const auto pictures = report::draw_pictures(folder.path());
+  report::write_page(folder.path(), diagnosis_page(diagnosis));
   if (!options.common.is_talkative()) return;
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
@@ -90,8 +92,9 @@ void add_diagnose_command(CLI::App& app) {
                       "The simulation as a dataset: a folder of records with dataset.json");
   command->add_option("--real", options->real, "Dataset of the real sensor");
   options->figures.add_to(*command);
-  command->add_option("-o,--out", options->folder,
-                      "New folder for diagnosis.json, mended_model.json, ranking.csv and pictures");
+  command->add_option(
+      "-o,--out", options->folder,
+      "New folder for report.html, diagnosis.json, mended_model.json, ranking.csv and pictures");
   command
       ->add_option("--max-effects", options->max_effects,
                    "Most effects that are combined beside retuned parameters")
