@@ -124,10 +124,13 @@ std::vector<report::Figure> diagnosis_figures(const diagnosis::Diagnosis& diagno
 }
 
 report::Figure held_out_record_figure(const diagnosis::Diagnosis& diagnosis) {
-  return {.name = "held_out_record",
-          .title = "Held-out record before and after",
-          .caption = "Free simulation of a record that was not used to fit.",
-          .panels = {trace_panel(diagnosis, diagnosis.trace.time_s.size())}};
+  report::Figure figure = trace_figure(diagnosis);
+  report::Panel whole = trace_panel(diagnosis, diagnosis.trace.time_s.size());
+  whole.title += ", whole";
+  figure.panels.front().title = "Its first second";
+  figure.panels.insert(figure.panels.begin(), std::move(whole));
+  figure.name = "held_out_record";
+  return figure;
 }
 
 report::Table ranking_table(const diagnosis::Diagnosis& diagnosis) {

@@ -12,7 +12,7 @@ namespace vibrissa::apps {
 /// left out. Proven by tests/apps/diagnose_test.cc.
 std::vector<report::Figure> diagnosis_figures(const diagnosis::Diagnosis& diagnosis);
 
-/// The whole held-out record, of which the trace among diagnosis_figures() is a second.
+/// The trace among diagnosis_figures() below the whole record that it is the first second of.
 report::Figure held_out_record_figure(const diagnosis::Diagnosis& diagnosis);
 
 /// One row an answer: probability, held-out errors before and after, share of the gap closed.

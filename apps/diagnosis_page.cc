@@ -92,6 +92,7 @@ report::Table band_table(const diagnosis::Location& location) {
   return table;
 }
 
+/// Of the first answer and of those that are not improbable.
 report::Table parameter_table(const Diagnosis& d) {
   report::Table table({{"answer", ""},
                        {"effect", ""},
@@ -100,9 +101,12 @@ report::Table parameter_table(const Diagnosis& d) {
                        {"95 % from", "", 3},
                        {"95 % to", "", 3},
                        {"unit", ""}});
-  for (const RankedAnswer& answer : d.ranking)
+  constexpr double improbable = 0.01;
+  for (const RankedAnswer& answer : d.ranking) {
+    if (answer.probability < improbable && &answer != &d.ranking.front()) continue;
     for (const diagnosis::ParameterEstimate& p : answer.parameters)
       table.add_row({answer.name, p.effect, p.name, p.value, p.ci95[0], p.ci95[1], p.unit});
+  }
   return table;
 }
 

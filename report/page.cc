@@ -64,6 +64,15 @@ class Body {
   }
 
  private:
+  /// Longer tables are folded.
+  static constexpr std::size_t most_rows_open = 15;
+
+  /// What may be wider than the page: it alone scrolls, by keys, too.
+  static std::string scrolled(const std::string& label, const std::string& html) {
+    return "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" +
+           html_escaped(label) + "\">\n" + html + "</div>\n";
+  }
+
   static std::string save_button(const std::string& kind, const std::size_t number,
                                  const std::string& of) {
     return "<button type=\"button\" data-save=\"" + kind + "\" data-number=\"" +
@@ -74,11 +83,12 @@ class Body {
   std::string table_element(const PageTable& table) {
     const std::size_t number = data_["tables"].size();
     data_["tables"].push_back({{"name", table.name}, {"csv", table.table.to_csv()}});
-    return "<div class=\"table\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-           "aria-label=\"" +
-           html_escaped(table.caption) + "\">\n" + table.table.to_html(table.caption) +
-           "</div>\n<div class=\"tools\">" + save_button("tables", number, table.caption) +
-           "</div></div>\n";
+    const std::string shown = scrolled(table.caption, table.table.to_html(table.caption)) +
+                              "<div class=\"tools\">" +
+                              save_button("tables", number, table.caption) + "</div>\n";
+    if (table.table.n_rows() <= most_rows_open) return "<div class=\"table\">" + shown + "</div>\n";
+    return "<details class=\"table\"><summary>" + html_escaped(table.caption) + " (" +
+           std::to_string(table.table.n_rows()) + " rows)</summary>" + shown + "</details>\n";
   }
 
   std::string figure_element(const Figure& figure) {
@@ -89,10 +99,9 @@ class Body {
            html_element("h3", figure.title) + "<div class=\"plots\"></div>\n<figcaption>" +
            html_escaped(figure.caption) + "</figcaption>\n<div class=\"tools\">" +
            save_button("figures", number, figure.title) +
-           "</div>\n<details><summary>In numbers</summary><div class=\"scroll\" tabindex=\"0\" "
-           "role=\"region\" aria-label=\"Numbers of " +
-           html_escaped(figure.title) + "\">\n" + figure_in_words(figure) +
-           "</div></details>\n</figure>\n";
+           "</div>\n<details><summary>In numbers</summary>" +
+           scrolled("Numbers of " + figure.title, figure_in_words(figure)) +
+           "</details>\n</figure>\n";
   }
 
   std::string view_element(const std::vector<ModePicture>& scenes) {

@@ -148,6 +148,18 @@
     return Number.isFinite(value) && !(log && value <= 0);
   }
 
+  // All that the x axis can show.
+  function extentOf(curves, panel) {
+    let [least, most] = panel.x_range || [Infinity, -Infinity];
+    for (const curve of curves)
+      for (const x of numbers(curve.x)) {
+        if (!usable(x, panel.log_x)) continue;
+        least = Math.min(least, x);
+        most = Math.max(most, x);
+      }
+    return [least, most];
+  }
+
   // The curve's points with x ascending and on the axis; y is a number, or low, middle, high.
   function pointsOf(curve, panel, bars) {
     const x = numbers(curve.x), band = curve.style === "band";
@@ -238,9 +250,9 @@
       this.mates = mates;
       this.curves = panel.curves.filter((curve) => numbers(curve.x).length > 0);
       this.labels = this.curves.map((curve, c) => "curve " + (c + 1));
+      this.extent = extentOf(this.curves, panel);
       this.start = { dateWindow: panel.x_range || null, valueRange: panel.y_range || this.nameRange() };
       this.build(place, figure);
-      this.draw();
     }
 
     nameRange() {
@@ -297,17 +309,16 @@
         labels: ["x"].concat(this.labels), series, customBars: bars, connectSeparatedPoints: true, legend: "never",
         logscale: panel.log_y, xRangePad: panel.log_x ? 0 : 6, yRangePad: 6, fillAlpha: 0.22, highlightCircleSize: 3,
         axisLabelFontSize: 12, rightGap: 8, interactionModel: interaction(() => this.reset()),
-        showRangeSelector: !panel.log_x && rows.length > 1500, rangeSelectorHeight: 26,
+        showRangeSelector: !panel.log_x && rows.length > 1500 && this.isLast(), rangeSelectorHeight: 26,
         axes: {
-          x: { logscale: panel.log_x, ticker: tickerOf(panel.log_x, panel.x_label, []), axisLabelFormatter: formatted, pixelsPerLabel: 70 },
-          y: { ticker: tickerOf(panel.log_y, panel.y_label, names), axisLabelFormatter: formatted, pixelsPerLabel: 34,
+          x: { logscale: panel.log_x, ticker: tickerOf(panel.log_x, panel.x_label, []), axisLabelFormatter: formatted, pixelsPerLabel: 60 },
+          y: { ticker: tickerOf(panel.log_y, panel.y_label, names), axisLabelFormatter: formatted, pixelsPerLabel: 24,
                axisLabelWidth: names.length ? Math.min(0.42 * this.box.clientWidth, 7 * longest + 8) : 58 }
         },
         highlightCallback: (event, x, points) => this.tell(x, points),
         unhighlightCallback: () => { this.readout.textContent = ""; },
         drawCallback: (g, first) => { if (!first) this.lead(); }
       }, this.start, this.colours()));
-      this.extent = this.g.xAxisRange();
       this.colourSwatches();
     }
 
@@ -349,6 +360,11 @@
         return (curve.label ? curve.label + " " : "") + (names[p.yval - 1] || rounded(p.yval, 4));
       });
       this.readout.textContent = "at " + rounded(x, 5) + (values.length ? ": " + values.join(", ") : "");
+    }
+
+    // Of the panels with the same axis the last has the control for it.
+    isLast() {
+      return !this.mates.slice(this.mates.indexOf(this) + 1).some((mate) => this.shares(mate));
     }
 
     // Panels with the same axis show the same part of it.
@@ -419,17 +435,17 @@
   function drawFigure(place) {
     const figure = data.figures[Number(place.dataset.figure)], made = [];
     for (const panel of figure.panels) made.push(new Plot(place.querySelector(".plots"), figure, panel, made));
+    for (const plot of made) plot.draw();
     plots.push(...made);
     place.querySelector(".tools").prepend(zoomButtons(made));
   }
 
-  // ---- Paper
+  // ---- Paper. Plots are made smaller, not drawn anew: a canvas that changes its size is printed empty.
   function print(begins) {
-    if (printing === begins) return;
+    const paper_px = 660;
     printing = begins;
-    document.body.style.width = begins ? "42rem" : "";
+    for (const plot of plots) plot.box.style.zoom = begins ? Math.min(1, paper_px / plot.box.clientWidth) : "";
     applyTheme();
-    for (const plot of plots) if (plot.g) plot.g.resize();
   }
   addEventListener("beforeprint", () => print(true));
   addEventListener("afterprint", () => print(false));
