@@ -103,6 +103,8 @@ function makeView(figure, scenes, { numbers, exact, element, rounded, paint }) {
   }
 
   function begin() {
+    const probe = document.createElement("canvas");
+    if (!probe.getContext("webgl2") && !probe.getContext("webgl")) return false;
     try {
       renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
     } catch (error) {
