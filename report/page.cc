@@ -65,7 +65,7 @@ class Body {
 
  private:
   /// Longer tables are folded.
-  static constexpr std::size_t most_rows_open = 15;
+  static constexpr std::size_t most_rows_open = 24;
 
   /// What may be wider than the page: it alone scrolls, by keys, too.
   static std::string scrolled(const std::string& label, const std::string& html) {
