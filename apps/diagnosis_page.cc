@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "apps/diagnosis_figures.h"
+#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/words.h"
 
 namespace vibrissa::apps {
@@ -40,8 +41,13 @@ std::string range(const double low, const double high, std::string (*text)(doubl
   return text(low) + " to " + text(high);
 }
 
-std::vector<std::string> doubts(const Diagnosis& d) {
+/// What the headline means for the simulation, and what makes it doubtful.
+std::vector<std::string> verdict(const Diagnosis& d) {
   std::vector<std::string> lines;
+  if (d.verdict != "none" && d.verdict != diagnosis::outside_catalogue)
+    lines.push_back(diagnosis::is_recalibration(d.verdict)
+                        ? "The simulation has the right physics and wants recalibration."
+                        : "The simulation lacks this physics.");
   for (const diagnosis::Finding& finding : d.findings)
     if (casts_doubt(finding.kind))
       lines.push_back("Doubtful: " + (finding.record.empty() ? "" : finding.record + ": ") +
@@ -267,7 +273,7 @@ report::Page diagnosis_page(const Diagnosis& d) {
   const std::vector<report::Figure> figures = diagnosis_figures(d);
   return {.title = "Why the bench differs from the simulation",
           .headline = headline(d),
-          .verdict = doubts(d),
+          .verdict = verdict(d),
           .numbers = key_numbers(d),
           .sections = {where(d, figures), what(d, figures), how_far(d, figures), what_next(d)}};
 }

@@ -50,7 +50,8 @@ TEST(DiagnosisPage, SaysTheVerdictThenWhereWhatHowFarAndWhatNext) {
   const report::Page page = diagnosis_page(example());
   EXPECT_EQ(page.headline,
             "Joint friction and stiffness explain why the bench differs from the simulation");
-  EXPECT_THAT(page.verdict, ElementsAre(HasSubstr("Doubtful: a</script>")));
+  EXPECT_THAT(page.verdict,
+              ElementsAre("The simulation lacks this physics.", HasSubstr("Doubtful: a</script>")));
   std::vector<std::string> headings;
   for (const report::PageSection& section : page.sections) headings.push_back(section.heading);
   EXPECT_THAT(headings, ElementsAre("Where", "What", "How far", "What next"));
@@ -88,6 +89,8 @@ TEST(DiagnosisPage, SaysInPlainWordsWhatIsNoEffect) {
   EXPECT_THAT(diagnosis_page(d).headline, HasSubstr("No cause is needed"));
   d.verdict = "outside_catalogue";
   EXPECT_THAT(diagnosis_page(d).headline, HasSubstr("no known effect explains"));
+  d.verdict = "stiffness";
+  EXPECT_THAT(diagnosis_page(d).verdict, ElementsAre(HasSubstr("wants recalibration")));
   d.verdict = "delay";
   EXPECT_THAT(diagnosis_page(d).headline, HasSubstr("Delay explains why"));
 }

@@ -58,7 +58,10 @@ return [...document.querySelectorAll(".plot")].map((plot) => {
   for (const canvas of plot.querySelectorAll("canvas")) {
     if (!canvas.width || !canvas.height) continue;
     const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
-    for (let i = 3; i < data.length; i += 4) drawn += data[i] > 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const [r, g, b] = [data[i], data[i + 1], data[i + 2]];  // grid and axes are grey, curves are not
+      drawn += data[i + 3] > 0 && Math.max(r, g, b) - Math.min(r, g, b) > 60;
+    }
   }
   return drawn;
 });
@@ -148,7 +151,7 @@ class Page:
         rows = self.run("return vibrissaReport.plots.map((p) => p.g ? p.g.numRows() : 0)")
         pixels = self.run(PIXELS)
         assert rows and min(rows) > 0, rows
-        assert len(pixels) == len(rows) and min(pixels) > 300, pixels
+        assert len(pixels) == len(rows) and min(pixels) > 20, pixels
 
     def ranges(self):
         return self.run("return vibrissaReport.plots.map((p) => p.g.xAxisRange())")
@@ -161,7 +164,7 @@ class Page:
 
         def changed(what):
             now = self.ranges()[0]
-            assert now[1] - now[0] < before[0][1] - before[0][0], (what, now)
+            assert now[1] - now[0] < 0.9 * (before[0][1] - before[0][0]), (what, now)
 
         def reset(what):
             now = self.ranges()
