@@ -181,6 +181,7 @@ report::PageSection where(const Diagnosis& d, const std::vector<report::Figure>&
     section.text.push_back(
         "Likely place in the measuring chain: " + diagnosis::joined(d.location.links, ", ") + ".");
   add(section, "bands", "Bands where the gap stands out of the noise", band_table(d.location));
+  for (report::PageTable& table : section.tables) table.folded = true;
   add_figure(section, figures, "gap_map");
   return section;
 }

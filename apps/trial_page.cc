@@ -46,7 +46,7 @@ report::Page trial_page(const TrialScore& score, const std::string& commitment) 
       {.heading = "Accuracy and calibration", .figures = trial_figures(score)},
       {.heading = "Wrong answers",
        .tables = {{"confusion", "Truth against verdict", confusion_table(score)}}},
-      {.heading = "Cases", .tables = {{"cases", "Each case", case_table(score)}}}};
+      {.heading = "Cases", .tables = {{"cases", "Each case", case_table(score), true}}}};
   return page;
 }
 

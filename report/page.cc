@@ -64,9 +64,6 @@ class Body {
   }
 
  private:
-  /// Longer tables are folded.
-  static constexpr std::size_t most_rows_open = 24;
-
   /// What may be wider than the page: it alone scrolls, by keys, too.
   static std::string scrolled(const std::string& label, const std::string& html) {
     return "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" +
@@ -86,7 +83,7 @@ class Body {
     const std::string shown = scrolled(table.caption, table.table.to_html(table.caption)) +
                               "<div class=\"tools\">" +
                               save_button("tables", number, table.caption) + "</div>\n";
-    if (table.table.n_rows() <= most_rows_open) return "<div class=\"table\">" + shown + "</div>\n";
+    if (!table.folded) return "<div class=\"table\">" + shown + "</div>\n";
     return "<details class=\"table\"><summary>" + html_escaped(table.caption) + " (" +
            std::to_string(table.table.n_rows()) + " rows)</summary>" + shown + "</details>\n";
   }

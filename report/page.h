@@ -21,6 +21,7 @@ struct PageTable {
   std::string name{};  // of the CSV file, without extension
   std::string caption{};
   Table table;
+  bool folded = false;  // to be opened by those who want it
 };
 
 struct PageSection {

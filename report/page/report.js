@@ -189,6 +189,9 @@
 
   // All curves as rows of one table by x, which the curves need not share.
   function rowsOf(curves, bands) {
+    const together = curves.every((points) => points.length === curves[0].length) &&
+      curves.slice(1).every((points) => points.every((point, i) => point[0] === curves[0][i][0]));
+    if (together && curves.length) return curves[0].map((point, i) => [point[0]].concat(curves.map((points) => points[i][1])));
     const at = curves.map(() => 0), rows = [];
     while (true) {
       let x = Infinity;
@@ -243,6 +246,51 @@
     const byTwo = (action) => (event, g, context) => { if (event.touches.length > 1) action(event, g, context); };
     return Object.assign({}, usual, { touchstart: byTwo(usual.touchstart), touchmove: byTwo(usual.touchmove), dblclick: reset });
   }
+
+  // A line with many points a pixel, by what it spans in each column of pixels: looks the same and
+  // takes a fraction of the time to paint.
+  function denseLine({ drawingContext, points }) {
+    let column = null, drawn = false;
+    const lineTo = (x, y) => {
+      if (drawn) drawingContext.lineTo(x, y);
+      else drawingContext.moveTo(x, y);
+      drawn = true;
+    };
+    const flush = () => {
+      if (column) for (const y of [column.first, column.least, column.most, column.last]) lineTo(column.x, y);
+      column = null;
+    };
+    drawingContext.beginPath();
+    for (const { canvasx, canvasy, yval } of points) {
+      if (yval === null) continue;  // a point of other curves
+      const x = Math.round(2 * canvasx) / 2;
+      if (!Number.isFinite(canvasy)) {
+        flush();
+        drawn = false;
+      } else if (column && column.x === x) {
+        column.least = Math.min(column.least, canvasy);
+        column.most = Math.max(column.most, canvasy);
+        column.last = canvasy;
+      } else {
+        flush();
+        column = { x, first: canvasy, least: canvasy, most: canvasy, last: canvasy };
+      }
+    }
+    flush();
+    drawingContext.stroke();
+  }
+
+  // Dashes of a dense line could not be seen.
+  function lineOf(dashes) {
+    return (event) => {
+      if (event.points.length > 4 * event.plotArea.w) return denseLine(event);
+      event.drawingContext.save();
+      event.drawingContext.setLineDash(dashes);
+      Dygraph.Plotters.linePlotter(event);
+      event.drawingContext.restore();
+    };
+  }
+  const plotters = { line: lineOf([]), dashed: lineOf([7, 4]) };
 
   class Plot {
     constructor(place, figure, panel, mates) {
@@ -325,7 +373,7 @@
     static style(curve, scattered) {
       if (curve.style === "points" || scattered) return { drawPoints: true, strokeWidth: 0, pointSize: 2.2 };
       if (curve.style === "band") return { strokeWidth: 0, highlightCircleSize: 0 };
-      return { strokeWidth: 1.6, strokePattern: curve.style === "dashed" ? [7, 4] : null };
+      return { strokeWidth: 1.6, plotter: plotters[curve.style] };
     }
 
     colours() {

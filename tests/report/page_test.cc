@@ -108,6 +108,13 @@ TEST_F(ReportPage, EveryFigureHasATitleACaptionNumbersAndItsCsv) {
   EXPECT_THAT(markup, HasSubstr("<caption>Curves of the figure: Response before and after"));
 }
 
+TEST_F(ReportPage, FoldsTheTablesThatAreToBeFolded) {
+  EXPECT_THAT(html_, Not(HasSubstr("<details class=\"table\">")));
+  page_.sections[0].tables[0].folded = true;
+  EXPECT_THAT(to_html(page_, folder_.path()),
+              HasSubstr("<details class=\"table\"><summary>Records (2 rows)</summary>"));
+}
+
 TEST_F(ReportPage, SaysHowItWasMadeAsRunJsonDoes) {
   const std::string markup = markup_of(html_);
   EXPECT_THAT(markup, HasSubstr("<code>vibrissa diagnose --real &#39;run &lt;/script&gt;"));
