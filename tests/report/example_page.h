@@ -114,10 +114,16 @@ inline Page example_page(const std::filesystem::path& folder, const std::size_t 
       return Point{0.1 * std::sin(1.5 * half_waves * x[2]), 0., 0.};
     };
   };
+  constexpr int n_cells = 12;
   std::vector<ModePicture> scenes;
   for (const int k : {1, 2}) {
     const std::string name = "mode_" + std::to_string(k);
-    write_grid(folder / (name + ".vtu"), *column_mesh(12, 0.1, 1., bending(k)));
+    const auto grid = column_mesh(n_cells, 0.1, 1., bending(k));
+    vtkNew<vtkDoubleArray> stress;
+    stress->SetName("stress_Pa");
+    for (int c = 0; c < n_cells; ++c) stress->InsertNextValue(1e3 * (n_cells / 2 - c));
+    grid->GetCellData()->AddArray(stress);
+    write_grid(folder / (name + ".vtu"), *grid);
     scenes.push_back({.name = name,
                       .title = "Mode " + std::to_string(k) + ", " + hostile_name,
                       .caption = "The size has no meaning.",
@@ -125,6 +131,9 @@ inline Page example_page(const std::filesystem::path& folder, const std::size_t 
                       .displacement = "displacement_m",
                       .colour_label = "Displacement, relative"});
   }
+  scenes.back().colour_field = "stress_Pa";
+  scenes.back().colour_label = "Stress [kPa]";
+  scenes.back().colour_factor = 1e-3;
   Table table({{"record", ""}, {"error", "%", 3}, {"note, \"quoted\"", ""}});
   table.add_row({hostile_name, 1. / 3., "-"});
   table.add_row({"plain", 12., {}});

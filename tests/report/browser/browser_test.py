@@ -292,8 +292,14 @@ class Page:
         assert turned != one
         ActionChains(self.driver).move_to_element(canvas).click_and_hold().move_by_offset(40, 20).release().perform()
         assert picture() != turned
+        one = picture()
         self.run("const s = document.querySelector('.view select'); s.value = '1'; s.dispatchEvent(new Event('change'))")
-        assert state()["shown"] == 1
+        assert state()["shown"] == 1 and picture() != one
+        bar = self.driver.find_element(By.CSS_SELECTOR, ".bar").text
+        assert "Stress [kPa]" in bar and "-6" in bar, bar
+        lines = self.run("return vibrissaReport.csvOf('views', 0).text.split('\\n')")
+        assert lines[0] == "x,y,z,ux,uy,uz,Stress [kPa]", lines[0]
+        assert len(lines) == 3 * state()["triangles"] + 2 and all(len(l.split(",")) == 7 for l in lines[:-1])
         self.media(STILL)
         self.open()
         assert not self.run("return vibrissaReport.views[0].state().playing")
