@@ -4,6 +4,7 @@
 
 #include "apps/command.h"
 #include "apps/diagnosis_figures.h"
+#include "apps/diagnosis_page.h"
 #include "apps/figure_diagnosis.h"
 #include "apps/nominal_input.h"
 #include "apps/record_options.h"
@@ -40,6 +41,7 @@ void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& d
   for (const report::Figure& figure : diagnosis_figures(diagnosis))
     report::write_figure(folder.path(), figure);
   const auto pictures = report::draw_pictures(folder.path());
+  report::write_page(folder.path(), diagnosis_page(diagnosis));
   if (!options.common.is_talkative()) return;
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
@@ -94,8 +96,9 @@ void add_diagnose_command(CLI::App& app) {
                       "Dataset of the real sensor: a folder, or one record");
   options->record.add_to(*command);
   options->figures.add_to(*command);
-  command->add_option("-o,--out", options->folder,
-                      "New folder for diagnosis.json, mended_model.json, ranking.csv and pictures");
+  command->add_option(
+      "-o,--out", options->folder,
+      "New folder for report.html, diagnosis.json, mended_model.json, ranking.csv and pictures");
   command
       ->add_option("--max-effects", options->max_effects,
                    "Most effects that are combined beside retuned parameters")

@@ -8,14 +8,13 @@
 #include "apps/paper_figures.h"
 #include "apps/paper_numbers.h"
 #include "apps/paper_rig.h"
+#include "apps/reproduction_page.h"
 #include "report/pictures.h"
 #include "report/run_folder.h"
 
 namespace vibrissa::apps {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ReproduceOptions {
   CommonOptions common;
@@ -41,16 +40,15 @@ Reproduction reproduce_paper(const ReproduceOptions& options, const bool show_pr
           .readings = std::move(readings)};
 }
 
-void write_figures(const fs::path& folder, const Reproduction& result) {
-  for (const auto& figure : {step_responses(result.sensors.wire), steady_responses(result.sensors),
-                             base_responses(result.sensors),
-                             estimates(result.simulation, "figure_10_simulation",
-                                       "Simulation: wind moment, true and separated"),
-                             estimates(result.experiment, "figure_11_experiment",
-                                       "Simulated experiment: wind moment, true and separated"),
-                             experiment_spectra(result.experiment)}) {
-    report::write_figure(folder, figure);
-  }
+std::vector<report::Figure> figures_of(const Reproduction& result) {
+  return {step_responses(result.sensors.wire),
+          steady_responses(result.sensors),
+          base_responses(result.sensors),
+          estimates(result.simulation, "figure_10_simulation",
+                    "Simulation: wind moment, true and separated"),
+          estimates(result.experiment, "figure_11_experiment",
+                    "Simulated experiment: wind moment, true and separated"),
+          experiment_spectra(result.experiment)};
 }
 
 std::string report_text(const Reproduction& result) {
@@ -74,11 +72,13 @@ void reproduce(const ReproduceOptions& options) {
   folder.write_text("reproduction.md", text);
   folder.write_text("numbers.csv", numbers_table(paper_numbers(result)).to_csv());
   folder.write_text("fdaf_readings.csv", readings_table(result.readings).to_csv());
-  write_figures(folder.path(), result);
+  const std::vector<report::Figure> figures = figures_of(result);
+  for (const report::Figure& figure : figures) report::write_figure(folder.path(), figure);
   nlohmann::json document = reproduction_json(result);
   document["folder"] = folder.path().string();
   folder.write_json("summary.json", document);
   const auto pictures = report::draw_pictures(folder.path());
+  report::write_page(folder.path(), reproduction_page(result, figures));
   if (options.common.json) {
     print_json(document);
     return;

@@ -4,6 +4,7 @@
 
 #include "apps/command.h"
 #include "apps/trial_files.h"
+#include "apps/trial_page.h"
 #include "apps/trial_run.h"
 #include "apps/trial_score.h"
 #include "report/child_process.h"
@@ -81,6 +82,7 @@ void score(const TrialCommand& options) {
   for (const report::Figure& figure : trial_figures(score))
     report::write_figure(folder.path(), figure);
   const auto pictures = report::draw_pictures(folder.path());
+  report::write_page(folder.path(), trial_page(score, trial.commitment));
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
 

@@ -59,11 +59,9 @@ report::Figure response_figure(const diagnosis::Diagnosis& diagnosis) {
           .panels = {panel}};
 }
 
-report::Figure trace_figure(const diagnosis::Diagnosis& diagnosis) {
+/// The first n samples.
+report::Panel trace_panel(const diagnosis::Diagnosis& diagnosis, const std::size_t n) {
   const diagnosis::TraceComparison& trace = diagnosis.trace;
-  // A second shows the swings; the CSV beside the picture holds what is drawn.
-  std::size_t n = 0;
-  while (n < trace.time_s.size() && trace.time_s[n] < trace.time_s.front() + 1.) ++n;
   const auto part = [n](const std::vector<double>& x, double scale) {
     std::vector<double> out(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
     for (double& value : out) value *= scale;
@@ -80,9 +78,37 @@ report::Figure trace_figure(const diagnosis::Diagnosis& diagnosis) {
                           .style = report::CurveStyle::dashed,
                           .x = part(trace.time_s, 1.),
                           .y = part(trace.mended, 1e6)});
+  return panel;
+}
+
+report::Figure trace_figure(const diagnosis::Diagnosis& diagnosis) {
+  const std::vector<double>& time_s = diagnosis.trace.time_s;
+  // A second shows the swings; the CSV beside the picture holds what is drawn.
+  std::size_t n = 0;
+  while (n < time_s.size() && time_s[n] < time_s.front() + 1.) ++n;
   return {.name = "held_out_trace",
           .title = "Held-out record before and after",
           .caption = "Free simulation of a record that was not used to fit.",
+          .panels = {trace_panel(diagnosis, n)}};
+}
+
+report::Figure ranking_figure(const std::vector<diagnosis::RankedAnswer>& ranking) {
+  report::Panel panel{.title = "Probability of each answer",
+                      .x_label = "Probability",
+                      .y_label = "Answer",
+                      .x_range = report::Range{0., 1.}};
+  report::Curve heads{.style = report::CurveStyle::points, .colour = 0};
+  for (auto answer = ranking.rbegin(); answer != ranking.rend(); ++answer) {
+    panel.y_names.push_back(answer->name);
+    const double row = static_cast<double>(panel.y_names.size());
+    heads.x.push_back(answer->probability);
+    heads.y.push_back(row);
+    panel.curves.push_back({.x = {0., answer->probability}, .y = {row, row}, .colour = 0});
+  }
+  panel.curves.push_back(std::move(heads));
+  return {.name = "ranking",
+          .title = "Answers",
+          .caption = "How probable each answer is, given these records.",
           .panels = {panel}};
 }
 
@@ -91,9 +117,20 @@ report::Figure trace_figure(const diagnosis::Diagnosis& diagnosis) {
 std::vector<report::Figure> diagnosis_figures(const diagnosis::Diagnosis& diagnosis) {
   std::vector<report::Figure> figures;
   if (!diagnosis.location.map.empty()) figures.push_back(gap_map(diagnosis.location));
+  if (!diagnosis.ranking.empty()) figures.push_back(ranking_figure(diagnosis.ranking));
   if (!diagnosis.response.frequency_hz.empty()) figures.push_back(response_figure(diagnosis));
   if (!diagnosis.trace.time_s.empty()) figures.push_back(trace_figure(diagnosis));
   return figures;
+}
+
+report::Figure held_out_record_figure(const diagnosis::Diagnosis& diagnosis) {
+  report::Figure figure = trace_figure(diagnosis);
+  report::Panel whole = trace_panel(diagnosis, diagnosis.trace.time_s.size());
+  whole.title += ", whole";
+  figure.panels.front().title = "Its first second";
+  figure.panels.insert(figure.panels.begin(), std::move(whole));
+  figure.name = "held_out_record";
+  return figure;
 }
 
 report::Table ranking_table(const diagnosis::Diagnosis& diagnosis) {

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "apps/diagnosis_page.h"
 #include "diagnosis/resonance_gap_text.h"
 #include "diagnosis/resonance_model.h"
 #include "report/run_folder.h"
@@ -78,6 +79,7 @@ void diagnose_figures(const FigureInput& figures, const NominalInput& simulation
   results.write_run({.command_line = given_command_line()});
   results.write_text("resonance_gap.json", document);
   results.write_text("verdict.txt", text);
+  report::write_page(results.path(), resonance_gap_page(diagnosis));
 }
 
 }  // namespace vibrissa::apps

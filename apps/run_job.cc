@@ -13,6 +13,7 @@
 #include "apps/mode_table.h"
 #include "apps/rig.h"
 #include "apps/run_figures.h"
+#include "apps/run_page.h"
 #include "apps/sensor_model.h"
 #include "apps/separation_methods.h"
 #include "fem/processes.h"
@@ -130,8 +131,14 @@ Results simulate_and_separate(const signals::ReducedModel& model, const Case& pa
   return {model, std::move(records), std::move(identified), std::move(separated)};
 }
 
+std::vector<report::Figure> run_figures(const Results& results) {
+  return {run_bode(results.model, results.identified, results.records),
+          records_figure(results.records), separation_figure(results.records, results.separated),
+          spectra_figure(results.records, results.separated)};
+}
+
 void write_results(const report::RunFolder& folder, const fem::Sensor& sensor,
-                   const Results& results) {
+                   const Results& results, const std::vector<report::Figure>& figures) {
   folder.write_text("modes.csv", modes_table(sensor).to_csv());
   signals::write_reduced_model(folder.file("model.json"), results.model);
   signals::write_record(folder.file("records/vibration_only.csv"), results.records.vibration_only);
@@ -141,12 +148,7 @@ void write_results(const report::RunFolder& folder, const fem::Sensor& sensor,
                         separated_record(results.records, results.separated));
   separation::write_bvrm(folder.file("bvrm.json"), results.identified.fit.model);
   folder.write_text("metrics.csv", separation_table(results.separated).to_csv());
-  for (const auto& figure :
-       {run_bode(results.model, results.identified, results.records),
-        records_figure(results.records), separation_figure(results.records, results.separated),
-        spectra_figure(results.records, results.separated)}) {
-    report::write_figure(folder.path(), figure);
-  }
+  for (const auto& figure : figures) report::write_figure(folder.path(), figure);
 }
 
 void write_mode_animations(const fs::path& folder, const fem::Sensor& sensor) {
@@ -155,27 +157,43 @@ void write_mode_animations(const fs::path& folder, const fem::Sensor& sensor) {
   for (std::size_t k = 1; k <= n; ++k) fem::write_mode_animation(folder, sensor, k);
 }
 
-void write_picture_of_first_mode(const report::RunFolder& folder, const fem::Sensor& sensor) {
-  const auto& first = sensor.modes()[0];
-  report::write_mode_picture(
-      folder.path(), {.name = "mode_1",
-                      .title = "First mode, " + report::Cell(first.frequency_hz).rounded(4) + " Hz",
-                      .caption = "Shape at a size that can be seen; the size has no meaning.",
-                      .vtu = fem::n_processes() == 1 ? "vtk/mode_1_0.vtu" : "vtk/mode_1_0.pvtu",
-                      .displacement = "displacement_m",
-                      .colour_label = "Displacement (relative)",
-                      .scale = 1.});
+/// Of the modes that have an animation.
+std::vector<report::ModePicture> mode_pictures(const fem::Sensor& sensor) {
+  std::vector<report::ModePicture> pictures;
+  for (std::size_t k = 1; k <= std::min(n_animated_modes, sensor.modes().size()); ++k) {
+    const std::string name = "mode_" + std::to_string(k),
+                      file = "vtk/" + name + (fem::n_processes() == 1 ? "_0.vtu" : "_0.pvtu"),
+                      frequency = report::Cell(sensor.modes()[k - 1].frequency_hz).rounded(4);
+    pictures.push_back({.name = name,
+                        .title = (k == 1 ? "First mode, " : "Mode " + std::to_string(k) + ", ") +
+                                 frequency + " Hz",
+                        .caption = "Shape at a size that can be seen; the size has no meaning.",
+                        .vtu = file,
+                        .displacement = "displacement_m",
+                        .colour_label = "Displacement (relative)",
+                        .scale = 1.});
+  }
+  return pictures;
 }
 
-/// What needs no solid: of the first process.
-void do_signals_part(const report::RunFolder& folder, const fem::Sensor& sensor,
-                     const Case& parameters, const Inputs& inputs,
-                     const signals::ReducedModel& model, RunOutcome& outcome) {
+/// What needs no solid: of the first process. Returns what is said of it on the page.
+RunPageParts do_signals_part(const report::RunFolder& folder, const fem::Sensor& sensor,
+                             const Case& parameters, const Inputs& inputs,
+                             const signals::ReducedModel& model, RunOutcome& outcome) {
   const Results results = simulate_and_separate(model, parameters, inputs);
-  write_results(folder, sensor, results);
+  RunPageParts parts{.modes = modes_table(sensor),
+                     .resonance_hz = sensor.modes()[0].frequency_hz,
+                     .damping_ratio = sensor.damping_ratios()[0],
+                     .calibration_note = parameters.sensor.model.calibration_note,
+                     .identified = results.identified,
+                     .separated = results.separated,
+                     .settling_s = parameters.separation.settling_s,
+                     .figures = run_figures(results)};
+  write_results(folder, sensor, results, parts.figures);
   outcome.separated = results.separated;
   outcome.summary["identification"] = separation::identification_json(results.identified);
   outcome.summary["separation"] = separation_json(results.separated);
+  return parts;
 }
 
 report::RunFolder new_run_folder(const CaseOptions& chosen, const CaseFile& file,
@@ -221,10 +239,14 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
   outcome.summary = modes_json(sensor);
   if (parameters.sensor.model.calibration_note)
     outcome.summary["calibration_note"] = *parameters.sensor.model.calibration_note;
-  if (folder) do_signals_part(*folder, sensor, parameters, inputs, model, outcome);
+  std::optional<RunPageParts> page;  // of the first process
+  if (folder) page = do_signals_part(*folder, sensor, parameters, inputs, model, outcome);
   if (parameters.output.vtk) {
     write_mode_animations(vtk_folder, sensor);
-    if (folder) write_picture_of_first_mode(*folder, sensor);
+    if (folder) {
+      page->shapes = mode_pictures(sensor);
+      report::write_mode_picture(folder->path(), page->shapes.front());
+    }
   }
   if (parameters.output.full_order_duration_s > 0.) {
     outcome.summary["full_order_check"] =
@@ -232,6 +254,7 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
   }
   if (!folder) return outcome;
   if (parameters.output.pictures) outcome.pictures = report::draw_pictures(folder->path());
+  report::write_page(folder->path(), run_page(*page));
   outcome.summary["folder"] = folder->path().string();
   folder->write_json("summary.json", outcome.summary);
   return outcome;

@@ -98,13 +98,8 @@ std::string verdict_line(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == "none") return "Verdict: no cause needed, noise explains it" + odds;
   if (diagnosis.verdict == "outside_catalogue")
     return "Verdict: something is there that no known effect explains" + odds;
-  const std::vector<std::string> ids = effect_ids(diagnosis.verdict);
-  const bool retune = std::all_of(ids.begin(), ids.end(), [](const std::string& id) {
-    const auto& all = effect_catalogue();
-    return std::any_of(all.begin(), all.end(),
-                       [&](const Effect& e) { return e.id == id && e.retune; });
-  });
-  return "Verdict: " + joined(ids, " + ") + odds + (retune ? ": recalibrate" : ": missing physics");
+  return "Verdict: " + joined(effect_ids(diagnosis.verdict), " + ") + odds +
+         (is_recalibration(diagnosis.verdict) ? ": recalibrate" : ": missing physics");
 }
 
 std::string placed(const Finding& finding) {
@@ -232,6 +227,15 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
       {"findings", findings},
       {"guesses", diagnosis.guesses}};
   return document.dump(2) + "\n";
+}
+
+bool is_recalibration(const std::string& answer) {
+  const std::vector<std::string> ids = effect_ids(answer);
+  return !ids.empty() && std::all_of(ids.begin(), ids.end(), [](const std::string& id) {
+    const auto& all = effect_catalogue();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Effect& e) { return e.id == id && e.retune; });
+  });
 }
 
 std::string verdict_text(const Diagnosis& diagnosis) {

@@ -11,6 +11,10 @@ namespace vibrissa::diagnosis {
 /// become null. Proven by tests/diagnosis/diagnosis_json_test.cc.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 
+/// Does the answer name mere parameter errors, so that the simulation wants recalibration and no
+/// new physics? False for "none" and "outside_catalogue".
+bool is_recalibration(const std::string& answer);
+
 /// At most 15 lines of at most 100 characters for a terminal.
 std::string verdict_text(const Diagnosis& diagnosis);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "report/html_text.h"
 #include "report/text.h"
 #include "signals/number_text.h"
 
@@ -98,6 +99,23 @@ std::string Table::to_markdown() const {
     markdown += '\n';
   }
   return markdown;
+}
+
+std::string Table::to_html(const std::string& caption) const {
+  const Text text = rounded_text();
+  std::string html = "<table><caption>" + html_escaped(caption) + "</caption>\n<thead>";
+  for (std::size_t l = 0; l < text.lines.size(); ++l) {
+    const bool head = l == 0;
+    html += "<tr>";
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      html += head ? "<th scope=\"col\"" : "<td";
+      html += text.right[c] ? " class=\"number\">" : ">";
+      html += html_escaped(text.lines[l][c]);
+      html += head ? "</th>" : "</td>";
+    }
+    html += head ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
+  }
+  return html + "</tbody></table>\n";
 }
 
 std::string Table::to_text() const {

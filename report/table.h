@@ -50,6 +50,9 @@ class Table {
   std::string to_csv() const;
   /// GitHub's table form; numbers to the right.
   std::string to_markdown() const;
+  /// A table element with a caption, headings with their scope and numbers in cells of class
+  /// "number"; all text is escaped.
+  std::string to_html(const std::string& caption) const;
   /// Aligned columns with a rule under the heading; numbers to the right.
   std::string to_text() const;
 

@@ -30,7 +30,7 @@ TEST(Run, LeavesEveryPromisedFile) {
   for (const std::string file :
        {"resolved.prm", "run.json", "modes.csv", "model.json", "bvrm.json", "metrics.csv",
         "summary.json", "records/vibration_only.csv", "records/wind_only.csv", "records/both.csv",
-        "records/separated.csv", "figures/bode.csv", "figures/separation.csv"}) {
+        "records/separated.csv", "figures/bode.csv", "figures/separation.csv", "report.html"}) {
     EXPECT_TRUE(std::filesystem::exists(runs().file("flow/" + file))) << file;
   }
   const json run = json::parse(content(runs().file("flow/run.json")));

@@ -43,6 +43,7 @@ TEST(DiagnoseCommand, LeavesTheExplanationInAFolder) {
   ASSERT_EQ(result.status, 0) << result.errors;
   EXPECT_EQ(content(folder.file("out/verdict.txt")), result.output);
   EXPECT_TRUE(fs::exists(folder.file("out/resonance_gap.json")));
+  EXPECT_THAT(content(folder.file("out/report.html")), HasSubstr("Likeliest: stiffness"));
 }
 
 TEST(DiagnoseCommand, RefusesFiguresThatContradict) {
@@ -103,8 +104,9 @@ TEST(DiagnoseCommand, LeavesVerdictRankingAndFigures) {
   const auto answer = nlohmann::json::parse(content(folder.file("out/diagnosis.json")));
   EXPECT_EQ(answer["schema"], "vibrissa-diagnosis-1");
   EXPECT_THAT(result.output, HasSubstr(answer["verdict"].get<std::string>()));
-  for (const char* name : {"ranking.csv", "verdict.txt", "run.json", "figures/gap_map.csv",
-                           "figures/response.csv", "figures/held_out_trace.csv"})
+  for (const char* name :
+       {"ranking.csv", "verdict.txt", "run.json", "figures/gap_map.csv", "figures/response.csv",
+        "figures/held_out_trace.csv", "figures/ranking.csv", "report.html"})
     EXPECT_TRUE(fs::exists(folder.file(std::string("out/") + name))) << name;
 }
 

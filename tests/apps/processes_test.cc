@@ -125,6 +125,7 @@ TEST_F(Processes, DoTheMainJob) {
   EXPECT_LT(summary["full_order_check"]["two_moment_routes_relative_difference"], 1e-6);
   EXPECT_THAT(content(out + "/vtk/transient.pvd"), HasSubstr("transient_0.pvtu"));
   EXPECT_TRUE(fs::exists(out + "/vtk/mode_1_0.pvtu"));
+  EXPECT_THAT(content(out + "/report.html"), HasSubstr("\"title\":\"First mode, "));
 }
 
 TEST_F(Processes, SayOnceWhatIsWrongForAll) {

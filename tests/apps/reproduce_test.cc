@@ -50,6 +50,8 @@ TEST(Reproduce, LeavesEveryFigureAsDataAndTheTableOfNumbers) {
         << figure;
   }
   EXPECT_THAT(content(reproduction().file("r/reproduction.md")), testing::HasSubstr("31.47"));
+  EXPECT_THAT(content(reproduction().file("r/report.html")),
+              testing::HasSubstr("numbers that the paper states come out within 10 %"));
 }
 
 TEST(Reproduce, CleanRecordsOfBothSensorsFitTo99Point5PercentOnHeldOutData) {

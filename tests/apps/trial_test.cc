@@ -158,6 +158,9 @@ TEST(Trial, OfTenSensorsIsMadeRunAndScored) {
   EXPECT_EQ(shares["none, false alarm"]["hits"], 0);
   EXPECT_GE(shares["single of all sizes, right"]["hits"], 2);
   EXPECT_LE(shares["wrong name above 0.8"]["hits"], 3);
+  ASSERT_EQ(vibrissa("trial score --key '" + folder.file("elsewhere") + "' '" + trial + "'").status,
+            0);
+  EXPECT_NE(content(trial + "/score/report.html").find(" of 10 sealed sensors"), std::string::npos);
   // Answers that are there are not made again.
   const auto again = vibrissa("trial run --json --max-effects 2 '" + trial + "'");
   EXPECT_EQ(json::parse(again.output)["there_before"], 10);

@@ -182,5 +182,13 @@ TEST(VerdictText, TellsACalibrationFromPhysics) {
   EXPECT_THAT(verdict_text(diagnosis), HasSubstr("no known effect"));
 }
 
+TEST(DiagnosisJson, TellsRecalibrationFromMissingPhysics) {
+  EXPECT_TRUE(is_recalibration("stiffness"));
+  EXPECT_TRUE(is_recalibration("damping+stiffness"));
+  EXPECT_FALSE(is_recalibration("joint_friction+stiffness"));
+  EXPECT_FALSE(is_recalibration("none"));
+  EXPECT_FALSE(is_recalibration("outside_catalogue"));
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis

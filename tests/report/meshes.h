@@ -1,5 +1,6 @@
 #pragma once
 
+#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkLagrangeHexahedron.h>

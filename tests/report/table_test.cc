@@ -72,5 +72,15 @@ TEST(Table, WithoutRowsStillHasItsHeading) {
   EXPECT_EQ(table.to_text(), "name [m]\n--------\n");
 }
 
+TEST(Table, HtmlEscapesTextNamesItsColumnsAndMarksNumbers) {
+  Table table({{"record", ""}, {"error <b>", "%", 3}});
+  table.add_row({"<script>", 1. / 3.});
+  EXPECT_EQ(table.to_html("Errors & more"),
+            "<table><caption>Errors &amp; more</caption>\n<thead><tr><th scope=\"col\">record</th>"
+            "<th scope=\"col\" class=\"number\">error &lt;b&gt; [%]</th></tr></thead>\n<tbody>\n"
+            "<tr><td>&lt;script&gt;</td><td class=\"number\">0.333</td></tr>\n"
+            "</tbody></table>\n");
+}
+
 }  // namespace
 }  // namespace vibrissa::report

@@ -1,0 +1,121 @@
+#include "apps/diagnosis_page.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/apps/program.h"
+
+namespace vibrissa::apps {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::SizeIs;
+
+constexpr const char* hostile = R"(a</script><script>alert("1")</script>)";
+
+diagnosis::Diagnosis example() {
+  diagnosis::Diagnosis d;
+  d.verdict = "joint_friction+stiffness";
+  diagnosis::ErrorScore score{.record = hostile,
+                              .nrmse_before = 0.78,
+                              .nrmse_after = 0.03,
+                              .noise_floor = 0.02,
+                              .gap_closed = 0.97,
+                              .gap_closed_ci95 = std::array{0.95, 0.98}};
+  diagnosis::RankedAnswer first{
+      .name = d.verdict,
+      .probability = 0.9,
+      .parameters = {{"stiffness", "ratio", "1", 0.71, {0.7, 0.72}}},
+      .held_out = diagnosis::HeldOutScore{.overall = score, .records = {score}},
+      .shares = {{"stiffness", 0.8}, {"joint_friction", 0.2}}};
+  d.ranking = {first,
+               {.name = "stiffness", .probability = 0.1},
+               {.name = "delay", .probability = 1e-6, .parameters = {{"delay", "time", "s"}}}};
+  d.wind_speed = {.before_m_s = 0.15, .after_m_s = 0.012};
+  d.findings = {{diagnosis::FindingKind::clipped_channel, hostile, "is clipped"}};
+  d.next = {.name = "wide_band", .why = "it splits", .split_probability = 0.4};
+  d.trace = {.record = hostile};
+  for (int i = 0; i < 4000; ++i) {
+    d.trace.time_s.push_back(i / 1000.);
+    for (auto* list : {&d.trace.measured, &d.trace.nominal, &d.trace.mended})
+      list->push_back(1e-6 * std::sin(0.1 * i));
+  }
+  return d;
+}
+
+TEST(DiagnosisPage, SaysTheVerdictThenWhereWhatHowFarAndWhatNext) {
+  const report::Page page = diagnosis_page(example());
+  EXPECT_EQ(page.headline,
+            "Joint friction and stiffness explain why the bench differs from the simulation");
+  EXPECT_THAT(page.verdict,
+              ElementsAre("The simulation lacks this physics.", HasSubstr("Doubtful: a</script>")));
+  std::vector<std::string> headings;
+  for (const report::PageSection& section : page.sections) headings.push_back(section.heading);
+  EXPECT_THAT(headings, ElementsAre("Where", "What", "How far", "What next"));
+  EXPECT_THAT(page.sections[3].text, ElementsAre(HasSubstr("Measure wide band: it splits")));
+}
+
+TEST(DiagnosisPage, GivesEachNumberItsUnitAndItsInterval) {
+  const report::Page page = diagnosis_page(example());
+  ASSERT_THAT(page.numbers, SizeIs(4));
+  EXPECT_EQ(page.numbers[0].value, "90 %");
+  EXPECT_EQ(page.numbers[1].value, "97 %");
+  EXPECT_EQ(page.numbers[1].note, "95 % interval 95 % to 98 %");
+  EXPECT_EQ(page.numbers[2].value, "3.0 %");
+  EXPECT_EQ(page.numbers[3].value, "0.0120 m/s");
+}
+
+TEST(DiagnosisPage, ShowsTheParametersOfAnswersThatAreNotImprobable) {
+  const report::PageSection what = diagnosis_page(example()).sections[1];
+  ASSERT_THAT(what.tables, SizeIs(3));
+  EXPECT_EQ(what.tables[1].table.to_csv(),
+            "answer,effect,parameter,value,95 % from,95 % to,unit\n"
+            "joint_friction+stiffness,stiffness,ratio,0.71,0.7,0.72,1\n");
+}
+
+TEST(DiagnosisPage, ShowsTheWholeHeldOutRecordAndItsFirstSecond) {
+  const report::PageSection how_far = diagnosis_page(example()).sections[2];
+  ASSERT_THAT(how_far.figures, SizeIs(1));
+  ASSERT_THAT(how_far.figures[0].panels, SizeIs(2));
+  EXPECT_THAT(how_far.figures[0].panels[0].curves[0].x, SizeIs(4000));
+  EXPECT_THAT(how_far.figures[0].panels[1].curves[0].x, SizeIs(1000));
+}
+
+TEST(DiagnosisPage, SaysInPlainWordsWhatIsNoEffect) {
+  diagnosis::Diagnosis d;
+  EXPECT_THAT(diagnosis_page(d).headline, HasSubstr("No cause is needed"));
+  d.verdict = "outside_catalogue";
+  EXPECT_THAT(diagnosis_page(d).headline, HasSubstr("no known effect explains"));
+  d.verdict = "stiffness";
+  EXPECT_THAT(diagnosis_page(d).verdict, ElementsAre(HasSubstr("wants recalibration")));
+  d.verdict = "delay";
+  EXPECT_THAT(diagnosis_page(d).headline, HasSubstr("Delay explains why"));
+}
+
+TEST(DiagnosisPage, NamesOfRecordsNeverBecomeMarkup) {
+  const Folder folder;
+  const std::string html = report::to_html(diagnosis_page(example()), folder.file(""));
+  EXPECT_THAT(html, Not(HasSubstr(hostile)));
+  EXPECT_THAT(html, HasSubstr("a&lt;/script&gt;&lt;script&gt;alert(&quot;1&quot;)"));
+  EXPECT_THAT(html, HasSubstr(R"(a\u003c/script\u003e\u003cscript\u003ealert(\"1\"))"));
+}
+
+TEST(DiagnosisPage, HoldsADiagnosisOfSixtySecondsInSixMegabytes) {
+  diagnosis::Diagnosis d = example();
+  d.trace = {.record = "long"};
+  for (int i = 0; i < 60000; ++i) {
+    d.trace.time_s.push_back(i / 1000.);
+    for (auto* list : {&d.trace.measured, &d.trace.nominal, &d.trace.mended})
+      list->push_back(1e-6 *
+                      std::sin(0.1 * i * static_cast<double>(list == &d.trace.nominal ? 2 : 1) +
+                               (list == &d.trace.mended ? 0.3 : 0.)));
+  }
+  const Folder folder;
+  EXPECT_LT(report::to_html(diagnosis_page(d), folder.file("")).size(), 6000000u);
+}
+
+}  // namespace
+}  // namespace vibrissa::apps
