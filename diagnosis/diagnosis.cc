@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/indistinguishable.h"
+#include "diagnosis/long_records.h"
 #include "signals/error.h"
 
 namespace vibrissa::diagnosis {
@@ -162,15 +163,16 @@ MendedModel mended_model(const Experiment& experiment, const HypothesisFit& fit)
   return model;
 }
 
-Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
+Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& recorded,
                    const DiagnoseOptions& options) {
   check_menu_names(options.possible_experiments);
   const NominalModel& nominal = simulation.nominal;
   Diagnosis out;
-  out.guesses = real.guesses;
-  out.findings = check_data(nominal, real, options.simulated_rate_hz);
+  out.findings = check_data(nominal, recorded, options.simulated_rate_hz);
   refuse_spoilt_data(out.findings);
-  refuse_poor_data(nominal, real, out.findings);
+  refuse_poor_data(nominal, recorded, out.findings);
+  const signals::Dataset real = in_pieces(recorded);
+  out.guesses = real.guesses;
   const Experiment experiment =
       prepare_experiment(simulation, real, signals::Split::fit, InputNoise::reduced);
   out.untested = untested_effects(experiment);
