@@ -4,6 +4,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <optional>
+
 #include "apps/case_options.h"
 #include "apps/inputs.h"
 #include "apps/rig.h"
@@ -15,6 +17,12 @@ namespace vibrissa::python {
 namespace {
 
 namespace py = pybind11;
+
+// MPI begins and ends once a process, whatever the number of calls.
+std::optional<fem::SolverSession>& session() {
+  static std::optional<fem::SolverSession> of_process;
+  return of_process;
+}
 
 apps::Case read_case(const std::string& file, const std::vector<std::string>& settings) {
   apps::CaseOptions options;
@@ -28,7 +36,7 @@ py::tuple simulate(const std::string& file, const std::vector<std::string>& sett
   const apps::Case parameters = read_case(file, settings);
   apps::check_reduced_wind(parameters);
   const apps::Inputs inputs = apps::make_inputs(parameters);
-  const fem::SolverSession session;
+  if (!session()) session().emplace();
   const fem::Sensor sensor(parameters.sensor);
   const auto model = apps::make_reduced_model(sensor, parameters.sensor, false);
   const signals::Record record = apps::measure_on_rig(model, parameters, inputs).both;
@@ -44,7 +52,7 @@ py::tuple simulate(const std::string& file, const std::vector<std::string>& sett
 void write_model(const std::string& file, const std::vector<std::string>& settings,
                  const std::string& to) {
   const apps::Case parameters = read_case(file, settings);
-  const fem::SolverSession session;
+  if (!session()) session().emplace();
   signals::write_reduced_model(
       to, apps::make_reduced_model(fem::Sensor(parameters.sensor), parameters.sensor, false));
 }
@@ -62,6 +70,8 @@ PYBIND11_MODULE(_solid, module) {
       PyErr_SetString(kind.ptr(), error.what());
     }
   });
+  py::module_::import("atexit").attr("register")(
+      py::cpp_function([] { vibrissa::python::session().reset(); }));
   module.def("simulate", &vibrissa::python::simulate, py::arg("case"), py::arg("settings"));
   module.def("write_model", &vibrissa::python::write_model, py::arg("case"), py::arg("settings"),
              py::arg("to"));

@@ -9,7 +9,7 @@ namespace vibrissa::signals {
 
 /// An HDF5 file in memory, of arrays of doubles and texts under paths such as "vectors/velocity";
 /// any HDF5 tool reads it. Proven by tests/fem/checkpoint_test.cc and
-/// tests/signals/formats/exchange.py.
+/// tests/apps/exchange.py.
 class Hdf5Writer {
  public:
   Hdf5Writer();

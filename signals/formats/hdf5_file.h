@@ -14,7 +14,7 @@ std::unique_ptr<RecordTable> read_hdf5(const std::filesystem::path& file);
 
 /// time_s, sampling_rate_hz, start_s and the channels as arrays of doubles at the top, to the last
 /// bit; the attribute "conventions" says in words what they are.
-/// Proven by tests/signals/formats/round_trip_test.cc and exchange.py.
+/// Proven by tests/signals/formats/round_trip_test.cc, tests/apps/exchange.py.
 void write_hdf5(const std::filesystem::path& file, const Record& record);
 
 }  // namespace vibrissa::signals::formats

@@ -17,7 +17,7 @@ std::unique_ptr<RecordTable> read_mat(const std::filesystem::path& file);
 
 /// sampling_rate_hz, start_s, time_s and the channels as column vectors of doubles, to the last
 /// bit. A record too long for version 5 (2 GiB a variable) is written as 7.3. Proven by
-/// tests/signals/formats/round_trip_test.cc and exchange.py.
+/// tests/signals/formats/round_trip_test.cc and tests/apps/exchange.py.
 void write_mat(const std::filesystem::path& file, const Record& record,
                MatVersion version = MatVersion::v5);
 

@@ -17,7 +17,7 @@ std::unique_ptr<RecordTable> parse_npy(const std::string& bytes, const std::stri
 
 /// A vector of a structured type: time_s and the channels, doubles to the last bit. Its format has
 /// no room for the clock, which is read from time_s.
-/// Proven by tests/signals/formats/round_trip_test.cc and exchange.py.
+/// Proven by tests/signals/formats/round_trip_test.cc, tests/apps/exchange.py.
 void write_npy(const std::filesystem::path& file, const Record& record);
 
 }  // namespace vibrissa::signals::formats
