@@ -10,7 +10,7 @@ namespace vibrissa::report {
 /// what follows, by tests/report/html_text_test.cc.
 std::string html_escaped(std::string_view text);
 
-/// <tag>text</tag> and a line break; the text is escaped.
+/// An element of this tag with the text, escaped, and a line break.
 std::string html_element(const std::string& tag, std::string_view text);
 
 /// JSON that stays within a script element whatever its strings hold: no '<', '>' or '&' as such.
