@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "apps/command_names.h"
+
 namespace vibrissa::apps {
 namespace {
 
@@ -64,13 +66,6 @@ std::string words(const std::vector<std::string>& names) {
   return text;
 }
 
-std::vector<std::string> names_of_options(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* const option : command.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  return names;
-}
-
 }  // namespace
 
 std::string manual_page(CLI::App& app) {
@@ -86,20 +81,19 @@ std::string manual_page(CLI::App& app) {
 
 std::string completion_script(CLI::App& app, const std::string& shell) {
   std::ostringstream script;
-  std::vector<std::string> commands;
   if (shell == "zsh") script << "autoload -U +X bashcompinit && bashcompinit\n";
   script << "_vibrissa() {\n  local word=\"${COMP_WORDS[COMP_CWORD]}\" options=\"\"\n"
             "  case \"${COMP_WORDS[1]}\" in\n";
   for (const CLI::App* const command : app.get_subcommands({})) {
-    commands.push_back(command->get_name());
-    std::vector<std::string> known = names_of_options(*command);
+    std::vector<std::string> known = option_names(*command);
     for (const CLI::App* const inner : command->get_subcommands({})) {
       known.push_back(inner->get_name());
-      for (const std::string& name : names_of_options(*inner)) known.push_back(name);
+      for (const std::string& name : option_names(*inner)) known.push_back(name);
     }
     script << "    " << command->get_name() << ") options=\"" << words(known) << "\" ;;\n";
   }
-  script << "  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    options=\"" << words(commands)
+  script << "  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    options=\""
+         << words(command_names(app))
          << "\"\n  fi\n"
             "  COMPREPLY=($(compgen -W \"$options\" -- \"$word\") $(compgen -f -- \"$word\"))\n}\n"
             "complete -o filenames -F _vibrissa vibrissa\n";

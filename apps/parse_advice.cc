@@ -3,24 +3,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "apps/command_names.h"
 #include "signals/error.h"
 
 namespace vibrissa::apps {
 namespace {
-
-std::vector<std::string> command_names(CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* const command : app.get_subcommands({}))
-    names.push_back(command->get_name());
-  return names;
-}
-
-std::vector<std::string> option_names(const CLI::App& command) {
-  std::vector<std::string> names;
-  for (const CLI::Option* const option : command.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  return names;
-}
 
 CLI::App* find_command(CLI::App& app, const std::string& name) {
   for (CLI::App* const command : app.get_subcommands({}))
