@@ -4,17 +4,20 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <string>
 
 namespace vibrissa::apps {
+
+std::string blas_kernel_name() {
+  using NameFunction = const char* (*)();
+  const auto name = reinterpret_cast<NameFunction>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+  return name == nullptr ? "" : name();
+}
 
 void use_fast_blas_kernel(char** arguments) {
 #if defined(__x86_64__)
   constexpr const char* variable = "OPENBLAS_CORETYPE";
   if (std::getenv(variable) != nullptr) return;
-  using NameFunction = const char* (*)();
-  const auto name = reinterpret_cast<NameFunction>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
-  if (name == nullptr || std::string(name()) != "Prescott") return;
+  if (blas_kernel_name() != slow_blas_kernel) return;
   __builtin_cpu_init();
   const char* better = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")
                            ? "SkylakeX"

@@ -3,7 +3,7 @@
 
 #include "apps/command.h"
 #include "apps/record_options.h"
-#include "signals/error.h"
+#include "signals/formats/file_format.h"
 #include "signals/formats/mat_file.h"
 #include "signals/record_io.h"
 
@@ -19,19 +19,14 @@ struct ConvertOptions {
 
 void convert(const ConvertOptions& options) {
   const signals::Record record = options.record.read(options.from);
-  if (options.mat_version == "7.3" && std::filesystem::path(options.to).extension() == ".mat")
+  if (options.mat_version == "7.3" && signals::formats::extension_of(options.to) == ".mat")
     signals::formats::write_mat(options.to, record, signals::formats::MatVersion::v7_3);
   else
     signals::write_record(options.to, record);
-  if (options.common.json) {
-    print_json({{"record", options.to},
-                {"samples", record.n_samples()},
-                {"sampling_rate_hz", record.sampling_rate_hz()},
-                {"channels", record.channel_names()}});
-  } else if (!options.common.quiet) {
-    std::cout << "wrote " << options.to << ": " << record.n_samples() << " samples at "
-              << record.sampling_rate_hz() << " Hz\n";
-  }
+  if (options.common.json)
+    print_json(written_record_json(options.to, record));
+  else if (!options.common.quiet)
+    std::cout << written_record_text(options.to, record);
 }
 
 }  // namespace

@@ -1,16 +1,15 @@
-#include <dlfcn.h>
 #include <unistd.h>
 
-#include <clocale>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <memory>
 #include <thread>
 
+#include "apps/blas_kernel.h"
 #include "apps/command.h"
+#include "report/child_process.h"
 #include "report/revision.h"
 #include "report/table.h"
 
@@ -23,11 +22,7 @@ struct Check {
 };
 
 bool is_on_path(const std::string& program) {
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (::access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
-  return false;
+  return !report::find_program(program).empty();
 }
 
 Check check_display() {
@@ -39,16 +34,14 @@ Check check_display() {
 }
 
 Check check_blas() {
-  using NameFunction = const char* (*)();
-  const auto name = reinterpret_cast<NameFunction>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
-  if (name == nullptr)
+  const std::string kernel = blas_kernel_name();
+  if (kernel.empty())
     return {"BLAS", "not OpenBLAS",
             "factorisations are about five times slower: apt-get install libopenblas0-serial"};
-  const std::string core = name();
-  if (core == "Prescott")
-    return {"BLAS", "OpenBLAS for " + core,
-            "OpenBLAS does not know this processor: set OPENBLAS_CORETYPE, e.g. to Haswell"};
-  return {"BLAS", "OpenBLAS for " + core, ""};
+  return {"BLAS", "OpenBLAS for " + kernel,
+          kernel == slow_blas_kernel
+              ? "OpenBLAS does not know this processor: set OPENBLAS_CORETYPE, e.g. to Haswell"
+              : ""};
 }
 
 Check check_mpi() {
@@ -65,8 +58,7 @@ Check check_memory() {
     std::getline(in, unit);
     if (name == "MemAvailable:") available_gib = value / (1024. * 1024.);
   }
-  report::Cell rounded(available_gib);
-  const std::string found = rounded.rounded(3) + " GiB free";
+  const std::string found = report::Cell(available_gib).rounded(3) + " GiB free";
   constexpr double for_default_case_gib = 2.;
   if (available_gib >= for_default_case_gib) return {"memory", found, ""};
   return {"memory", found,
@@ -80,7 +72,6 @@ Check check_processors() {
 }
 
 Check check_folder() {
-  const std::string here = std::filesystem::current_path().string();
   const bool writable = ::access(".", W_OK) == 0;
   std::error_code unknown;
   const auto space = std::filesystem::space(".", unknown);

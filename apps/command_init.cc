@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 #include <ostream>
+#include <string_view>
 
 #include "apps/case_file.h"
 #include "apps/command.h"
@@ -17,7 +18,7 @@ struct InitOptions {
   std::string file = "sensor.prm", kind = "flow";
 };
 
-void write_text(const std::string& file, const std::string& text) {
+void write_text(const std::string& file, const std::string_view text) {
   signals::write_file(file, [&](std::ostream& out) { out << text; });
 }
 
@@ -25,7 +26,7 @@ void init(const InitOptions& options) {
   if (std::filesystem::exists(options.file))
     throw signals::UserError(options.file +
                              ": is there already and is not overwritten; name another file");
-  write_text(options.file, options.kind == "flow" ? embedded_flow_sensor : embedded_whisker_sensor);
+  write_text(options.file, options.kind == "flow" ? flow_sensor_case() : whisker_sensor_case());
   // Every entry with its meaning, unit and range, the defaults filled in.
   write_text(options.file, CaseFile(options.file).resolved());
   if (options.common.json) {

@@ -5,6 +5,7 @@
 #include "apps/case_options.h"
 #include "apps/command.h"
 #include "apps/inputs.h"
+#include "apps/record_options.h"
 #include "apps/rig.h"
 #include "apps/sensor_model.h"
 #include "diagnosis/mended_model_json.h"
@@ -42,14 +43,11 @@ signals::Record mended_record(const SimulateOptions& options) {
 void report(const SimulateOptions& options, const signals::Record& record,
             const std::string& solver) {
   if (options.common.json) {
-    print_json({{"record", options.record_file},
-                {"samples", record.n_samples()},
-                {"sampling_rate_hz", record.sampling_rate_hz()},
-                {"channels", record.channel_names()},
-                {"solver", solver}});
+    nlohmann::json document = written_record_json(options.record_file, record);
+    document["solver"] = solver;
+    print_json(document);
   } else {
-    std::cout << "wrote " << options.record_file << ": " << record.n_samples() << " samples at "
-              << record.sampling_rate_hz() << " Hz\n";
+    std::cout << written_record_text(options.record_file, record);
   }
 }
 

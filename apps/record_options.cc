@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "signals/channel_name.h"
 #include "signals/error.h"
@@ -40,6 +42,20 @@ std::string full_channel_name(const std::string& name) {
   if (channel.empty())
     throw signals::UserError(signals::unknown_name("channel", name, signals::known_channels()));
   return channel;
+}
+
+nlohmann::json written_record_json(const std::string& file, const signals::Record& record) {
+  return {{"record", file},
+          {"samples", record.n_samples()},
+          {"sampling_rate_hz", record.sampling_rate_hz()},
+          {"channels", record.channel_names()}};
+}
+
+std::string written_record_text(const std::string& file, const signals::Record& record) {
+  std::ostringstream text;
+  text << "wrote " << file << ": " << record.n_samples() << " samples at "
+       << record.sampling_rate_hz() << " Hz\n";
+  return text.str();
 }
 
 void RecordOptions::add_to(CLI::App& command) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,11 @@ struct RecordOptions {
   /// One further column of the same rows, in its own unit.
   std::vector<double> read_column(const std::string& file, const std::string& column) const;
 };
+
+/// {"record", "samples", "sampling_rate_hz", "channels"}: what a command says of a record it wrote.
+nlohmann::json written_record_json(const std::string& file, const signals::Record& record);
+/// The same as a line.
+std::string written_record_text(const std::string& file, const signals::Record& record);
 
 /// FIRST:LAST, data rows counted from 1. Throws UserError naming the option.
 struct RowRange {

@@ -22,11 +22,17 @@ void add_pieces(const signals::DatasetRecord& entry, signals::Dataset& out) {
   for (std::size_t piece = 0; piece < n_pieces; ++piece) {
     std::size_t first = last * piece / (n_pieces - 1);
     if (entry.period_samples > 0) first = first / entry.period_samples * entry.period_samples;
-    signals::DatasetRecord cut = entry;
-    cut.name.append(1, '_').append(std::to_string(piece + 1));
-    cut.record = record.slice(first, length);
-    cut.clock_start_s += record.time_s(first) - record.time_s(0);
-    out.records.push_back(std::move(cut));
+    std::string name = entry.name;
+    name.append(1, '_').append(std::to_string(piece + 1));
+    out.records.push_back(
+        {.name = std::move(name),
+         .record = record.slice(first, length),
+         .excitation = entry.excitation,
+         .period_samples = entry.period_samples,
+         .split = entry.split,
+         .readout = entry.readout,
+         .setup = entry.setup,
+         .clock_start_s = entry.clock_start_s + record.time_s(first) - record.time_s(0)});
   }
   const double piece_s = static_cast<double>(length) / record.sampling_rate_hz();
   std::ostringstream guess;

@@ -73,21 +73,30 @@ void add_record_class(py::module_& module) {
       });
 }
 
+// A function of a path and of how its files are read.
+template <typename Read>
+void add_reader(py::module_& module, const char* const name, const char* const path,
+                const Read read, const char* const description) {
+  module.def(
+      name,
+      [read](const std::filesystem::path& file, const std::map<std::string, std::string>& columns,
+             const std::optional<double> sampling_rate_hz,
+             const std::vector<std::string>& remove_mean) {
+        return read(file, read_options(columns, sampling_rate_hz, remove_mean));
+      },
+      py::arg(path), py::kw_only(), py::arg("columns") = std::map<std::string, std::string>{},
+      py::arg("sampling_rate_hz") = py::none(), py::arg("remove_mean") = std::vector<std::string>{},
+      description);
+}
+
 }  // namespace
 
 void add_records(py::module_& module) {
   add_record_class(module);
-  module.def(
-      "read_record",
-      [](const std::filesystem::path& file, const std::map<std::string, std::string>& columns,
-         const std::optional<double> sampling_rate_hz,
-         const std::vector<std::string>& remove_mean) {
-        return signals::read_record(file, read_options(columns, sampling_rate_hz, remove_mean));
-      },
-      py::arg("file"), py::kw_only(), py::arg("columns") = std::map<std::string, std::string>{},
-      py::arg("sampling_rate_hz") = py::none(), py::arg("remove_mean") = std::vector<std::string>{},
-      "Reads .csv, .mat, .h5, .npy, .uff or .wav. columns: which column is which channel and in\n"
-      "which unit, as {'base_acceleration': 'ax[g]', 'base_moment': 'B[uT]*0.18[N m/T]'}.");
+  add_reader(
+      module, "read_record", "file", &signals::read_record,
+      "Reads .csv, .mat, .h5, .npy, .uff or .wav. columns: which column is which channel and "
+      "in\nwhich unit, as {'base_acceleration': 'ax[g]', 'base_moment': 'B[uT]*0.18[N m/T]'}.");
   module.def("write_record", &signals::write_record, py::arg("file"), py::arg("record"),
              "Writes .csv, .mat, .h5, .npy or .uff, by the end of the file's name.");
   py::class_<signals::Dataset>(module, "Dataset",
@@ -104,16 +113,8 @@ void add_records(py::module_& module) {
           "Name and record of each.")
       .def_readonly("guesses", &signals::Dataset::guesses,
                     "What had to be guessed because nothing says it.");
-  module.def(
-      "read_dataset",
-      [](const std::filesystem::path& source, const std::map<std::string, std::string>& columns,
-         const std::optional<double> sampling_rate_hz,
-         const std::vector<std::string>& remove_mean) {
-        return signals::read_dataset(source, read_options(columns, sampling_rate_hz, remove_mean));
-      },
-      py::arg("source"), py::kw_only(), py::arg("columns") = std::map<std::string, std::string>{},
-      py::arg("sampling_rate_hz") = py::none(), py::arg("remove_mean") = std::vector<std::string>{},
-      "Reads a folder of records with dataset.json, or without it; or one record.");
+  add_reader(module, "read_dataset", "source", &signals::read_dataset,
+             "Reads a folder of records with dataset.json, or without it; or one record.");
 }
 
 }  // namespace vibrissa::python

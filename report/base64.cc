@@ -1,20 +1,24 @@
 #include "report/base64.h"
 
+#include <openssl/evp.h>
+
 #include <algorithm>
-#include <cstdint>
+#include <limits>
 
 namespace vibrissa::report {
 
 std::string base64(const std::span<const std::byte> bytes) {
-  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  // The library counts in int: whole groups of three go piece by piece.
+  constexpr std::size_t piece = 3 * (std::size_t{1} << 20);
+  static_assert(piece < std::numeric_limits<int>::max());
   std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < n ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? letters[group >> (18 - 6 * k) & 63] : '=';
+  std::string block(4 * (piece / 3) + 1, ' ');
+  for (std::size_t at = 0; at < bytes.size(); at += piece) {
+    const auto part = bytes.subspan(at, std::min(piece, bytes.size() - at));
+    const int n = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(block.data()),
+                                  reinterpret_cast<const unsigned char*>(part.data()),
+                                  static_cast<int>(part.size()));
+    text.append(block, 0, static_cast<std::size_t>(n));
   }
   return text;
 }

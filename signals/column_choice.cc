@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "signals/channel_name.h"
 #include "signals/error.h"
 #include "signals/number_text.h"
+#include "signals/trimmed.h"
 #include "signals/unit.h"
 
 namespace vibrissa::signals {
@@ -16,12 +18,6 @@ namespace {
   throw UserError("column choice '" + choice + "': " + reason);
 }
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(' ');
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') + 1 - first);
-}
-
 // A name or a number, and the unit in brackets behind it.
 struct Quantity {
   std::string text;
@@ -29,10 +25,11 @@ struct Quantity {
 };
 
 Quantity quantity_of(const std::string& text) {
-  const std::string all = trimmed(text);
+  const std::string all(trimmed(text));
   const auto open = all.rfind('[');
   if (open == std::string::npos || !all.ends_with(']')) return {all, {}};
-  return {trimmed(all.substr(0, open)), all.substr(open + 1, all.size() - open - 2)};
+  return {std::string(trimmed(std::string_view(all).substr(0, open))),
+          all.substr(open + 1, all.size() - open - 2)};
 }
 
 // Where the last '*' outside brackets stands.
@@ -67,7 +64,7 @@ std::vector<Factor> take_factors(std::string& text, const std::string& choice) {
     const auto factor = factor_of(text.substr(star + 1));
     if (!factor && !factors.empty()) return factors;  // a star in the column's own name
     if (!factor || !std::isfinite(factor->value) || factor->value == 0.)
-      refuse(choice, "the scale '" + trimmed(text.substr(star + 1)) +
+      refuse(choice, "the scale '" + std::string(trimmed(std::string_view(text).substr(star + 1))) +
                          "' must be a finite number other than 0");
     factors.push_back(*factor);
     text.erase(star);
@@ -92,7 +89,7 @@ ColumnChoice parse_column_choice(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos)
     refuse(text, "expected channel=column, channel=column[unit] or channel=column*scale");
-  const std::string name = trimmed(text.substr(0, equals));
+  const std::string name(trimmed(std::string_view(text).substr(0, equals)));
   ColumnChoice choice;
   choice.channel = full_channel_name(name);
   if (choice.channel.empty()) refuse(text, unknown_name("channel", name, known_channels()));

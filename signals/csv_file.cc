@@ -7,6 +7,7 @@
 
 #include "signals/error.h"
 #include "signals/number_text.h"
+#include "signals/trimmed.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -19,12 +20,6 @@ FileBytes open_bytes(const std::filesystem::path& file) {
 
 constexpr std::size_t everything = std::numeric_limits<std::size_t>::max();
 constexpr const char* blanks = " \t\r\n";
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
-}
 
 // Where the field that starts at `at` ends: its comma, or the end of the line. Quotes hide commas
 // only in a field that starts with one.

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "signals/error.h"
-#include "signals/formats/record_table.h"
+#include "signals/formats/file_format.h"
 #include "signals/json_input.h"
 
 namespace vibrissa::signals {
@@ -161,15 +161,19 @@ bool moves(const Record& record, const std::string& channel) {
   return std::any_of(values.begin(), values.end(), [&](double v) { return v != values.front(); });
 }
 
+// Sound files are drives: what a sensor measured is in the other formats.
+bool may_be_a_record(const fs::path& file) {
+  const std::string extension = formats::extension_of(file);
+  const auto& known = formats::file_formats();
+  return std::any_of(known.begin(), known.end(), [&](const formats::FileFormat& format) {
+    return format.write && format.has(extension);
+  });
+}
+
 std::vector<fs::path> record_files(const fs::path& folder) {
-  static const std::vector<std::string> extensions{".csv", ".mat", ".h5",  ".hdf5",
-                                                   ".npy", ".uff", ".unv", ".uf58"};
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string extension = formats::extension_of(entry.path());
-    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
-      files.push_back(entry.path());
-  }
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (may_be_a_record(entry.path())) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   if (files.empty()) throw UserError(folder.string() + ": holds neither dataset.json nor a record");
   return files;

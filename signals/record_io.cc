@@ -2,11 +2,7 @@
 
 #include "signals/channel_name.h"
 #include "signals/error.h"
-#include "signals/formats/csv_record.h"
-#include "signals/formats/hdf5_file.h"
-#include "signals/formats/mat_file.h"
-#include "signals/formats/npy_file.h"
-#include "signals/formats/uff58_record.h"
+#include "signals/formats/file_format.h"
 #include "signals/record_rows.h"
 #include "signals/record_sources.h"
 #include "signals/resample.h"
@@ -35,17 +31,12 @@ Record read_record(const std::filesystem::path& file, const ReadOptions& options
 }
 
 void write_record(const std::filesystem::path& file, const Record& record) {
-  const std::string extension = formats::extension_of(file);
-  if (extension == ".mat") return formats::write_mat(file, record);
-  if (extension == ".h5" || extension == ".hdf5") return formats::write_hdf5(file, record);
-  if (extension == ".npy") return formats::write_npy(file, record);
-  if (extension == ".uff" || extension == ".unv" || extension == ".uf58")
-    return formats::write_uff58(file, record);
-  if (extension == ".wav")
+  const formats::FileFormat& format = formats::format_of(file);
+  if (!format.write)
     throw UserError(file.string() +
                     ": a record has units and a start, which a sound file cannot hold; write .csv, "
                     ".mat, .h5, .npy or .uff");
-  formats::write_csv(file, record);
+  format.write(file, record);
 }
 
 }  // namespace vibrissa::signals

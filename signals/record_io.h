@@ -21,7 +21,7 @@ struct ReadOptions {
 };
 
 /// Reads a record: CSV, or by the end of its name MATLAB, HDF5, NumPy, Universal File type 58, WAV
-/// (formats/record_table.h). Without a choice of columns it takes all that are known channels or
+/// (formats/file_format.h). Without a choice of columns it takes all that are known channels or
 /// end in a unit (hall_mT) under their own names and leaves others, such as text, unread. A rate
 /// that is given beside a column of time must agree to 0.1 % and is then the one taken; without
 /// time the first row of the file is at 0 s. Only the chosen rows are checked. Proven by

@@ -36,17 +36,16 @@ std::string time_unit_hint(const double ratio) {
 
 // Of the times in a column; a rate that is known beside them must agree and is then the one taken.
 TimeAxis axis_of_column(const RecordTable& file, const std::string& path, const Source& time,
-                        const std::vector<double>& times_s, const ReadOptions& options) {
-  const std::vector<std::size_t> column = {time.column};
+                        const std::vector<double>& times_s, const TimeDigits& digits,
+                        const ReadOptions& options) {
   const RecordTable::RowNames names = file.row_names();
-  TimeAxis axis =
-      find_time_axis({.times_s = times_s,
-                      .digits = file.digits({column, options.first_row, times_s.size()}),
-                      .unit_s = time.scale,
-                      .file = path,
-                      .first_line = options.first_row + names.offset,
-                      .column = file.columns()[time.column],
-                      .row_word = names.word});
+  TimeAxis axis = find_time_axis({.times_s = times_s,
+                                  .digits = digits,
+                                  .unit_s = time.scale,
+                                  .file = path,
+                                  .first_line = options.first_row + names.offset,
+                                  .column = file.columns()[time.column],
+                                  .row_word = names.word});
   const auto stated = file.clock();
   const std::optional<double> known = options.sampling_rate_hz ? options.sampling_rate_hz
                                       : stated ? std::optional(stated->sampling_rate_hz)
@@ -99,12 +98,13 @@ Record read_rows(const RecordTable& file, const std::string& path, const Sources
   if (sources.time) wanted.push_back(*sources.time);
   std::vector<std::size_t> columns;
   for (const Source& source : wanted) columns.push_back(source.column);
-  auto values = file.read({columns, options.first_row, n_rows});
+  const auto time_column = sources.time ? std::optional(sources.time->column) : std::nullopt;
+  auto [values, digits] = file.read({columns, options.first_row, n_rows, time_column});
   for (std::size_t c = 0; c < values.size(); ++c)
     convert(file, wanted[c], options.first_row, values[c]);
-  const TimeAxis axis = sources.time
-                            ? axis_of_column(file, path, *sources.time, values.back(), options)
-                            : axis_without_column(file, options);
+  const TimeAxis axis =
+      sources.time ? axis_of_column(file, path, *sources.time, values.back(), digits, options)
+                   : axis_without_column(file, options);
   Record record(axis.sampling_rate_hz, n_rows, axis.start_s);
   for (std::size_t c = 0; c < sources.channels.size(); ++c)
     record.set_channel(sources.channels[c].channel, std::move(values[c]));

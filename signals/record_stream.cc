@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "signals/error.h"
+#include "signals/formats/file_format.h"
 #include "signals/number_text.h"
 #include "signals/record_rows.h"
 

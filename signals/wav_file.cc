@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "signals/error.h"
+#include "signals/file_bytes.h"
 #include "signals/number_text.h"
-#include "signals/output_file.h"
 
 namespace vibrissa::signals {
 
 namespace {
 
-// A file in memory, so that reading and writing files stays in one place (output_file.h).
+// A file in memory, so that reading and writing files stays in one place (file_bytes.h).
 struct MemoryFile {
   std::string bytes;
   sf_count_t position = 0;
@@ -163,10 +161,7 @@ void check_chunks(const std::string& bytes, std::size_t position, std::size_t en
 
 void write_wav(const std::filesystem::path& file, const WavDrive& drive) {
   check_drive(file, drive);
-  const std::string bytes = wav_bytes(file, drive);
-  write_file(file, [&](std::ostream& stream) {
-    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  });
+  write_bytes(file, wav_bytes(file, drive));
 }
 
 WavContent parse_wav(std::string bytes, const std::string& name) {
@@ -193,10 +188,7 @@ WavContent parse_wav(std::string bytes, const std::string& name) {
 }
 
 WavContent read_wav(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw UserError(file.string() + ": cannot be opened for reading");
-  return parse_wav({std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()},
-                   file.string());
+  return parse_wav(read_bytes(file), file.string());
 }
 
 }  // namespace vibrissa::signals

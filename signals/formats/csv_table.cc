@@ -15,8 +15,9 @@ std::string shortened(const std::string_view text) {
 
 }  // namespace
 
-std::vector<std::vector<double>> CsvTable::read(const ColumnRange& range) const {
-  std::vector<std::vector<double>> values(range.columns.size(), std::vector<double>(range.n_rows));
+ColumnValues CsvTable::read(const ColumnRange& range) const {
+  ColumnValues values{.columns = {range.columns.size(), std::vector<double>(range.n_rows)},
+                      .time_digits = {}};
   std::size_t i = 0;
   const auto read_row = [&](const std::size_t line,
                             const std::span<const std::string_view> fields) {
@@ -27,8 +28,9 @@ std::vector<std::vector<double>> CsvTable::read(const ColumnRange& range) const 
         throw UserError(
             file_.place(line) + "column '" + file_.columns()[range.columns[c]] + "': " +
             (field.empty() ? "the field is empty" : "'" + shortened(field) + "' is no number"));
-      values[c][i] = *number;
+      values.columns[c][i] = *number;
     }
+    if (range.time_column) values.time_digits.see(fields[*range.time_column]);
     ++i;
   };
   file_.for_each_row(range.first_row, range.n_rows, read_row);
@@ -41,15 +43,6 @@ std::string CsvTable::text(const std::size_t row, const std::size_t column) cons
     field = shortened(fields[column]);
   });
   return field;
-}
-
-TimeDigits CsvTable::digits(const ColumnRange& one_column) const {
-  TimeDigits digits;
-  file_.for_each_row(one_column.first_row, one_column.n_rows,
-                     [&](std::size_t, const std::span<const std::string_view> fields) {
-                       digits.see(fields[one_column.columns.front()]);
-                     });
-  return digits;
 }
 
 }  // namespace vibrissa::signals::formats

@@ -16,9 +16,8 @@ class CsvTable : public RecordTable {
   /// Line 1 holds the names.
   std::string place(std::size_t row) const override { return file_.place(row + 1); }
   RowNames row_names() const override { return {"line", 1}; }
-  std::vector<std::vector<double>> read(const ColumnRange& range) const override;
+  ColumnValues read(const ColumnRange& range) const override;
   std::string text(std::size_t row, std::size_t column) const override;
-  TimeDigits digits(const ColumnRange& one_column) const override;
 
  private:
   CsvFile file_;

@@ -1,12 +1,13 @@
+#include "signals/formats/file_format.h"
+
 #include <algorithm>
 #include <cctype>
 
-#include "signals/error.h"
+#include "signals/formats/csv_record.h"
 #include "signals/formats/csv_table.h"
 #include "signals/formats/hdf5_file.h"
 #include "signals/formats/mat_file.h"
 #include "signals/formats/npy_file.h"
-#include "signals/formats/record_table.h"
 #include "signals/formats/uff58_record.h"
 #include "signals/wav_file.h"
 
@@ -23,7 +24,30 @@ std::unique_ptr<RecordTable> read_wav_table(const std::filesystem::path& file) {
                                         TimeAxis{0., content.sampling_rate_hz});
 }
 
+std::unique_ptr<RecordTable> open_csv(const std::filesystem::path& file) {
+  return std::make_unique<CsvTable>(file);
+}
+
+void write_mat_5(const std::filesystem::path& file, const Record& record) {
+  write_mat(file, record, MatVersion::v5);
+}
+
+void write_responses(const std::filesystem::path& file, const Record& record) {
+  write_uff58(file, record);
+}
+
 }  // namespace
+
+const std::vector<FileFormat>& file_formats() {
+  static const std::vector<FileFormat> formats = {
+      {{".csv"}, open_csv, write_csv},
+      {{".mat"}, read_mat, write_mat_5},
+      {{".h5", ".hdf5"}, read_hdf5, write_hdf5},
+      {{".npy"}, read_npy, write_npy},
+      {{".uff", ".unv", ".uf58"}, read_uff58_table, write_responses},
+      {{".wav"}, read_wav_table, {}}};
+  return formats;
+}
 
 std::string extension_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -32,15 +56,20 @@ std::string extension_of(const std::filesystem::path& file) {
   return extension;
 }
 
-std::unique_ptr<RecordTable> open_table(const std::filesystem::path& file) {
+bool FileFormat::has(const std::string& extension) const {
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+const FileFormat& format_of(const std::filesystem::path& file) {
   const std::string extension = extension_of(file);
-  if (extension == ".mat") return read_mat(file);
-  if (extension == ".h5" || extension == ".hdf5") return read_hdf5(file);
-  if (extension == ".npy") return read_npy(file);
-  if (extension == ".uff" || extension == ".unv" || extension == ".uf58")
-    return read_uff58_table(file);
-  if (extension == ".wav") return read_wav_table(file);
-  return std::make_unique<CsvTable>(file);
+  const auto& formats = file_formats();
+  const auto found = std::find_if(formats.begin(), formats.end(),
+                                  [&](const FileFormat& format) { return format.has(extension); });
+  return found == formats.end() ? formats.front() : *found;
+}
+
+std::unique_ptr<RecordTable> open_table(const std::filesystem::path& file) {
+  return format_of(file).open(file);
 }
 
 }  // namespace vibrissa::signals::formats

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "signals/error.h"
-#include "signals/formats/file_bytes.h"
+#include "signals/file_bytes.h"
 #include "signals/formats/matrix_columns.h"
 #include "signals/formats/record_columns.h"
 #include "signals/hdf5_image.h"

@@ -4,12 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 
 #include "signals/error.h"
-#include "signals/formats/file_bytes.h"
+#include "signals/file_bytes.h"
 #include "signals/formats/matrix_columns.h"
+#include "signals/formats/number_bytes.h"
 #include "signals/formats/record_columns.h"
 
 namespace vibrissa::signals::formats {
@@ -134,22 +134,17 @@ class ScratchFile {
   std::filesystem::path folder_;
 };
 
-std::uint32_t number_at(const std::string& bytes, const std::size_t at, const bool is_swapped) {
-  std::uint32_t number;
-  std::memcpy(&number, bytes.data() + at, sizeof number);
-  return is_swapped ? __builtin_bswap32(number) : number;
-}
-
 // The elements of a version 5 file fill it to its last byte; matio takes what is left of one that
 // was cut, and does not notice a full disk.
 void check_is_whole(const std::string& bytes, const std::string& name) {
   constexpr std::size_t header = 128, tag = 8, version_at = 124;
   if (bytes.size() < header) return;
   const std::string mark = bytes.substr(version_at, 4);
-  const bool is_swapped = mark == std::string("\1\0MI", 4);
-  if (!is_swapped && mark != std::string("\0\1IM", 4)) return;
+  const bool is_big = mark == std::string("\1\0MI", 4);
+  if (!is_big && mark != std::string("\0\1IM", 4)) return;
+  const std::endian order = is_big ? std::endian::big : std::endian::little;
   std::size_t at = header;
-  while (at + tag <= bytes.size()) at += tag + number_at(bytes, at + 4, is_swapped);
+  while (at + tag <= bytes.size()) at += tag + number_at<std::uint32_t>(&bytes[at + 4], order);
   if (at != bytes.size())
     throw UserError(name + ": is damaged: its variables do not end where the file does");
 }

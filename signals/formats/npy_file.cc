@@ -4,13 +4,13 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <regex>
 #include <string_view>
 
 #include "signals/error.h"
-#include "signals/formats/file_bytes.h"
+#include "signals/file_bytes.h"
 #include "signals/formats/matrix_columns.h"
+#include "signals/formats/number_bytes.h"
 #include "signals/formats/record_columns.h"
 
 namespace vibrissa::signals::formats {
@@ -24,7 +24,7 @@ const std::string magic = "\x93NUMPY";
 
 // One number as NumPy describes it: "<f8".
 struct NumberType {
-  bool is_big_endian = false;
+  std::endian order = std::endian::native;
   char kind = 'f';  // f, i or u
   std::size_t size = 8;
 };
@@ -54,7 +54,10 @@ NumberType type_of(const std::string& text, const std::string& name) {
       found.str(2) + found.str(3) == "f2")
     refuse(name, "holds numbers of type '" + text.substr(0, 20) +
                      "'; columns are made of real numbers (f4, f8, i1 to i8, u1 to u8)");
-  return {found.str(1) == ">", found.str(2)[0], static_cast<std::size_t>(found.str(3)[0] - '0')};
+  const std::endian order = found.str(1) == ">"   ? std::endian::big
+                            : found.str(1) == "<" ? std::endian::little
+                                                  : std::endian::native;
+  return {order, found.str(2)[0], static_cast<std::size_t>(found.str(3)[0] - '0')};
 }
 
 // The value of an entry of the header, which is a dictionary as Python prints it.
@@ -123,28 +126,24 @@ Header read_header(const std::string& bytes, const std::string& name) {
           entry(text, "fortran_order", name).starts_with("True"), at + length};
 }
 
-template <typename Number>
-double number_at(const char* const from, const bool is_big_endian) {
-  std::array<char, sizeof(Number)> bytes;
-  std::memcpy(bytes.data(), from, sizeof(Number));
-  if (is_big_endian) std::reverse(bytes.begin(), bytes.end());
-  return static_cast<double>(std::bit_cast<Number>(bytes));
-}
-
 double value_at(const char* const from, const NumberType& type) {
-  const bool big = type.is_big_endian;
+  const std::endian order = type.order;
   if (type.kind == 'f')
-    return type.size == 4 ? number_at<float>(from, big) : number_at<double>(from, big);
+    return type.size == 4 ? double(number_at<float>(from, order)) : number_at<double>(from, order);
   const bool is_signed = type.kind == 'i';
   switch (type.size) {
     case 1:
-      return is_signed ? number_at<std::int8_t>(from, big) : number_at<std::uint8_t>(from, big);
+      return is_signed ? double(number_at<std::int8_t>(from, order))
+                       : double(number_at<std::uint8_t>(from, order));
     case 2:
-      return is_signed ? number_at<std::int16_t>(from, big) : number_at<std::uint16_t>(from, big);
+      return is_signed ? double(number_at<std::int16_t>(from, order))
+                       : double(number_at<std::uint16_t>(from, order));
     case 4:
-      return is_signed ? number_at<std::int32_t>(from, big) : number_at<std::uint32_t>(from, big);
+      return is_signed ? double(number_at<std::int32_t>(from, order))
+                       : double(number_at<std::uint32_t>(from, order));
     default:
-      return is_signed ? number_at<std::int64_t>(from, big) : number_at<std::uint64_t>(from, big);
+      return is_signed ? double(number_at<std::int64_t>(from, order))
+                       : double(number_at<std::uint64_t>(from, order));
   }
 }
 

@@ -68,13 +68,15 @@ std::string NumericTable::place(const std::size_t row) const {
   return row == 0 ? file_ + ": " : file_ + ": row " + std::to_string(row) + ": ";
 }
 
-std::vector<std::vector<double>> NumericTable::read(const ColumnRange& range) const {
+ColumnValues NumericTable::read(const ColumnRange& range) const {
   assert(range.first_row >= 1 && range.first_row - 1 + range.n_rows <= n_rows());
-  std::vector<std::vector<double>> values;
+  ColumnValues values;
   for (const std::size_t column : range.columns) {
     const auto first = columns_[column].values.begin() + std::ptrdiff_t(range.first_row - 1);
-    values.emplace_back(first, first + std::ptrdiff_t(range.n_rows));
+    values.columns.emplace_back(first, first + std::ptrdiff_t(range.n_rows));
   }
+  for (std::size_t i = 0; range.time_column && i < range.n_rows; ++i)
+    values.time_digits.see(text(range.first_row + i, *range.time_column));
   return values;
 }
 
@@ -82,13 +84,6 @@ std::string NumericTable::text(const std::size_t row, const std::size_t column) 
   const double value = columns_[column].values[row - 1];
   return columns_[column].single_precision ? shortest_text(static_cast<float>(value))
                                            : to_text(value);
-}
-
-TimeDigits NumericTable::digits(const ColumnRange& one_column) const {
-  TimeDigits digits;
-  for (std::size_t i = 0; i < one_column.n_rows; ++i)
-    digits.see(text(one_column.first_row + i, one_column.columns.front()));
-  return digits;
 }
 
 }  // namespace vibrissa::signals::formats

@@ -32,9 +32,8 @@ class NumericTable : public RecordTable {
   std::size_t n_rows() const override { return columns_.front().values.size(); }
   std::string place(std::size_t row) const override;
   std::optional<TimeAxis> clock() const override { return clock_; }
-  std::vector<std::vector<double>> read(const ColumnRange& range) const override;
+  ColumnValues read(const ColumnRange& range) const override;
   std::string text(std::size_t row, std::size_t column) const override;
-  TimeDigits digits(const ColumnRange& one_column) const override;
 
  private:
   std::string file_;

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +14,12 @@ namespace vibrissa::signals::formats {
 struct ColumnRange {
   std::span<const std::size_t> columns;  // numbers in RecordTable::columns()
   std::size_t first_row = 1, n_rows = 0;
+  std::optional<std::size_t> time_column = {};  // the one of them whose digits are wanted
+};
+
+struct ColumnValues {
+  std::vector<std::vector<double>> columns;  // as asked for; they may hold NaN and infinity
+  TimeDigits time_digits;                    // how finely the column of time is printed
 };
 
 /// Named columns of numbers, as a file gives them, whatever its format.
@@ -36,21 +40,10 @@ class RecordTable {
   virtual RowNames row_names() const { return {}; }
   /// The clock that the file states beside its columns.
   virtual std::optional<TimeAxis> clock() const { return std::nullopt; }
-  /// Values of each column, which may be NaN or infinite. Throws UserError with the place of what
-  /// is no number.
-  virtual std::vector<std::vector<double>> read(const ColumnRange& range) const = 0;
+  /// Throws UserError with the place of what is no number.
+  virtual ColumnValues read(const ColumnRange& range) const = 0;
   /// One value as the file spells it, for messages.
   virtual std::string text(std::size_t row, std::size_t column) const = 0;
-  /// How finely the rows of one column are printed.
-  virtual TimeDigits digits(const ColumnRange& one_column) const = 0;
 };
-
-/// Opens a file by the end of its name: .csv, .mat (5 and 7.3), .h5 and .hdf5, .npy, .uff, .unv and
-/// .uf58 (type 58), .wav; any other is taken as CSV. Throws UserError for a file that cannot be
-/// read, is damaged, or holds more than a record can. Proven by tests/signals/formats.
-std::unique_ptr<RecordTable> open_table(const std::filesystem::path& file);
-
-/// End of the name in lower case, with its point.
-std::string extension_of(const std::filesystem::path& file);
 
 }  // namespace vibrissa::signals::formats

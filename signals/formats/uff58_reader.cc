@@ -1,27 +1,21 @@
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string_view>
 
 #include "signals/error.h"
-#include "signals/formats/file_bytes.h"
+#include "signals/file_bytes.h"
+#include "signals/formats/number_bytes.h"
 #include "signals/formats/numeric_table.h"
 #include "signals/formats/uff58_file.h"
 #include "signals/number_text.h"
+#include "signals/trimmed.h"
 
 namespace vibrissa::signals::formats {
 namespace {
 
 constexpr std::string_view delimiter = "    -1";
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
-}
 
 /// Walks over the lines of a file that may hold stretches of raw bytes.
 class Lines {
@@ -174,18 +168,8 @@ std::vector<double> read_text_values(Lines& lines, const Layout& layout) {
   return values;
 }
 
-double number_at(const char* const from, const bool is_single, const bool is_big_endian) {
-  std::array<char, sizeof(double)> bytes{};
-  const std::size_t size = is_single ? sizeof(float) : sizeof(double);
-  for (std::size_t i = 0; i < size; ++i) bytes[i] = from[is_big_endian ? size - 1 - i : i];
-  if (!is_single) return std::bit_cast<double>(bytes);
-  float value;
-  std::memcpy(&value, bytes.data(), sizeof(float));
-  return static_cast<double>(value);
-}
-
 // The format has an abscissa of single precision; some programs write it as they write values.
-std::vector<double> read_binary_values(Lines& lines, const Layout& layout, const int byte_order,
+std::vector<double> read_binary_values(Lines& lines, const Layout& layout, const std::endian order,
                                        const std::size_t n_bytes) {
   const std::size_t size = layout.is_single() ? sizeof(float) : sizeof(double);
   const std::size_t a_point = layout.numbers_a_point();
@@ -199,7 +183,9 @@ std::vector<double> read_binary_values(Lines& lines, const Layout& layout, const
   for (std::size_t at = 0; at < n_bytes;) {
     const bool is_single =
         layout.is_single() || (has_narrow_abscissa && values.size() % a_point == 0);
-    values.push_back(number_at(raw.data() + at, is_single, byte_order == 2));
+    const char* const from = raw.data() + at;
+    values.push_back(is_single ? double(number_at<float>(from, order))
+                               : number_at<double>(from, order));
     at += is_single ? sizeof(float) : sizeof(double);
   }
   return values;
@@ -225,8 +211,9 @@ Uff58Function read_function(Lines& lines, const std::string_view kind_line) {
   const int n_bytes = is_binary ? kind.whole(12) : 0;
   if (is_binary && (floating_format != 2 || byte_order < 1 || byte_order > 2 || n_bytes < 0))
     lines.refuse("its binary numbers are not those of IEEE 754");
+  const std::endian order = byte_order == 2 ? std::endian::big : std::endian::little;
   const Layout layout = read_head(lines, function);
-  set_values(is_binary ? read_binary_values(lines, layout, byte_order, std::size_t(n_bytes))
+  set_values(is_binary ? read_binary_values(lines, layout, order, std::size_t(n_bytes))
                        : read_text_values(lines, layout),
              layout, function);
   return function;

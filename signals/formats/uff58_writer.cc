@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "signals/formats/file_bytes.h"
+#include "signals/file_bytes.h"
 #include "signals/formats/uff58_file.h"
 
 namespace vibrissa::signals::formats {

@@ -20,7 +20,7 @@ int read_table(const Reader& reader, const std::uint8_t* data, const std::size_t
     std::vector<std::size_t> columns(table->columns().size());
     std::iota(columns.begin(), columns.end(), std::size_t{0});
     if (columns.empty() || table->n_rows() == 0) std::abort();
-    for (const auto& values : table->read({columns, 1, table->n_rows()}))
+    for (const auto& values : table->read({columns, 1, table->n_rows(), columns.back()}).columns)
       if (values.size() != table->n_rows()) std::abort();
     table->text(table->n_rows(), columns.back());
   } catch (const signals::UserError&) {

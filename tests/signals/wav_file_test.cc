@@ -85,7 +85,7 @@ TEST(WavFile, RefusesADriveThatTheFormatCannotHold) {
 TEST(WavFile, RefusesAFileThatIsNone) {
   const TemporaryFolder folder;
   EXPECT_THAT([&] { read_wav(folder.path() / "none.wav"); },
-              ThrowsMessage<UserError>(HasSubstr("none.wav: cannot be opened")));
+              ThrowsMessage<UserError>(HasSubstr("none.wav: cannot be read: No such file")));
   EXPECT_THAT([] { parse_wav("time_s,base_moment_N_m\n", "a.csv"); },
               ThrowsMessage<UserError>(HasSubstr("a.csv: is no WAV file")));
   EXPECT_THAT([] { parse_wav("RIFF\x04\0\0\0WAVE", "a.wav"); },

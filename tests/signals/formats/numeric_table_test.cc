@@ -47,7 +47,7 @@ TEST(NumericTable, SingleNumbersArePrintedAsSuch) {
   NumericColumn times{"t", {0.1f, 0.2f, 0.3f}, true};
   const NumericTable table("f.npy", {times});
   const std::vector<std::size_t> first = {0};
-  EXPECT_DOUBLE_EQ(table.digits({first, 1, 3}).rounding(0.3), 0.05);
+  EXPECT_DOUBLE_EQ(table.read({first, 1, 3, 0}).time_digits.rounding(0.3), 0.05);
 }
 
 std::vector<std::vector<double>> values_of(const std::vector<NumericColumn>& columns) {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace vibrissa::signals::formats {
+namespace vibrissa::signals {
 
 /// The whole file. Throws UserError when it cannot be read.
 std::string read_bytes(const std::filesystem::path& file);
@@ -11,4 +11,4 @@ std::string read_bytes(const std::filesystem::path& file);
 /// Replaces the file by these bytes, as signals::write_file does.
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);
 
-}  // namespace vibrissa::signals::formats
+}  // namespace vibrissa::signals

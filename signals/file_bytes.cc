@@ -1,4 +1,4 @@
-#include "signals/formats/file_bytes.h"
+#include "signals/file_bytes.h"
 
 #include <cerrno>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include "signals/error.h"
 #include "signals/output_file.h"
 
-namespace vibrissa::signals::formats {
+namespace vibrissa::signals {
 
 std::string read_bytes(const std::filesystem::path& file) {
   if (std::error_code ignored; std::filesystem::is_directory(file, ignored))
@@ -27,4 +27,4 @@ void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
   });
 }
 
-}  // namespace vibrissa::signals::formats
+}  // namespace vibrissa::signals
