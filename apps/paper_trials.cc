@@ -30,7 +30,7 @@ separation::Identification identify_in_time(
   const auto [fit, held_out] = separation::hold_out_last_third(record);
   separation::IdentifyOptions options;
   options.method = method;
-  options.hold = separation::Hold::first_order;  // as the rig interpolates its input
+  options.hold = separation::Hold::band_limited;  // as the rig moves between samples
   return separation::identify_bvrm(fit, held_out, options);
 }
 
@@ -42,9 +42,9 @@ separation::Identification identify_from_periods(const signals::Record& record) 
   const auto [settling_and_fit, held_out] = separation::hold_out_last_third(record, period);
   const auto fit = settling_and_fit.slice(period, settling_and_fit.n_samples() - period);
   separation::FrequencyFitOptions options;
-  options.sampling = separation::Sampling{rate, separation::Hold::first_order};
+  options.sampling = separation::Sampling{rate, separation::Hold::band_limited};
   separation::Identification identified;
-  identified.hold = separation::Hold::first_order;
+  identified.hold = separation::Hold::band_limited;
   identified.order = options.order;
   identified.fit = separation::identify_frequency(
       signals::periodic_response(fit.channel(signals::channel::base_acceleration),

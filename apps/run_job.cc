@@ -26,6 +26,7 @@
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
 #include "separation/identify.h"
+#include "signals/band_limited_simulation.h"
 #include "signals/error.h"
 #include "signals/record_io.h"
 
@@ -40,8 +41,8 @@ constexpr std::size_t n_animated_modes = 6;
 separation::Identification identify(const RigRecords& records, const Case& parameters) {
   separation::IdentifyOptions options;
   options.max_order = parameters.separation.largest_order;
-  // The rig's base motion is linear between samples by construction.
-  options.hold = separation::Hold::first_order;
+  // The rig's base motion is so by construction.
+  options.hold = separation::Hold::band_limited;
   const auto [fit, held_out] = separation::hold_out_last_third(records.vibration_only);
   return separation::identify_bvrm(fit, held_out, options);
 }
@@ -51,8 +52,8 @@ separation::Identification identify(const RigRecords& records, const Case& param
 std::vector<double> separate_by_true_response(const signals::ReducedModel& model,
                                               const signals::Record& record) {
   const auto response =
-      signals::simulate(model, {record.sampling_rate_hz(), record.n_samples(),
-                                record.channel(signals::channel::base_acceleration)});
+      signals::simulate_band_limited(model, {record.sampling_rate_hz(), record.n_samples(),
+                                             record.channel(signals::channel::base_acceleration)});
   const auto measured = record.channel(signals::channel::base_moment);
   std::vector<double> wind(measured.begin(), measured.end());
   for (std::size_t i = 0; i < wind.size(); ++i) wind[i] -= response.base_moment[i];

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "signals/band_limited_simulation.h"
 #include "signals/error.h"
 #include "signals/number_text.h"
 
@@ -37,7 +38,7 @@ class StructureLink : public Link {
       throw UserError(name() + ": the record has nothing that moves the sensor; it needs " +
                       channel::base_acceleration + ", " + channel::cross_acceleration + " or " +
                       channel::wind_speed);
-    ReducedOutput output = simulate(model_, input);
+    ReducedOutput output = simulate_band_limited(model_, input);
     const bool has_cross = !input.cross_acceleration.empty();
     record.set_channel(channel::base_moment, std::move(output.base_moment));
     if (has_cross) record.set_channel(channel::cross_moment, std::move(output.cross_moment));

@@ -28,7 +28,8 @@ class Link {
 
 /// The structure: adds base_moment (and cross_moment when there is a cross acceleration) from those
 /// of base acceleration, cross acceleration and wind speed that the record has, by the reduced
-/// model. pass() throws UserError when it has none of them, or wind for a model without wind load.
+/// model, with inputs that are band-limited between their samples (band_limited_simulation.h).
+/// pass() throws UserError when it has none of them, or wind for a model without wind load.
 std::unique_ptr<Link> make_structure_link(ReducedModel model);
 /// White Gaussian noise on the sensor's moment (and cross moment) [N m] (settled: 5.43 uT = 1e-6 N
 /// m). Throws UserError when the standard deviation is negative or not finite; so does the next.

@@ -174,20 +174,6 @@ void add_static_moment(const ReducedModel& model, const ReducedInput& input,
   throw UserError("reduced model '" + model.name + "': " + what);
 }
 
-void check_input(const ReducedModel& model, const ReducedInput& input) {
-  if (!(input.sampling_rate_hz > 0.) || !std::isfinite(input.sampling_rate_hz))
-    refuse(model, "the input's sampling rate " + to_text(input.sampling_rate_hz) +
-                      " Hz is not positive and finite");
-  const auto check_length = [&](std::span<const double> x, const std::string& name) {
-    if (!x.empty() && x.size() != input.n_samples)
-      refuse(model, "the input " + name + " has " + std::to_string(x.size()) +
-                        " samples instead of " + std::to_string(input.n_samples));
-  };
-  check_length(input.base_acceleration, "base_acceleration");
-  check_length(input.cross_acceleration, "cross_acceleration");
-  check_length(input.wind_speed, "wind_speed");
-}
-
 /// Empty in still air.
 std::vector<WindSample> wind_samples(const ReducedModel& model, std::span<const double> speed_m_s) {
   if (std::ranges::all_of(speed_m_s, [](double u) { return u == 0.; })) return {};
@@ -206,9 +192,23 @@ std::array<double, 3> ReducedModel::moment_axis() const {
   return {-axial_direction[1], axial_direction[0], 0.};
 }
 
-ReducedOutput simulate(const ReducedModel& model, const ReducedInput& input) {
+void check(const ReducedModel& model, const ReducedInput& input) {
   check(model);
-  check_input(model, input);
+  if (!(input.sampling_rate_hz > 0.) || !std::isfinite(input.sampling_rate_hz))
+    refuse(model, "the input's sampling rate " + to_text(input.sampling_rate_hz) +
+                      " Hz is not positive and finite");
+  const auto check_length = [&](std::span<const double> x, const std::string& name) {
+    if (!x.empty() && x.size() != input.n_samples)
+      refuse(model, "the input " + name + " has " + std::to_string(x.size()) +
+                        " samples instead of " + std::to_string(input.n_samples));
+  };
+  check_length(input.base_acceleration, "base_acceleration");
+  check_length(input.cross_acceleration, "cross_acceleration");
+  check_length(input.wind_speed, "wind_speed");
+}
+
+ReducedOutput simulate(const ReducedModel& model, const ReducedInput& input) {
+  check(model, input);
   const std::vector<WindSample> wind = wind_samples(model, input.wind_speed);
   ReducedOutput output{.base_moment = std::vector<double>(input.n_samples, 0.),
                        .cross_moment = std::vector<double>(input.n_samples, 0.)};

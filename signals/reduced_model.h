@@ -83,6 +83,9 @@ struct ReducedInput {
   std::span<const double> wind_speed{};          // along the axial direction [m/s]
 };
 
+/// As check(model); also refuses a rate that is not positive and an input of the wrong length.
+void check(const ReducedModel& model, const ReducedInput& input);
+
 struct ReducedOutput {
   std::vector<double> base_moment;  // about e_z x axial [N m]
   std::vector<double>

@@ -58,13 +58,15 @@ Ratio ratio_of_rates(const double from_hz, const double to_hz) {
   return ratio;
 }
 
-// Low pass between 0.8 and 1.0 of the lower Nyquist frequency as a sinc in a Kaiser window; length
-// and shape by Kaiser's formulas (Oppenheim and Schafer, Discrete-Time Signal Processing, 3rd
-// edition, eqs 7.75, 7.76). Times are in samples of the input.
+// Low pass between a share and the whole of the lower Nyquist frequency as a sinc in a Kaiser
+// window; length and shape by Kaiser's formulas (Oppenheim and Schafer, Discrete-Time Signal
+// Processing, 3rd edition, eqs 7.75, 7.76). Times are in samples of the input.
 class Kernel {
  public:
-  explicit Kernel(const Ratio& ratio) : lower_nyquist_(0.5 * std::min(1., value_of(ratio))) {
-    const double transition_rad = 2. * std::numbers::pi * 0.2 * lower_nyquist_;
+  Kernel(const Ratio& ratio, const double flat_to_share)
+      : lower_nyquist_(0.5 * std::min(1., value_of(ratio))),
+        cut_off_(0.5 * (1. + flat_to_share) * lower_nyquist_) {
+    const double transition_rad = 2. * std::numbers::pi * (1. - flat_to_share) * lower_nyquist_;
     half_length_ = 0.5 * (attenuation_db - 7.95) / (2.285 * transition_rad);
     shape_ = 0.1102 * (attenuation_db - 8.7);
   }
@@ -74,14 +76,14 @@ class Kernel {
   double operator()(const double t) const {
     const double place = t / half_length_;
     if (std::abs(place) >= 1.) return 0.;
-    const double angle = 2. * std::numbers::pi * 0.9 * lower_nyquist_ * t;
+    const double angle = 2. * std::numbers::pi * cut_off_ * t;
     const double sinc = angle == 0. ? 1. : std::sin(angle) / angle;
     return sinc * std::cyl_bessel_i(0., shape_ * std::sqrt(1. - place * place));
   }
 
  private:
   static constexpr double attenuation_db = 90.;
-  double lower_nyquist_, half_length_, shape_;
+  double lower_nyquist_, cut_off_, half_length_, shape_;
 };
 
 // Column p weighs the input samples -reach ... reach around floor(t) for an output at t, where
@@ -118,10 +120,13 @@ double mean_of(const std::span<const double> x) {
 }  // namespace
 
 std::vector<double> resample(const std::span<const double> x, const double from_hz,
-                             const double to_hz) {
+                             const double to_hz, const double flat_to_share) {
+  if (!(flat_to_share > 0. && flat_to_share < 1.))
+    throw UserError("resampling: flat up to " + to_text(flat_to_share) +
+                    " of half the rate cannot be; give a share between 0 and 1");
   const Ratio ratio = ratio_of_rates(from_hz, to_hz);
   if (x.empty() || (ratio.up == 1 && ratio.down == 1)) return {x.begin(), x.end()};
-  const Kernel kernel(ratio);
+  const Kernel kernel(ratio, flat_to_share);
   const auto reach = static_cast<long>(std::ceil(kernel.half_length()));
   const Eigen::MatrixXd weights = polyphase_weights(ratio, kernel, reach);
   const Eigen::VectorXd input = extended(x, reach);

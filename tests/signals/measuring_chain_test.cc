@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "signals/band_limited_simulation.h"
 #include "signals/error.h"
 
 namespace vibrissa::signals {
@@ -185,12 +186,12 @@ TEST(StructureLink, AddsTheMomentsOfTheReducedModel) {
   chain.add(make_structure_link(sensor_model()));
   const auto truth = true_motion();
   const auto record = chain.measure(truth, 1);
-  const auto wanted =
-      simulate(sensor_model(), {.sampling_rate_hz = rate_hz,
-                                .n_samples = n_samples,
-                                .base_acceleration = truth.channel(channel::base_acceleration),
-                                .cross_acceleration = truth.channel(channel::cross_acceleration),
-                                .wind_speed = truth.channel(channel::wind_speed)});
+  const auto wanted = simulate_band_limited(
+      sensor_model(), {.sampling_rate_hz = rate_hz,
+                       .n_samples = n_samples,
+                       .base_acceleration = truth.channel(channel::base_acceleration),
+                       .cross_acceleration = truth.channel(channel::cross_acceleration),
+                       .wind_speed = truth.channel(channel::wind_speed)});
   EXPECT_EQ(channel_of(record, channel::base_moment), wanted.base_moment);
   EXPECT_EQ(channel_of(record, channel::cross_moment), wanted.cross_moment);
   for (const auto& name : truth.channel_names())

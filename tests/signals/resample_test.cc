@@ -68,6 +68,25 @@ TEST(Resample, ReproducesTonesOfThePassBandWithoutDelay) {
     }
 }
 
+TEST(Resample, IsFlatAsFarAsAsked) {
+  const Rates rates{500., 4000.};
+  constexpr std::size_t n = 4000, edge = 8 * 400;
+  for (const double part : {0.5, 0.9, 0.98}) {
+    const double frequency_hz = part * lower_nyquist_hz(rates);
+    std::vector<double> y =
+        resample(tone(frequency_hz, rates.from_hz, n), rates.from_hz, rates.to_hz, 0.98);
+    const std::vector<double> exact = tone(frequency_hz, rates.to_hz, y.size());
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] -= exact[i];
+    EXPECT_LT(largest_inside(y, edge), 1e-3) << part;
+  }
+}
+
+TEST(Resample, RefusesAFlatBandThatCannotBe) {
+  for (const double share : {0., 1., -0.5, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THAT([&] { resample(std::vector<double>(10, 1.), 500., 1000., share); },
+                ThrowsMessage<UserError>(HasSubstr("share between 0 and 1")));
+}
+
 TEST(Resample, SuppressesTonesAboveTheNewNyquistFrequencyBy80Db) {
   for (const Rates& rates : several_rates) {
     if (rates.to_hz > rates.from_hz) continue;
