@@ -72,6 +72,9 @@ struct Chain {
   /// Factor on the joint's share in the damping of the first mode that its viscous moment tells.
   double joint_loss_factor = 1.;
   JointChange joint_change{};
+  /// Factor on the joint's stiffness that the structure's modes hold already: the moment of a unit
+  /// of its rotation.
+  double joint_stiffness = 1.;
   /// The joint's spring and damper K(s) become K(s) (1 + D(s)), D the sum of these.
   std::vector<Filter> relaxation{};
   /// Likewise, by a spring under the joint, whose rotation no sensor reads.

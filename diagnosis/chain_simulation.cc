@@ -14,7 +14,7 @@ std::vector<Complex> wind_force_spectrum(const Chain& chain, const PreparedRecor
   std::vector<double> u = record.wind;
   for (const auto& law : chain.wind) law(u, 1. / record.sampling_rate_hz);
   const double factor = chain.drag_factor * record.wind_share;
-  for (double& value : u) value *= factor * std::abs(value);
+  for (double& value : u) value = factor * chain.structure.drag_curve.drag(value);
   return spectrum_of(u);
 }
 

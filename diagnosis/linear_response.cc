@@ -38,7 +38,8 @@ LinearPart LinearResponse::at(const Complex s, const signals::Readout readout,
     const Complex own = sum(chain_.relaxation, s) + joint_->stiffness_change(s),
                   d = own + sum(chain_.support, s);
     elastic = 1. / (ratio * (1. + d));
-    if (readout == signals::Readout::rotation) to_reading = 1. / (ratio * (1. + own));
+    if (readout == signals::Readout::rotation)
+      to_reading = 1. / (chain_.joint_stiffness * ratio * (1. + own));
     // P of the joint model; what the modes above the first do to H they do to 1 / (1 + K G), too: B
     // is that of the load.
     const Complex rest =

@@ -1,6 +1,8 @@
 #include "diagnosis/mended_model_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "signals/error.h"
@@ -35,8 +37,40 @@ StructuralMode read_mode(const JsonEntry& entry) {
           .wind_rate = entry["wind_rate_n_m_per_m2_s2"].number()};
 }
 
+json to_json(const ParameterPath& path) {
+  return {{"frequency", path.frequency},
+          {"base_gain", path.base_gain},
+          {"wind_gain", path.wind_gain},
+          {"static_base_moment", path.static_base_moment},
+          {"static_wind_moment", path.static_wind_moment}};
+}
+
+ParameterPath read_path(const JsonEntry& entry, const std::size_t n_modes) {
+  const auto figures = [&](const std::string& name) {
+    std::vector<double> values = entry[name].numbers();
+    entry[name].require(values.size() == n_modes, "must have a number for each mode");
+    return values;
+  };
+  return {.frequency = figures("frequency"),
+          .base_gain = figures("base_gain"),
+          .wind_gain = figures("wind_gain"),
+          .static_base_moment = entry["static_base_moment"].number(),
+          .static_wind_moment = entry["static_wind_moment"].number()};
+}
+
+DragCurve read_drag_curve(const JsonEntry& entry) {
+  DragCurve curve{.speed_m_s = entry["speed_m_s"].numbers(), .factor = entry["factor"].numbers()};
+  entry["factor"].require(curve.factor.size() == curve.speed_m_s.size(),
+                          "must have a number for each speed");
+  entry["speed_m_s"].require(
+      std::ranges::adjacent_find(curve.speed_m_s, std::greater_equal()) == curve.speed_m_s.end(),
+      "must ascend");
+  return curve;
+}
+
 json to_json(const NominalModel& model) {
-  json modes = json::array();
+  json modes = json::array(), paths = json::object();
+  for (const auto& [name, path] : model.paths) paths[name] = to_json(path);
   for (const StructuralMode& mode : model.modes) modes.push_back(to_json(mode));
   return {{"readout", model.readout == signals::Readout::rotation ? "rotation" : "moment"},
           {"modes", modes},
@@ -48,7 +82,10 @@ json to_json(const NominalModel& model) {
           {"joint_share_deviation", model.joint_share_deviation},
           {"joint_loss_factor", model.joint_loss_factor},
           {"base_misfit", model.base_misfit},
-          {"wind_misfit", model.wind_misfit}};
+          {"wind_misfit", model.wind_misfit},
+          {"drag_curve",
+           {{"speed_m_s", model.drag_curve.speed_m_s}, {"factor", model.drag_curve.factor}}},
+          {"exponents_by_parameter", paths}};
 }
 
 signals::Readout read_readout(const JsonEntry& entry) {
@@ -70,6 +107,9 @@ NominalModel read_nominal(const JsonEntry& entry) {
                      .base_misfit = entry["base_misfit"].number(),
                      .wind_misfit = entry["wind_misfit"].number()};
   entry["joint_share"].require(model.joint_share <= 1., "must be at most 1");
+  model.drag_curve = read_drag_curve(entry["drag_curve"]);
+  model.paths = entry["exponents_by_parameter"].by_name(
+      [&](const JsonEntry& path) { return read_path(path, model.modes.size()); });
   return model;
 }
 

@@ -36,6 +36,34 @@ void set_joint_share(NominalModel& nominal, const signals::ReducedModel& model, 
     }
 }
 
+/// Of the static moment; all modes are taken to follow it. Nothing where the coefficient is one.
+DragCurve drag_curve(const signals::ReducedModel& model, const std::size_t usual) {
+  constexpr double constant_within = 1e-4;
+  const Vector axis = model.moment_axis();
+  const double reference = dot(axis, model.wind.moment_coefficient[usual]);
+  DragCurve curve{.speed_m_s = model.wind.speed_m_s, .factor = {}};
+  for (const Vector& coefficient : model.wind.moment_coefficient)
+    curve.factor.push_back(dot(axis, coefficient) / reference);
+  const auto is_one = [](const double f) { return std::abs(f - 1.) < constant_within; };
+  if (reference == 0. || std::all_of(curve.factor.begin(), curve.factor.end(), is_one)) return {};
+  return curve;
+}
+
+/// Of the modes with these numbers.
+void set_paths(NominalModel& nominal, const signals::ReducedModel& model,
+               const std::vector<std::size_t>& numbers) {
+  for (const signals::Sensitivity& sensitivity : model.sensitivities) {
+    ParameterPath& path = nominal.paths[sensitivity.parameter];
+    path.static_base_moment = sensitivity.static_base_moment;
+    path.static_wind_moment = sensitivity.static_wind_moment;
+    for (const std::size_t k : numbers) {
+      path.frequency.push_back(sensitivity.frequency.at(k));
+      path.base_gain.push_back(sensitivity.base_gain.at(k));
+      path.wind_gain.push_back(sensitivity.wind_gain.empty() ? 0. : sensitivity.wind_gain.at(k));
+    }
+  }
+}
+
 }  // namespace
 
 NominalModel nominal_from(const signals::ReducedModel& model) {
@@ -48,7 +76,10 @@ NominalModel nominal_from(const signals::ReducedModel& model) {
   nominal.has_wind = wind;
   for (std::size_t i = 0; i < 3; ++i)
     nominal.base_direct -= axis[i] * dot(model.rigid_moment[i], model.axial_direction);
-  if (wind) nominal.wind_direct = dot(axis, model.wind.moment_coefficient[speed]);
+  if (wind) {
+    nominal.wind_direct = dot(axis, model.wind.moment_coefficient[speed]);
+    nominal.drag_curve = drag_curve(model, speed);
+  }
   std::vector<std::size_t> numbers;
   for (std::size_t k = 0; k < model.modes.size(); ++k) {
     const signals::ReducedMode& mode = model.modes[k];
@@ -72,12 +103,14 @@ NominalModel nominal_from(const signals::ReducedModel& model) {
     throw signals::UserError("model '" + model.name +
                              "': no mode is moved by base acceleration along its axial direction");
   set_joint_share(nominal, model, numbers.front());
+  const double strongest = std::abs(nominal.modes[numbers.front()].base_gain);
+  std::erase_if(numbers, [&](const std::size_t k) {
+    return std::abs(nominal.modes[k].base_gain) <= other_plane * strongest;
+  });
   std::vector<StructuralMode> modes;
-  for (const std::size_t k : numbers)
-    if (std::abs(nominal.modes[k].base_gain) >
-        other_plane * std::abs(nominal.modes[numbers.front()].base_gain))
-      modes.push_back(nominal.modes[k]);
+  for (const std::size_t k : numbers) modes.push_back(nominal.modes[k]);
   nominal.modes = std::move(modes);
+  set_paths(nominal, model, numbers);
   return nominal;
 }
 

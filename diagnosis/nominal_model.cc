@@ -1,5 +1,7 @@
 #include "diagnosis/nominal_model.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace vibrissa::diagnosis {
@@ -29,6 +31,43 @@ NominalModel::Responses NominalModel::responses(const Complex s) const {
     sum.wind += (mode.wind_gain + mode.wind_rate * x) * c;
   }
   return sum;
+}
+
+double DragCurve::drag(const double speed) const {
+  const double square = speed * std::abs(speed);
+  if (speed_m_s.empty()) return square;
+  const auto above = std::upper_bound(speed_m_s.begin(), speed_m_s.end(), speed);
+  if (above == speed_m_s.begin()) return square * factor.front();
+  if (above == speed_m_s.end()) return square * factor.back();
+  const auto i = static_cast<std::size_t>(above - speed_m_s.begin());
+  const double share = (speed - speed_m_s[i - 1]) / (speed_m_s[i] - speed_m_s[i - 1]);
+  return square * std::lerp(factor[i - 1], factor[i], share);
+}
+
+const ParameterPath* NominalModel::path(const std::string& parameter) const {
+  const auto found = paths.find(parameter);
+  return found == paths.end() ? nullptr : &found->second;
+}
+
+void NominalModel::follow(const ParameterPath& path, const double log_x) {
+  assert(path.frequency.size() == modes.size() && path.base_gain.size() == modes.size() &&
+         path.wind_gain.size() == modes.size());
+  const auto factor = [&](const double exponent) { return std::exp(exponent * log_x); };
+  double base = base_direct, wind = wind_direct;  // static moments
+  for (const StructuralMode& mode : modes) base += mode.base_gain, wind += mode.wind_gain;
+  base_direct = base * factor(path.static_base_moment);
+  wind_direct = wind * factor(path.static_wind_moment);
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    StructuralMode& mode = modes[k];
+    mode.frequency_rad_s *= factor(path.frequency[k]);
+    const double base_factor = factor(path.base_gain[k]), wind_factor = factor(path.wind_gain[k]);
+    mode.base_gain *= base_factor;
+    mode.base_rate *= base_factor;
+    mode.wind_gain *= wind_factor;
+    mode.wind_rate *= wind_factor;
+    base_direct -= mode.base_gain;
+    wind_direct -= mode.wind_gain;
+  }
 }
 
 double NominalModel::joint_viscous_ratio() const {

@@ -2,6 +2,8 @@
 
 #include <complex>
 #include <cstddef>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "signals/dataset.h"
@@ -25,9 +27,27 @@ struct StructuralMode {
   Complex wind_response(Complex s) const;
 };
 
-/// What the simulation says: base acceleration and wind to base moment, linear in a and in u |u|.
-/// The mode that base motion moves most comes first: joint laws act on it, and it is the first mode
-/// everywhere here. The direct terms stand for the modes above the band.
+/// How the structure follows one of its physical parameters x, from the finite-element model:
+/// d ln(figure) / d ln x, an entry to each mode of the NominalModel. Powers of x in between; a
+/// static moment that x does not change has the exponent 0.
+struct ParameterPath {
+  std::vector<double> frequency, base_gain, wind_gain;
+  double static_base_moment = 0., static_wind_moment = 0.;
+};
+
+/// The drag coefficient over the wind speed, of that at the speed which the wind gains are of:
+/// linear between the speeds [m/s], which ascend, and constant beyond them. Empty: 1 at any speed.
+struct DragCurve {
+  std::vector<double> speed_m_s, factor;
+
+  /// u |u| times the factor at u [m^2/s^2]. Proven by tests/diagnosis/nominal_from_model_test.cc.
+  double drag(double speed) const;
+};
+
+/// What the simulation says: base acceleration and wind to base moment, linear in a and in u |u|
+/// (times the drag curve, where there is one). The mode that base motion moves most comes first:
+/// joint laws act on it, and it is the first mode everywhere here. The direct terms stand for the
+/// modes above the band.
 struct NominalModel {
   /// What its gains and rates are of: the base moment, or k_nominal times the joint's rotation.
   signals::Readout readout = signals::Readout::moment;
@@ -41,6 +61,10 @@ struct NominalModel {
   double joint_share = 0.7, joint_share_deviation = 0.15;
   /// Factor on the joint's part of that mode's damping that the rates tell.
   double joint_loss_factor = 1.;
+  DragCurve drag_curve{};
+  /// By the names of the finite-element model's parameters (silicone_modulus, ...); empty when the
+  /// simulation is records.
+  std::map<std::string, ParameterPath> paths{};
   /// rms of (simulated - model) over rms of simulated, on the simulation's own records: what this
   /// form cannot follow.
   double base_misfit = 0., wind_misfit = 0.;
@@ -52,6 +76,12 @@ struct NominalModel {
     Complex base, wind;
   };
   Responses responses(Complex s) const;
+
+  /// The path of that parameter; nullptr when it is not known.
+  const ParameterPath* path(const std::string& parameter) const;
+  /// Takes every figure along the path to ln x; the damping ratios stay. Proven by
+  /// tests/diagnosis/nominal_from_model_test.cc.
+  void follow(const ParameterPath& path, double log_x);
 
   /// Viscous over elastic moment of the joint times its share of the first mode's compliance, at
   /// that mode's frequency. A rotation does not show it: the joint is taken to hold all damping.

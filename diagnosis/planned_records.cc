@@ -52,7 +52,7 @@ std::vector<double> nominal_moment(const NominalModel& nominal, const PlannedInp
   };
   add(input.acceleration, false);
   std::vector<double> force = input.wind;
-  for (double& u : force) u *= std::abs(u);
+  for (double& u : force) u = nominal.drag_curve.drag(u);
   add(force, true);
   return samples_of(moment, n);
 }

@@ -11,12 +11,13 @@ namespace {
 
 namespace channel = signals::channel;
 
-/// Moment of a steady wind of 1 m/s [N m].
+/// Moment of a steady wind over its u |u|, at the speed that sensors are made for [N m / (m/s)^2].
 double steady_drag(const MendedModel& model, double rate_hz) {
   constexpr std::size_t n = 256;
+  constexpr double usual_m_s = 2.;
   signals::Record wind(rate_hz, n);
-  wind.set_channel(channel::wind_speed, std::vector<double>(n, 1.));
-  return simulate_moment(model, wind)[n / 2];
+  wind.set_channel(channel::wind_speed, std::vector<double>(n, usual_m_s));
+  return simulate_moment(model, wind)[n / 2] / (usual_m_s * usual_m_s);
 }
 
 std::vector<double> foretold_vibration(const MendedModel& model, const signals::Record& record) {

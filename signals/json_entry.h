@@ -63,11 +63,16 @@ class JsonEntry {
   std::array<std::array<double, 3>, 3> matrix() const {
     return triple([](const JsonEntry& entry) { return entry.vector(); });
   }
-  std::map<std::string, std::string> texts() const {
+  /// Each entry of an object by its name, through a function of it.
+  template <typename Read>
+  auto by_name(Read read) const {
     require(value_.is_object(), "must be an object with entries by name");
-    std::map<std::string, std::string> result;
-    for (const auto& item : value_.items()) result[item.key()] = (*this)[item.key()].text();
+    std::map<std::string, decltype(read(*this))> result;
+    for (const auto& item : value_.items()) result[item.key()] = read((*this)[item.key()]);
     return result;
+  }
+  std::map<std::string, std::string> texts() const {
+    return by_name([](const JsonEntry& entry) { return entry.text(); });
   }
 
   [[noreturn]] void fail(const std::string& what) const {

@@ -1,12 +1,24 @@
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
+namespace {
+
+/// The first mode's modal mass so many times what it was; returns the factor on its base forcing.
+double change_density(NominalModel& structure, const ParameterPath& fin, const double ratio) {
+  const double log_density = -0.5 * std::log(ratio) / fin.frequency.front();
+  structure.follow(fin, log_density);
+  return std::exp(fin.base_gain.front() * log_density);
+}
+
+}  // namespace
 
 Effect mass() {
   return Effect{
       .id = "mass",
       .link = Link::structure,
-      .equation = "m = r m0, base forcing r^g; d M0 a for the modes above",
+      .equation =
+          "m = r m0 of the first mode, base forcing r^g; d M0 a for the modes above; with a "
+          "finite-element model by the density of its fin, in all modes",
       .source = "effects.md; g near 1, the whole mass is not all of the modal mass",
       .confused_with =
           "stiffness + damping + reference_gain (exact alias for one mode); added known mass",
@@ -18,9 +30,12 @@ Effect mass() {
                      normal("direct", "1", 0., 0.005, -0.05, 0.05, 0.)},
       .starts = {{0.95, 1., 0.}, {1.05, 1., 0.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-        chain.joint_change.inertia *= v[0];
-        chain.mount.push_back(
-            [forcing = std::pow(v[0], v[1])](Complex) -> Complex { return forcing; });
+        double forcing = std::pow(v[0], v[1]);
+        if (const ParameterPath* fin = chain.structure.path("fin_density"))
+          forcing /= change_density(chain.structure, *fin, v[0]);
+        else
+          chain.joint_change.inertia *= v[0];
+        chain.mount.push_back([forcing](Complex) -> Complex { return forcing; });
         chain.parallel.push_back(
             [direct = v[2] * scales.static_gain](Complex) -> Complex { return direct; });
       }};

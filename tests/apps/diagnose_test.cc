@@ -137,6 +137,38 @@ TEST(DiagnoseCommand, LeavesAModelThatTheOtherCommandsTake) {
   EXPECT_EQ(nlohmann::json::parse(again.output)["verdict"], "none");
 }
 
+/// Of a record that `simulate` writes for the sensor of the case with the settings; the diagnosis
+/// has the case alone.
+nlohmann::json diagnosis_of_simulated(const std::string& settings) {
+  const Folder folder;
+  const std::string model = case_file("flow_sensor.prm");
+  const auto simulated = vibrissa("simulate '" + model + "' -q --record '" +
+                                  folder.file("real.csv") + "' " + settings);
+  EXPECT_EQ(simulated.status, 0) << simulated.errors;
+  const auto result =
+      vibrissa("diagnose --model '" + model + "' --real '" + folder.file("real.csv") +
+               "' --max-effects 1 -q --json -o '" + folder.file("out") + "'");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return result.json();
+}
+
+TEST(DiagnoseCommand, FindsNothingInWhatItsOwnSimulatorWrote) {
+  const auto answer = diagnosis_of_simulated("--set Records/Duration=30");
+  EXPECT_EQ(answer["verdict"], "none");
+  EXPECT_GT(answer["ranking"][0]["probability"], 0.8);
+}
+
+TEST(DiagnoseCommand, TellsASofterSiliconeFromALighterFin) {
+  const auto soft =
+      diagnosis_of_simulated("--set Records/Duration=30 --set Materials/Silicone/c1=240000");
+  EXPECT_EQ(soft["verdict"], "stiffness");
+  // The first resonance of that sensor over that of the case (vibrissa modes), squared.
+  EXPECT_NEAR(soft["ranking"][0]["parameters"][0]["value"], std::pow(33.641 / 37.371, 2), 0.004);
+  const auto light =
+      diagnosis_of_simulated("--set Records/Duration=30 --set Materials/Fin/Density=1050");
+  EXPECT_EQ(light["verdict"], "mass");
+}
+
 TEST(SimulateCommand, AsksForTheInputsOfAMendedModel) {
   const Folder folder;
   std::ofstream(folder.file("mended.json")) << R"({"schema": "vibrissa-mended-model-1"})";

@@ -48,6 +48,66 @@ TEST(Stiffness, LeavesTheStaticMomentAlone) {
   }
 }
 
+/// Two modes whose model knows its silicone (0.56 of the first mode's compliance), its wire and the
+/// density of its fin.
+Chain solid_with(const std::string& id, const std::vector<double>& values) {
+  Chain chain{.structure = {.modes = {{.frequency_rad_s = 220.,
+                                       .damping_ratio = 0.02,
+                                       .base_gain = -2e-5,
+                                       .base_rate = -2e-5 * 0.04},
+                                      {.frequency_rad_s = 3000.,
+                                       .damping_ratio = 0.02,
+                                       .base_gain = -2e-6,
+                                       .base_rate = -2e-6 * 0.04}},
+                            .base_direct = -1e-6,
+                            .has_base = true}};
+  chain.structure.paths = {{"silicone_modulus", {{0.28, 0.33}, {-0.02, 0.01}, {0., 0.}}},
+                           {"wire_modulus", {{0.22, 0.16}, {0.02, -0.02}, {0., 0.}}},
+                           {"fin_density", {{-0.46, -0.21}, {0.9, -0.01}, {0., 0.}, 0.8}}};
+  chain.joint_share = 0.56;
+  find_effect(id).extend(chain, values, {});
+  return chain;
+}
+
+TEST(Stiffness, FollowsSiliconeAndWireOfAModelThatKnowsThem) {
+  const double ratio = 0.8;
+  for (const double wire_share : {0., 0.3, 1.}) {
+    const Chain chain = solid_with("stiffness", {ratio, 0.5, wire_share});
+    EXPECT_NEAR(chain.structure.modes[0].frequency_rad_s, 220. * std::sqrt(ratio), 1e-9);
+    const double silicone = std::pow(ratio, 0.5 * (1. - wire_share) / 0.28),
+                 wire = std::pow(ratio, 0.5 * wire_share / 0.22);
+    EXPECT_NEAR(chain.structure.modes[1].frequency_rad_s,
+                3000. * std::pow(silicone, 0.33) * std::pow(wire, 0.16), 1e-8);
+    EXPECT_NEAR(chain.structure.base_response(0.).real(), -2.3e-5, 1e-18);
+    EXPECT_NEAR(chain.joint_stiffness, silicone, 1e-12);
+    // Springs in series: the softer joint has more of the compliance.
+    EXPECT_NEAR(chain.joint_share, 0.56 / silicone / (0.56 / silicone + 0.44), 1e-12);
+  }
+}
+
+TEST(Stiffness, OfSofterSiliconeTurnsAHallElementFurther) {
+  const auto reading = [](const Chain& chain) {
+    return LinearResponse(chain).at(0., signals::Readout::rotation).base.real();
+  };
+  const double silicone = std::pow(0.8, 0.5 / 0.28);
+  EXPECT_NEAR(reading(solid_with("stiffness", {0.8, 0.5, 0.})) /
+                  reading(solid_with("stiffness", {1., 0.5, 0.})),
+              1. / silicone, 1e-9);
+  EXPECT_NEAR(reading(solid_with("stiffness", {0.8, 0.5, 1.})) /
+                  reading(solid_with("stiffness", {1., 0.5, 0.})),
+              1., 1e-9);
+}
+
+TEST(Mass, FollowsTheFinsDensityOfAModelThatKnowsIt) {
+  const double ratio = 0.9, density = std::pow(ratio, 0.5 / 0.46);
+  const Chain chain = solid_with("mass", {ratio, 1., 0.});
+  EXPECT_NEAR(chain.structure.modes[0].frequency_rad_s, 220. / std::sqrt(ratio), 1e-9);
+  EXPECT_NEAR(chain.structure.modes[1].frequency_rad_s, 3000. * std::pow(density, -0.21), 1e-8);
+  // Base motion forces the first mode in proportion to its mass, as asked, not to the model's own.
+  EXPECT_NEAR(chain.structure.modes[0].base_gain * chain.mount.front()(0.).real(), -2e-5 * ratio,
+              1e-16);
+}
+
 Complex lowpass(double corner_hz, double n_lags, double f_hz) {
   const Chain chain = with("sensor_lowpass", {corner_hz, 0., n_lags});
   return LinearResponse(chain).at(Complex(0., 2. * std::numbers::pi * f_hz)).sensor;

@@ -108,6 +108,35 @@ TEST_F(MendedModelFile, KeepsEveryFigure) {
   EXPECT_EQ(simulate_moment(read_mended_model(file_), inputs), simulate_moment(model, inputs));
 }
 
+MendedModel model_with_paths() {
+  MendedModel model = soft_model(true);
+  const std::size_t n = model.nominal.modes.size();
+  const auto exponents = [n](const double first) { return std::vector<double>(n, first); };
+  model.nominal.paths["wire_modulus"] = {exponents(0.22), exponents(0.02), exponents(0.01)};
+  model.nominal.paths["silicone_modulus"] = {exponents(0.28), exponents(-0.02), exponents(-0.01)};
+  model.nominal.drag_curve = {.speed_m_s = {0., 2., 4.}, .factor = {1.4, 1., 0.9}};
+  return model;
+}
+
+TEST_F(MendedModelFile, KeepsWhatAFiniteElementModelTold) {
+  const MendedModel model = model_with_paths();
+  write(mended_model_json(model));
+  EXPECT_EQ(mended_model_json(read_mended_model(file_)), mended_model_json(model));
+  const signals::Record inputs = OneModeRig{}.record(
+      700, 0., sines({11.}, 2., 1), [](double) { return 3.; }, 1, true);
+  EXPECT_EQ(simulate_moment(read_mended_model(file_), inputs), simulate_moment(model, inputs));
+  EXPECT_NE(simulate_moment(model, inputs), simulate_moment(soft_model(true), inputs));
+}
+
+TEST_F(MendedModelFile, RefusesPathsAndCurvesThatDoNotFit) {
+  const std::string good = mended_model_json(model_with_paths());
+  EXPECT_THAT(message_of(replaced(good, "0.28", "0.28, 0.3")),
+              testing::AllOf(HasSubstr("silicone_modulus/frequency"), HasSubstr("each mode")));
+  EXPECT_THAT(message_of(replaced(good, "1.4,", "")), HasSubstr("number for each speed"));
+  EXPECT_THAT(message_of(replaced(good, "0.0,\n    2.0", "2.0,\n    2.0")),
+              HasSubstr("must ascend"));
+}
+
 TEST_F(MendedModelFile, IsRefusedWithThePlaceOfWhatIsWrong) {
   const std::string good = mended_model_json(soft_model(true));
   EXPECT_THAT(message_of(replaced(good, "\"stiffness\"", "\"stifness\"")),

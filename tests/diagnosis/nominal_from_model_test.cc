@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "signals/error.h"
@@ -55,6 +56,54 @@ TEST(NominalFromModel, TakesTheJointsShareFromTheSensitivityToTheSilicone) {
                           .base_gain = {0., 0., 0.},
                           .wind_gain = {0., 0., 0.}}};
   EXPECT_NEAR(nominal_from(model).joint_share, 0.56, 1e-12);
+}
+
+TEST(NominalFromModel, HasTheDragCurveOfAWindLoadThatHasOne) {
+  signals::ReducedModel model = two_modes();
+  model.wind = {
+      .speed_m_s = {-2., 0., 2., 4.},
+      .modal_coefficient = {{4e-3, 0., 0.}, {5e-3, 0., 0.}, {4e-3, 0., 0.}, {3e-3, 0., 0.}},
+      .moment_coefficient = {{0., 4e-6, 0.}, {0., 5e-6, 0.}, {0., 4e-6, 0.}, {0., 3e-6, 0.}}};
+  const NominalModel nominal = nominal_from(model);
+  for (const double u : {-3., -2., -0.5, 0., 1., 2., 3., 5.})
+    EXPECT_NEAR(nominal.wind_response(0.).real() * nominal.drag_curve.drag(u),
+                signals::steady_wind_moment(model, u), 1e-12)
+        << u;
+  for (auto& coefficient : model.wind.moment_coefficient) coefficient = {0., 4e-6, 0.};
+  EXPECT_TRUE(nominal_from(model).drag_curve.speed_m_s.empty());
+}
+
+/// The same model with every figure moved along the path by hand.
+TEST(NominalFromModel, FollowsTheSensitivitiesOfItsOwnModes) {
+  signals::ReducedModel model = two_modes();
+  const double x = 0.7;
+  model.sensitivities = {{.parameter = "fin_density",
+                          .nominal_value = 1230.,
+                          .unit = "kg/m^3",
+                          .frequency = {-0.46, -0.46, -0.21},
+                          .base_gain = {0.9, 0.9, -0.01},
+                          .wind_gain = {-0.005, 0., 0.13},
+                          .static_base_moment = 0.8}};
+  NominalModel followed = nominal_from(model);
+  followed.follow(*followed.path("fin_density"), std::log(x));
+
+  for (const std::size_t k : {0U, 2U}) {
+    const signals::Sensitivity& s = model.sensitivities.front();
+    model.modes[k].frequency_hz *= std::pow(x, s.frequency[k]);
+    model.modes[k].participation[0] *= std::pow(x, s.base_gain[k]);
+    model.wind.modal_coefficient[1][k] *= std::pow(x, s.wind_gain[k]);
+  }
+  model.rigid_moment[1][0] *= std::pow(x, 0.8);
+  for (const double frequency_hz : {1., 36., 150.}) {
+    const Complex s(0., 2. * std::numbers::pi * frequency_hz);
+    const auto truth = nominal_from(model).responses(s), got = followed.responses(s);
+    EXPECT_LT(std::abs(got.base / truth.base - 1.), 1e-12) << frequency_hz;
+    EXPECT_LT(std::abs(got.wind / truth.wind - 1.), 1e-12) << frequency_hz;
+  }
+}
+
+TEST(NominalFromModel, HasNoPathOfWhatTheModelDoesNotTell) {
+  EXPECT_EQ(nominal_from(two_modes()).path("silicone_modulus"), nullptr);
 }
 
 TEST(NominalFromModel, RefusesAModelThatBaseMotionDoesNotMove) {
