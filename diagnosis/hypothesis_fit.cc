@@ -122,6 +122,33 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
   return records;
 }
 
+/// An effect that recalibrates, as nuisances do, is aliased with them: where they take up what it
+/// does, it stays near nothing. Here it takes all it can before they move.
+std::optional<Climb> climb_without_nuisances(FitPosterior& posterior,
+                                             const std::vector<FreeFigure>& figures,
+                                             const std::vector<Eigen::VectorXd>& starts,
+                                             const FitOptions& options) {
+  constexpr int n_alone = 12;
+  if (std::none_of(figures.begin(), figures.end(), [](const FreeFigure& figure) {
+        return figure.effect != nullptr && figure.effect->retune && !figure.nuisance;
+      }))
+    return std::nullopt;
+  std::vector<FreeFigure> held = figures;
+  for (FreeFigure& figure : held)
+    if (figure.nuisance) {
+      Prior& prior = figure.description.prior;
+      prior.low = prior.high = prior.centre;
+    }
+  std::vector<Eigen::VectorXd> nominal = starts;
+  for (Eigen::VectorXd& x : nominal) clamp(held, x);
+  const FitOptions patient{.max_iterations = options.max_iterations};
+  Climb climb = best_start(posterior, held, nominal, patient);
+  climb_on(posterior, held, climb, n_alone, patient);
+  climb.ended = false;
+  climb_on(posterior, figures, climb, n_alone, patient);
+  return climb;
+}
+
 }  // namespace
 
 std::optional<std::size_t> HypothesisFit::place(const std::string& effect,
@@ -161,6 +188,11 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
     Climb other = climb_from(false);
     if (other.log_posterior > climb.log_posterior) climb = std::move(other);
   }
+  if (auto other = climb_without_nuisances(
+          posterior, fit.figures, start_vectors(experiment, fit.figures, hypothesis, start, true),
+          options);
+      other && other->log_posterior > climb.log_posterior)
+    climb = std::move(*other);
   climb_on(posterior, fit.figures, climb, options.max_iterations, options);
   fit.x = climb.x;
   fit.n_iterations = climb.n_iterations;
