@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -115,11 +117,22 @@ Failure attempt(int argc, char** argv, const std::string_view command) {
     return {too_poor_data, error.what()};
   } catch (const vibrissa::apps::Interrupted& error) {
     return {interrupted, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {
+        bad_input,
+        "not enough memory; shorter records or a coarser mesh (Model/Mesh resolution) need less"};
   } catch (const std::exception& error) {
     return {internal_error, std::string("internal error: ") + error.what() +
                                 "\nThis is a fault of the program; please report it with the "
                                 "command that you gave."};
   }
+}
+
+/// What was printed must have arrived: a full disk behind a redirection is a failure.
+Failure with_output_written(Failure failure) {
+  if (failure.status == 0 && !std::cout.flush())
+    failure = {bad_input, "the standard output cannot be written; is the disk full?"};
+  return failure;
 }
 
 // A failure of all is told once; one that is a single process's own ends the others, who would wait
@@ -144,8 +157,12 @@ int main(int argc, char** argv) {
   // Pictures are drawn by a child of a process that may be one of several.
   std::optional<fem::SolverSession> session;
   if (fem::is_launched_as_several() && command != "draw") session.emplace();
-  Voice voice(fem::is_first_process() || command == "trial");
-  const Failure failure = attempt(argc, argv, command);
+  // A file that grows beyond a limit is an error like a full disk, not the end without a word.
+  std::signal(SIGXFSZ, SIG_IGN);
+  const bool is_heard = fem::is_first_process() || command == "trial";
+  Voice voice(is_heard);
+  Failure failure = attempt(argc, argv, command);
+  if (is_heard) failure = with_output_written(std::move(failure));
   settle(failure, voice);
   return failure.status;
 }

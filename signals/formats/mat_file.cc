@@ -178,6 +178,7 @@ void write_mat(const std::filesystem::path& file, const Record& record, const Ma
   constexpr std::size_t most_in_v5 = (std::size_t{1} << 31) / sizeof(double) - 16;
   const bool is_v5 = version == MatVersion::v5 && record.n_samples() < most_in_v5;
   const ScratchFile scratch;
+  std::size_t least_bytes = 0;
   {
     // A header of its own, because matio's holds the time of day: equal records give equal files.
     const char* const header = is_v5 ? "MATLAB 5.0 MAT-file, written by vibrissa"
@@ -187,10 +188,16 @@ void write_mat(const std::filesystem::path& file, const Record& record, const Ma
     if (!made) throw UserError(scratch.name() + ": cannot be written");
     for_each_array(record, [&](const std::string& name, const std::span<const double> values) {
       add(made.get(), name, values);
+      least_bytes += values.size_bytes();
     });
   }
   const std::string bytes = read_bytes(scratch.name());
   check_is_whole(bytes, scratch.name());
+  // On a full disk matio may also leave out values and close the file as if there were no more.
+  if (bytes.size() < least_bytes)
+    throw UserError(scratch.name() + ": only " + std::to_string(bytes.size()) +
+                    " bytes of a MATLAB file could be written; make room, or name a roomier folder "
+                    "in TMPDIR");
   write_bytes(file, bytes);
 }
 

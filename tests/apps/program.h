@@ -47,10 +47,10 @@ inline std::string content(const std::string& file) {
   return text.str();
 }
 
-/// Runs "vibrissa ARGUMENTS" through the shell.
-inline ProgramResult vibrissa(const std::string& arguments) {
+/// Runs "BEFORE vibrissa ARGUMENTS" through the shell; before: what sets its limits or variables.
+inline ProgramResult vibrissa(const std::string& arguments, const std::string& before = "") {
   const Folder folder;
-  const std::string command = std::string("'") + VIBRISSA_PROGRAM + "' " + arguments + " > '" +
+  const std::string command = before + " '" + VIBRISSA_PROGRAM + "' " + arguments + " > '" +
                               folder.file("out") + "' 2> '" + folder.file("err") + "'";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(folder.file("out")),
