@@ -12,6 +12,7 @@
 #include "fem/solver_session.h"
 #include "report/pictures.h"
 #include "signals/error.h"
+#include "signals/formats/response_file.h"
 #include "signals/output_file.h"
 
 namespace vibrissa::apps {
@@ -22,7 +23,7 @@ struct BodeOptions {
   CommonOptions common;
   RecordOptions record;
   std::string input;
-  std::optional<std::string> folder;
+  std::optional<std::string> folder, response_file;
   ResponseOptions response;
   std::vector<std::string> realisations;
   double low_hz = 1., high_hz = 200.;
@@ -83,6 +84,9 @@ void write_folder(const std::string& folder, const MeasuredResponse& measured) {
 
 void bode(const BodeOptions& options) {
   const MeasuredResponse measured = make_response(options);
+  if (options.response_file)
+    signals::formats::write_response(*options.response_file, measured.curve.response,
+                                     measured.curve.label);
   if (options.folder) {
     write_folder(*options.folder, measured);
     const auto pictures = report::draw_pictures(*options.folder);
@@ -95,7 +99,11 @@ void bode(const BodeOptions& options) {
     print_json(response_json(measured));
     return;
   }
-  if (!options.folder) std::cout << response_table(measured).to_csv();
+  if (options.response_file)
+    std::cout << "wrote " << *options.response_file << ": "
+              << measured.curve.response.frequency_hz.size() << " frequencies\n";
+  else if (!options.folder)
+    std::cout << response_table(measured).to_csv();
 }
 
 }  // namespace
@@ -110,6 +118,9 @@ void add_bode_command(CLI::App& app) {
       ->required();
   command->add_option("-o,--output", options->folder,
                       "New folder for figure, picture and response.csv");
+  command->add_option("--response", options->response_file,
+                      "Also write the response for other programs: .uff, .unv, .uf58 (Universal "
+                      "File, type 58) or .mat");
   command->add_option(
       "--period", options->response.period_samples,
       "Period of a periodic record in steady state [samples]; the last whole periods are used");

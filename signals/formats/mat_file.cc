@@ -2,8 +2,10 @@
 
 #include <matio.h>
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 
 #include "signals/error.h"
@@ -149,14 +151,66 @@ void check_is_whole(const std::string& bytes, const std::string& name) {
     throw UserError(name + ": is damaged: its variables do not end where the file does");
 }
 
-void add(mat_t* const file, const std::string& name, const std::span<const double> values) {
-  std::array<std::size_t, 2> shape{values.size(), 1};
-  // matio only reads what it is given here, though it does not say so.
-  auto* const data = const_cast<double*>(values.data());
-  const Variable variable(Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, shape.data(),
-                                        data, MAT_F_DONT_COPY_DATA));
+void put(mat_t* const file, const std::string& name, const Variable& variable) {
   if (!variable || Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE) != 0)
     throw UserError("'" + name + "' cannot be written as a MATLAB variable");
+}
+
+// matio only reads what it is given here, though it does not say so.
+void* readable(const void* const data) {
+  return const_cast<void*>(data);
+}
+
+void add(mat_t* const file, const std::string& name, const std::span<const double> values) {
+  std::array<std::size_t, 2> shape{values.size(), 1};
+  put(file, name,
+      Variable(Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, shape.data(),
+                             readable(values.data()), MAT_F_DONT_COPY_DATA)));
+}
+
+void add(mat_t* const file, const std::string& name,
+         const std::span<const std::complex<double>> values) {
+  std::vector<double> real, imaginary;
+  for (const auto& value : values) {
+    real.push_back(value.real());
+    imaginary.push_back(value.imag());
+  }
+  mat_complex_split_t parts{real.data(), imaginary.data()};
+  std::array<std::size_t, 2> shape{values.size(), 1};
+  put(file, name,
+      Variable(Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, shape.data(), &parts,
+                             MAT_F_COMPLEX | MAT_F_DONT_COPY_DATA)));
+}
+
+void add(mat_t* const file, const std::string& name, const std::string& text) {
+  std::array<std::size_t, 2> shape{1, text.size()};
+  put(file, name,
+      Variable(Mat_VarCreate(name.c_str(), MAT_C_CHAR, MAT_T_UTF8, 2, shape.data(),
+                             readable(text.data()), MAT_F_DONT_COPY_DATA)));
+}
+
+/// Makes the file aside, checks that it is whole and holds at least what fill says it wrote.
+void write_aside(const std::filesystem::path& file, const bool is_v5,
+                 const std::function<std::size_t(mat_t*)>& fill) {
+  const ScratchFile scratch;
+  std::size_t least_bytes = 0;
+  {
+    // A header of its own, because matio's holds the time of day: equal records give equal files.
+    const char* const header = is_v5 ? "MATLAB 5.0 MAT-file, written by vibrissa"
+                                     : "MATLAB 7.3 MAT-file, written by vibrissa";
+    const MatFile made(
+        Mat_CreateVer(scratch.name().c_str(), header, is_v5 ? MAT_FT_MAT5 : MAT_FT_MAT73));
+    if (!made) throw UserError(scratch.name() + ": cannot be written");
+    least_bytes = fill(made.get());
+  }
+  const std::string bytes = read_bytes(scratch.name());
+  check_is_whole(bytes, scratch.name());
+  // On a full disk matio may also leave out values and close the file as if there were no more.
+  if (bytes.size() < least_bytes)
+    throw UserError(scratch.name() + ": only " + std::to_string(bytes.size()) +
+                    " bytes of a MATLAB file could be written; make room, or name a roomier folder "
+                    "in TMPDIR");
+  write_bytes(file, bytes);
 }
 
 }  // namespace
@@ -177,28 +231,27 @@ std::unique_ptr<RecordTable> read_mat(const std::filesystem::path& file) {
 void write_mat(const std::filesystem::path& file, const Record& record, const MatVersion version) {
   constexpr std::size_t most_in_v5 = (std::size_t{1} << 31) / sizeof(double) - 16;
   const bool is_v5 = version == MatVersion::v5 && record.n_samples() < most_in_v5;
-  const ScratchFile scratch;
-  std::size_t least_bytes = 0;
-  {
-    // A header of its own, because matio's holds the time of day: equal records give equal files.
-    const char* const header = is_v5 ? "MATLAB 5.0 MAT-file, written by vibrissa"
-                                     : "MATLAB 7.3 MAT-file, written by vibrissa";
-    const MatFile made(
-        Mat_CreateVer(scratch.name().c_str(), header, is_v5 ? MAT_FT_MAT5 : MAT_FT_MAT73));
-    if (!made) throw UserError(scratch.name() + ": cannot be written");
+  write_aside(file, is_v5, [&](mat_t* const made) {
+    std::size_t n_bytes = 0;
     for_each_array(record, [&](const std::string& name, const std::span<const double> values) {
-      add(made.get(), name, values);
-      least_bytes += values.size_bytes();
+      add(made, name, values);
+      n_bytes += values.size_bytes();
     });
-  }
-  const std::string bytes = read_bytes(scratch.name());
-  check_is_whole(bytes, scratch.name());
-  // On a full disk matio may also leave out values and close the file as if there were no more.
-  if (bytes.size() < least_bytes)
-    throw UserError(scratch.name() + ": only " + std::to_string(bytes.size()) +
-                    " bytes of a MATLAB file could be written; make room, or name a roomier folder "
-                    "in TMPDIR");
-  write_bytes(file, bytes);
+    return n_bytes;
+  });
+}
+
+void write_mat(const std::filesystem::path& file, const FrequencyResponse& response,
+               const std::string& convention) {
+  write_aside(file, true, [&](mat_t* const made) {
+    add(made, "convention", convention);
+    add(made, "frequency_hz", response.frequency_hz);
+    add(made, "response", std::span<const std::complex<double>>(response.value));
+    if (!response.coherence.empty()) add(made, "coherence", response.coherence);
+    if (!response.standard_deviation.empty())
+      add(made, "standard_deviation", response.standard_deviation);
+    return (response.frequency_hz.size() + 2 * response.value.size()) * sizeof(double);
+  });
 }
 
 }  // namespace vibrissa::signals::formats

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "signals/formats/numeric_table.h"
+#include "signals/frequency_response.h"
 #include "signals/record.h"
 
 namespace vibrissa::signals::formats {
@@ -20,5 +22,10 @@ std::unique_ptr<RecordTable> read_mat(const std::filesystem::path& file);
 /// tests/signals/formats/round_trip_test.cc and tests/apps/exchange.py.
 void write_mat(const std::filesystem::path& file, const Record& record,
                MatVersion version = MatVersion::v5);
+
+/// frequency_hz, response (complex), convention (text) and, where the response has them, coherence
+/// and standard_deviation, in version 5; see response_file.h.
+void write_mat(const std::filesystem::path& file, const FrequencyResponse& response,
+               const std::string& convention);
 
 }  // namespace vibrissa::signals::formats

@@ -11,6 +11,7 @@ import tempfile
 
 import numpy as np
 import scipy.io
+import scipy.signal
 
 VIBRISSA = sys.argv[1]
 RATE_HZ = 1000.0 / 3.0
@@ -46,6 +47,22 @@ def write_csv(path, record):
 
 def read_csv(path):
     return np.genfromtxt(path, delimiter=",", names=True)
+
+
+def scipy_reads_a_response(folder):
+    """The response that SciPy itself estimates from the same record, by the same windows."""
+    random = np.random.default_rng(5)
+    acceleration = random.standard_normal(4000)
+    moment = -2e-5 * scipy.signal.lfilter([1.0], [1.0, -1.2, 0.7], acceleration)
+    write_csv(folder / "f.csv", {"time_s": np.arange(4000) / RATE_HZ, **dict(zip(CHANNELS, (acceleration, moment)))})
+    run(VIBRISSA, "bode", folder / "f.csv", "--rate", repr(RATE_HZ), "--segment", "64", "--response", folder / "f.mat")
+    found = scipy.io.loadmat(folder / "f.mat")
+    f, cross = scipy.signal.csd(acceleration, moment, RATE_HZ, "hann", 64, detrend="constant")
+    _, power = scipy.signal.welch(acceleration, RATE_HZ, "hann", 64, detrend="constant")
+    expected = (cross / power)[1:-1]
+    assert np.allclose(found["frequency_hz"].ravel(), f[1:-1], rtol=1e-9), "frequencies"
+    assert np.allclose(found["response"].ravel(), expected, rtol=1e-9), "response"
+    assert "exp(+j w t)" in str(found["convention"]), "convention"
 
 
 def scipy_and_numpy(folder, record):
@@ -105,7 +122,8 @@ def main():
     record = sample()
     with tempfile.TemporaryDirectory() as name:
         scipy_and_numpy(pathlib.Path(name), record)
-        print("SciPy and NumPy: .mat and .npy both ways")
+        scipy_reads_a_response(pathlib.Path(name))
+        print("SciPy and NumPy: .mat and .npy both ways, a response as .mat")
         if shutil.which("octave-cli") is None:
             print("octave-cli is missing: its part is left out")
             return
