@@ -45,8 +45,10 @@ double DragCurve::drag(const double speed) const {
 }
 
 const ParameterPath* NominalModel::path(const std::string& parameter) const {
+  constexpr double least_exponent = 1e-3;
   const auto found = paths.find(parameter);
-  return found == paths.end() ? nullptr : &found->second;
+  if (found == paths.end() || found->second.frequency.empty()) return nullptr;
+  return std::abs(found->second.frequency.front()) < least_exponent ? nullptr : &found->second;
 }
 
 void NominalModel::follow(const ParameterPath& path, const double log_x) {

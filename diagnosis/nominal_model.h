@@ -77,7 +77,7 @@ struct NominalModel {
   };
   Responses responses(Complex s) const;
 
-  /// The path of that parameter; nullptr when it is not known.
+  /// The path of that parameter; nullptr when it is not known or the first mode does not feel it.
   const ParameterPath* path(const std::string& parameter) const;
   /// Takes every figure along the path to ln x; the damping ratios stay. Proven by
   /// tests/diagnosis/nominal_from_model_test.cc.

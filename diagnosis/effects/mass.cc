@@ -4,10 +4,10 @@ namespace vibrissa::diagnosis::effects {
 namespace {
 
 /// The first mode's modal mass so many times what it was; returns the factor on its base forcing.
-double change_density(NominalModel& structure, const ParameterPath& fin, const double ratio) {
-  const double log_density = -0.5 * std::log(ratio) / fin.frequency.front();
-  structure.follow(fin, log_density);
-  return std::exp(fin.base_gain.front() * log_density);
+double change_density(NominalModel& structure, const ParameterPath& path, const double ratio) {
+  const double log_density = -0.5 * std::log(ratio) / path.frequency.front();
+  structure.follow(path, log_density);
+  return std::exp(path.base_gain.front() * log_density);
 }
 
 }  // namespace
@@ -18,7 +18,7 @@ Effect mass() {
       .link = Link::structure,
       .equation =
           "m = r m0 of the first mode, base forcing r^g; d M0 a for the modes above; with a "
-          "finite-element model by the density of its fin, in all modes",
+          "finite-element model by the density of its fin, or else its wire, in all modes",
       .source = "effects.md; g near 1, the whole mass is not all of the modal mass",
       .confused_with =
           "stiffness + damping + reference_gain (exact alias for one mode); added known mass",
@@ -31,8 +31,10 @@ Effect mass() {
       .starts = {{0.95, 1., 0.}, {1.05, 1., 0.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         double forcing = std::pow(v[0], v[1]);
-        if (const ParameterPath* fin = chain.structure.path("fin_density"))
-          forcing /= change_density(chain.structure, *fin, v[0]);
+        const ParameterPath* fin = chain.structure.path("fin_density");
+        const ParameterPath* density = fin ? fin : chain.structure.path("wire_density");
+        if (density)
+          forcing /= change_density(chain.structure, *density, v[0]);
         else
           chain.joint_change.inertia *= v[0];
         chain.mount.push_back([forcing](Complex) -> Complex { return forcing; });

@@ -102,8 +102,16 @@ TEST(NominalFromModel, FollowsTheSensitivitiesOfItsOwnModes) {
   }
 }
 
-TEST(NominalFromModel, HasNoPathOfWhatTheModelDoesNotTell) {
-  EXPECT_EQ(nominal_from(two_modes()).path("silicone_modulus"), nullptr);
+TEST(NominalFromModel, HasNoPathOfWhatTheModelDoesNotTellOrTheFirstModeDoesNotFeel) {
+  signals::ReducedModel model = two_modes();
+  EXPECT_EQ(nominal_from(model).path("silicone_modulus"), nullptr);
+  model.sensitivities = {{.parameter = "silicone_modulus",
+                          .nominal_value = 2e6,
+                          .unit = "Pa",
+                          .frequency = {0., 0., 0.3},
+                          .base_gain = {0., 0., 0.},
+                          .wind_gain = {0., 0., 0.}}};
+  EXPECT_EQ(nominal_from(model).path("silicone_modulus"), nullptr);
 }
 
 TEST(NominalFromModel, RefusesAModelThatBaseMotionDoesNotMove) {
