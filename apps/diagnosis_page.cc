@@ -110,8 +110,9 @@ report::Table parameter_table(const Diagnosis& d) {
   constexpr double improbable = 0.01;
   for (const RankedAnswer& answer : d.ranking) {
     if (answer.probability < improbable && &answer != &d.ranking.front()) continue;
-    for (const diagnosis::ParameterEstimate& p : answer.parameters)
-      table.add_row({answer.name, p.effect, p.name, p.value, p.ci95[0], p.ci95[1], p.unit});
+    for (const auto* estimates : {&answer.parameters, &answer.materials})
+      for (const diagnosis::ParameterEstimate& p : *estimates)
+        table.add_row({answer.name, p.effect, p.name, p.value, p.ci95[0], p.ci95[1], p.unit});
   }
   return table;
 }

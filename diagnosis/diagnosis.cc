@@ -5,6 +5,7 @@
 
 #include "diagnosis/indistinguishable.h"
 #include "diagnosis/long_records.h"
+#include "diagnosis/material_estimates.h"
 #include "signals/error.h"
 
 namespace vibrissa::diagnosis {
@@ -108,7 +109,8 @@ void set_gap(Diagnosis& out, const MendedModel& simulation, const signals::Datas
   out.gap = {score.nrmse_before, score.noise_floor, out.location.p_value};
 }
 
-void rank(Diagnosis& out, const SearchResult& result, const DiagnoseOptions& options) {
+void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nominal,
+          const DiagnoseOptions& options) {
   double listed = 0.;
   for (std::size_t i = 0; i < std::min(options.n_ranked, result.candidates.size()); ++i) {
     const Candidate& candidate = result.candidates[i];
@@ -116,6 +118,7 @@ void rank(Diagnosis& out, const SearchResult& result, const DiagnoseOptions& opt
         {.name = candidate.name,
          .probability = candidate.probability,
          .parameters = parameter_estimates(result.fits[candidate.fit], candidate.name),
+         .materials = material_estimates(nominal, result.fits[candidate.fit], candidate.name),
          .held_out = {}});
     listed += candidate.probability;
   }
@@ -181,7 +184,7 @@ Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& record
   const Candidate& best = result.candidates.front();
   out.verdict = best.name;
   out.location.links = likely_links(result);
-  rank(out, result, options);
+  rank(out, result, nominal, options);
   out.confidence_set = confidence_set(result.candidates, 0.95);
   const Experiment held_out =
       prepare_experiment(simulation, real, signals::Split::held_out, InputNoise::as_measured);

@@ -38,6 +38,8 @@ struct RankedAnswer {
   std::string name{};
   double probability = 0.;
   std::vector<ParameterEstimate> parameters{};
+  /// Of stiffness and mass in the finite-element model's own parameters (material_estimates.h).
+  std::vector<ParameterEstimate> materials{};
   std::optional<HeldOutScore> held_out{};  // of the first few
   std::vector<EffectShare> shares{};       // of the first, when it is a combination
 };

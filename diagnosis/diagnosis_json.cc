@@ -74,20 +74,25 @@ json held_out_json(const HeldOutScore& score) {
   return out;
 }
 
+json estimates_json(const std::vector<ParameterEstimate>& estimates) {
+  json out = json::array();
+  for (const ParameterEstimate& estimate : estimates)
+    out.push_back({{"effect", estimate.effect},
+                   {"name", estimate.name},
+                   {"value", json_number(estimate.value)},
+                   {"unit", estimate.unit},
+                   {"ci95", interval(estimate.ci95)}});
+  return out;
+}
+
 json answer_json(const RankedAnswer& answer) {
-  json parameters = json::array();
-  for (const ParameterEstimate& parameter : answer.parameters)
-    parameters.push_back({{"effect", parameter.effect},
-                          {"name", parameter.name},
-                          {"value", json_number(parameter.value)},
-                          {"unit", parameter.unit},
-                          {"ci95", interval(parameter.ci95)}});
   json shares = json::array();
   for (const EffectShare& share : answer.shares)
     shares.push_back({{"effect", share.effect}, {"gap_closed", json_number(share.share)}});
   return {{"effect", answer.name},
           {"probability", json_number(answer.probability)},
-          {"parameters", parameters},
+          {"parameters", estimates_json(answer.parameters)},
+          {"in_the_models_parameters", estimates_json(answer.materials)},
           {"shapley_shares", shares},
           {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)}};
 }
@@ -123,6 +128,15 @@ std::string parameters_line(const RankedAnswer& answer) {
     text += (text.empty() ? "  " : "; ") + p.effect + " " + p.name + " " + three_digits(p.value) +
             unit + " (" + three_digits(p.ci95[0]) + " .. " + three_digits(p.ci95[1]) + ")";
   }
+  return text;
+}
+
+std::string materials_line(const RankedAnswer& answer) {
+  std::string text;
+  for (const ParameterEstimate& p : answer.materials)
+    text += (text.empty() ? "In the model's parameters: " : "; ") + p.name + " " +
+            three_digits(p.value) + " (" + three_digits(p.ci95[0]) + " .. " +
+            three_digits(p.ci95[1]) + ")";
   return text;
 }
 
@@ -251,6 +265,7 @@ std::string verdict_text(const Diagnosis& diagnosis) {
   add(doubt_line(diagnosis));
   if (!diagnosis.ranking.empty()) {
     add(parameters_line(diagnosis.ranking.front()));
+    add(materials_line(diagnosis.ranking.front()));
     add("Gap: error " + percent(diagnosis.gap.nrmse) + " of the signal, noise alone " +
         percent(diagnosis.gap.noise_floor));
     if (diagnosis.ranking.front().held_out) {

@@ -33,6 +33,11 @@ NominalModel::Responses NominalModel::responses(const Complex s) const {
   return sum;
 }
 
+double spring_ratio(const double ratio, const double share) {
+  constexpr double least_compliance = 1e-3;
+  return share / std::max(least_compliance, 1. / ratio - 1. + share);
+}
+
 double DragCurve::drag(const double speed) const {
   const double square = speed * std::abs(speed);
   if (speed_m_s.empty()) return square;

@@ -35,6 +35,11 @@ struct ParameterPath {
   double static_base_moment = 0., static_wind_moment = 0.;
 };
 
+/// Springs in series: how many times as stiff the one with this share of the compliance has to be
+/// for the whole to be ratio times as stiff, 1 / ratio = share / result + 1 - share. A small share
+/// cannot stiffen the whole at will: the result is at most 1000 share.
+double spring_ratio(double ratio, double share);
+
 /// The drag coefficient over the wind speed, of that at the speed which the wind gains are of:
 /// linear between the speeds [m/s], which ascend, and constant beyond them. Empty: 1 at any speed.
 struct DragCurve {
@@ -79,6 +84,8 @@ struct NominalModel {
 
   /// The path of that parameter; nullptr when it is not known or the first mode does not feel it.
   const ParameterPath* path(const std::string& parameter) const;
+  /// The parameter's share in the first mode's compliance, d ln(stiffness) / d ln x.
+  static double compliance_share(const ParameterPath& path) { return 2. * path.frequency.front(); }
   /// Takes every figure along the path to ln x; the damping ratios stay. Proven by
   /// tests/diagnosis/nominal_from_model_test.cc.
   void follow(const ParameterPath& path, double log_x);

@@ -1,48 +1,32 @@
-#include <algorithm>
+#include <cmath>
 
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
 namespace {
 
-/// Spring of a joint that makes the mode's stiffness so many times what it was; a joint with a
-/// small share in the compliance cannot stiffen it at will.
-double spring_ratio(const double mode_ratio, const double joint_share) {
-  constexpr double least_compliance = 1e-3;
-  return joint_share / std::max(least_compliance, 1. / mode_ratio - 1. + joint_share);
-}
-
-/// Exponents per logarithm of the first mode's stiffness: wire and silicone in these shares.
-ParameterPath mixed_path(const ParameterPath& wire, const ParameterPath& silicone,
-                         const double wire_share) {
-  const double of_wire = 0.5 * wire_share / wire.frequency.front(),
-               of_silicone = 0.5 * (1. - wire_share) / silicone.frequency.front();
-  const auto mix = [&](const std::vector<double>& w, const std::vector<double>& s) {
-    std::vector<double> out(w.size());
-    for (std::size_t k = 0; k < w.size(); ++k) out[k] = of_wire * w[k] + of_silicone * s[k];
-    return out;
-  };
-  return {.frequency = mix(wire.frequency, silicone.frequency),
-          .base_gain = mix(wire.base_gain, silicone.base_gain),
-          .wind_gain = mix(wire.wind_gain, silicone.wind_gain)};
-}
-
-/// By what the finite-element model says of silicone and wire.
+/// By what the finite-element model says of silicone and wire: either makes its part of the first
+/// mode's stiffness as a spring in series with the rest.
 void change_materials(Chain& chain, const ParameterPath& wire, const ParameterPath& silicone,
                       const std::span<const double> v) {
-  const double log_ratio = std::log(v[0]);
-  const ParameterPath path = mixed_path(wire, silicone, v[2]);
-  chain.structure.follow(path, log_ratio);
-  for (std::size_t k = 0; k < chain.structure.modes.size(); ++k) {
+  const double of_wire = std::pow(v[0], v[2]), of_silicone = v[0] / of_wire,
+               wire_ratio = spring_ratio(of_wire, NominalModel::compliance_share(wire)),
+               silicone_ratio = spring_ratio(of_silicone, NominalModel::compliance_share(silicone));
+  const NominalModel before = chain.structure;
+  chain.structure.follow(silicone, std::log(silicone_ratio));
+  chain.structure.follow(wire, std::log(wire_ratio));
+  chain.structure.modes.front().frequency_rad_s =
+      before.modes.front().frequency_rad_s * std::sqrt(v[0]);
+  for (std::size_t k = 0; k < before.modes.size(); ++k) {
     StructuralMode& mode = chain.structure.modes[k];
-    const double damping = std::exp((v[1] - 0.5) * 2. * path.frequency[k] * log_ratio);
+    const double damping =
+        std::pow(mode.frequency_rad_s / before.modes[k].frequency_rad_s, 2. * v[1] - 1.);
     mode.damping_ratio *= damping;
     mode.base_rate *= damping;
     mode.wind_rate *= damping;
   }
-  const double joint = std::exp(0.5 * (1. - v[2]) / silicone.frequency.front() * log_ratio);
-  chain.joint_stiffness *= joint;
-  chain.joint_share /= chain.joint_share + (1. - chain.joint_share) * joint;
+  chain.joint_stiffness *= silicone_ratio;
+  chain.joint_share /= chain.joint_share + (1. - chain.joint_share) * silicone_ratio;
 }
 
 }  // namespace

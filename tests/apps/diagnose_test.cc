@@ -184,7 +184,12 @@ TEST(DiagnoseCommand, TellsASofterSiliconeFromALighterFin) {
   EXPECT_NEAR(soft["ranking"][0]["parameters"][0]["value"],
               std::pow(first_frequency_hz(softer) / first_frequency_hz("Records/Seed=1"), 2),
               0.004);
-  EXPECT_EQ(diagnosis_of_simulated("Materials/Fin/Density=1050")["verdict"], "mass");
+  const auto& silicone = soft["ranking"][0]["in_the_models_parameters"][0];
+  EXPECT_EQ(silicone["name"], "silicone_modulus_ratio");
+  EXPECT_NEAR(silicone["value"], 240. / 340., 0.03);
+  const auto light = diagnosis_of_simulated("Materials/Fin/Density=1050");
+  EXPECT_EQ(light["verdict"], "mass");
+  EXPECT_NEAR(light["ranking"][0]["in_the_models_parameters"][0]["value"], 1050. / 1230., 0.03);
 }
 
 TEST(SimulateCommand, AsksForTheInputsOfAMendedModel) {

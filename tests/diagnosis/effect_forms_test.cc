@@ -74,8 +74,9 @@ TEST(Stiffness, FollowsSiliconeAndWireOfAModelThatKnowsThem) {
   for (const double wire_share : {0., 0.3, 1.}) {
     const Chain chain = solid_with("stiffness", {ratio, 0.5, wire_share});
     EXPECT_NEAR(chain.structure.modes[0].frequency_rad_s, 220. * std::sqrt(ratio), 1e-9);
-    const double silicone = std::pow(ratio, 0.5 * (1. - wire_share) / 0.28),
-                 wire = std::pow(ratio, 0.5 * wire_share / 0.22);
+    // Springs in series: 1 / r = p / x + 1 - p.
+    const double silicone = 0.56 / (std::pow(ratio, wire_share - 1.) - 0.44),
+                 wire = 0.44 / (std::pow(ratio, -wire_share) - 0.56);
     EXPECT_NEAR(chain.structure.modes[1].frequency_rad_s,
                 3000. * std::pow(silicone, 0.33) * std::pow(wire, 0.16), 1e-8);
     EXPECT_NEAR(chain.structure.base_response(0.).real(), -2.3e-5, 1e-18);
@@ -89,7 +90,7 @@ TEST(Stiffness, OfSofterSiliconeTurnsAHallElementFurther) {
   const auto reading = [](const Chain& chain) {
     return LinearResponse(chain).at(0., signals::Readout::rotation).base.real();
   };
-  const double silicone = std::pow(0.8, 0.5 / 0.28);
+  const double silicone = 0.56 / (1. / 0.8 - 0.44);
   EXPECT_NEAR(reading(solid_with("stiffness", {0.8, 0.5, 0.})) /
                   reading(solid_with("stiffness", {1., 0.5, 0.})),
               1. / silicone, 1e-9);
