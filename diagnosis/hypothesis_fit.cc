@@ -123,13 +123,17 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
 }
 
 /// An effect that recalibrates, as nuisances do, is aliased with them: where they take up what it
-/// does, it stays near nothing. Here it takes all it can before they move.
+/// does, it stays near nothing. Here it takes all it can before they move. Only where it is the one
+/// effect: beside others it would take up what none of them explains.
 std::optional<Climb> climb_without_nuisances(FitPosterior& posterior,
                                              const std::vector<FreeFigure>& figures,
                                              const std::vector<Eigen::VectorXd>& starts,
                                              const FitOptions& options) {
   constexpr int n_alone = 12;
-  if (std::none_of(figures.begin(), figures.end(), [](const FreeFigure& figure) {
+  const auto n_named = std::count_if(figures.begin(), figures.end(), [](const FreeFigure& figure) {
+    return figure.effect != nullptr && !figure.nuisance && figure.parameter == 0;
+  });
+  if (n_named != 1 || std::none_of(figures.begin(), figures.end(), [](const FreeFigure& figure) {
         return figure.effect != nullptr && figure.effect->retune && !figure.nuisance;
       }))
     return std::nullopt;

@@ -11,7 +11,7 @@ namespace vibrissa::signals {
 namespace {
 
 constexpr std::size_t steps_per_sample = 16;
-constexpr double flat_to_share = 0.98;
+constexpr double flat_to_share = 0.995;
 
 std::vector<double> every(const std::vector<double>& x, const std::size_t factor) {
   std::vector<double> kept;

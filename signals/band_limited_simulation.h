@@ -5,7 +5,7 @@
 namespace vibrissa::signals {
 
 /// As simulate(), for inputs that are band-limited between their samples, which is how a sampled
-/// recording of a true motion is to be read: resampled (resample.h, flat to 0.49 of the rate) to
+/// recording of a true motion is to be read: resampled (resample.h, flat to 0.4975 of the rate) to
 /// straight lines of a sixteenth of the sampling interval, of which a mode feels a line at f Hz too
 /// little by (pi f / (16 rate))^2 / 3: 0.3 % at half the rate, 0.01 % at a tenth. Throws as
 /// simulate(). Proven by
