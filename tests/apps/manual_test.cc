@@ -1,7 +1,9 @@
 #include "apps/manual.h"
 
 #include <gmock/gmock.h>
+
 #include <gtest/gtest.h>
+#include <regex>
 
 #include "tests/apps/program.h"
 
@@ -22,7 +24,9 @@ TEST(Manual, ManReadsItWithoutAWarning) {
                             "' 2> '" + folder.file("warnings") + "'";
   EXPECT_EQ(std::system(check.c_str()), 0);
   EXPECT_EQ(content(folder.file("warnings")), "");
-  EXPECT_THAT(content(folder.file("text")), HasSubstr("Base vibration response model"));
+  // Lines are justified with further spaces, which lines before them may shift.
+  EXPECT_THAT(std::regex_replace(content(folder.file("text")), std::regex("\\s+"), " "),
+              HasSubstr("Base vibration response model"));
 }
 
 TEST(Completion, BashCompletesCommandsAndOptions) {
