@@ -9,10 +9,8 @@ namespace {
 
 using signals::Record;
 
-signals::MeasuringChain noisy_chain(const signals::ReducedModel& model,
-                                    const RecordParameters& records) {
+signals::MeasuringChain noise_chain(const RecordParameters& records) {
   signals::MeasuringChain chain;
-  chain.add(signals::make_structure_link(model));
   if (records.moment_noise_n_m > 0.) {
     chain.add(signals::make_sensor_noise(records.moment_noise_n_m));
   }
@@ -36,10 +34,7 @@ Record motion(const Case& parameters, const Inputs& inputs, const Driven driven)
   return record;
 }
 
-std::vector<double> true_moment(const signals::ReducedModel& model, const Record& motion) {
-  signals::MeasuringChain chain;
-  chain.add(signals::make_structure_link(model));
-  const Record record = chain.measure(motion, 0);
+std::vector<double> moment_of(const Record& record) {
   const auto moment = record.channel(signals::channel::base_moment);
   return {moment.begin(), moment.end()};
 }
@@ -55,13 +50,16 @@ void check_reduced_wind(const Case& parameters) {
 
 RigRecords measure_on_rig(const signals::ReducedModel& model, const Case& parameters,
                           const Inputs& inputs) {
-  const auto chain = noisy_chain(model, parameters.records);
-  const Record base = motion(parameters, inputs, Driven::base);
-  const Record wind = motion(parameters, inputs, Driven::wind);
-  const Record both = motion(parameters, inputs, Driven::both);
+  signals::MeasuringChain structure;
+  structure.add(signals::make_structure_link(model));
+  const auto truth = [&](const Driven driven) {
+    return structure.measure(motion(parameters, inputs, driven), 0);
+  };
+  const auto chain = noise_chain(parameters.records);
+  const Record base = truth(Driven::base), wind = truth(Driven::wind), both = truth(Driven::both);
   const std::uint64_t seed = 10 * parameters.records.seed;
   return {chain.measure(base, seed + 1), chain.measure(wind, seed + 2),
-          chain.measure(both, seed + 3), true_moment(model, base), true_moment(model, wind)};
+          chain.measure(both, seed + 3), moment_of(base), moment_of(wind)};
 }
 
 }  // namespace vibrissa::apps

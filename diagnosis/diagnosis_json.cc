@@ -121,22 +121,23 @@ std::string doubt_line(const Diagnosis& diagnosis) {
   return "Doubtful: " + first + (n > 1 ? " (and " + std::to_string(n - 1) + " more)" : "");
 }
 
+/// "0.711 (0.69 .. 0.73)", the unit behind the value.
+std::string value_text(const ParameterEstimate& p) {
+  return three_digits(p.value) + (p.unit == "1" ? "" : " " + p.unit) + " (" +
+         three_digits(p.ci95[0]) + " .. " + three_digits(p.ci95[1]) + ")";
+}
+
 std::string parameters_line(const RankedAnswer& answer) {
   std::string text;
-  for (const ParameterEstimate& p : answer.parameters) {
-    const std::string unit = p.unit == "1" ? "" : " " + p.unit;
-    text += (text.empty() ? "  " : "; ") + p.effect + " " + p.name + " " + three_digits(p.value) +
-            unit + " (" + three_digits(p.ci95[0]) + " .. " + three_digits(p.ci95[1]) + ")";
-  }
+  for (const ParameterEstimate& p : answer.parameters)
+    text += (text.empty() ? "  " : "; ") + p.effect + " " + p.name + " " + value_text(p);
   return text;
 }
 
 std::string materials_line(const RankedAnswer& answer) {
   std::string text;
   for (const ParameterEstimate& p : answer.materials)
-    text += (text.empty() ? "In the model's parameters: " : "; ") + p.name + " " +
-            three_digits(p.value) + " (" + three_digits(p.ci95[0]) + " .. " +
-            three_digits(p.ci95[1]) + ")";
+    text += (text.empty() ? "In the model's parameters: " : "; ") + p.name + " " + value_text(p);
   return text;
 }
 

@@ -122,34 +122,20 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
   return records;
 }
 
-/// An effect that recalibrates, as nuisances do, is aliased with them: where they take up what it
-/// does, it stays near nothing. Here it takes all it can before they move. Only where it is the one
-/// effect: beside others it would take up what none of them explains.
-std::optional<Climb> climb_without_nuisances(FitPosterior& posterior,
-                                             const std::vector<FreeFigure>& figures,
-                                             const std::vector<Eigen::VectorXd>& starts,
-                                             const FitOptions& options) {
+/// A climb on which the nuisances move last.
+Climb climb_before_nuisances(FitPosterior& posterior, const std::vector<FreeFigure>& figures,
+                             const std::vector<Eigen::VectorXd>& nominal_starts) {
   constexpr int n_alone = 12;
-  const auto n_named = std::count_if(figures.begin(), figures.end(), [](const FreeFigure& figure) {
-    return figure.effect != nullptr && !figure.nuisance && figure.parameter == 0;
-  });
-  if (n_named != 1 || std::none_of(figures.begin(), figures.end(), [](const FreeFigure& figure) {
-        return figure.effect != nullptr && figure.effect->retune && !figure.nuisance;
-      }))
-    return std::nullopt;
   std::vector<FreeFigure> held = figures;
   for (FreeFigure& figure : held)
     if (figure.nuisance) {
       Prior& prior = figure.description.prior;
       prior.low = prior.high = prior.centre;
     }
-  std::vector<Eigen::VectorXd> nominal = starts;
-  for (Eigen::VectorXd& x : nominal) clamp(held, x);
-  const FitOptions patient{.max_iterations = options.max_iterations};
-  Climb climb = best_start(posterior, held, nominal, patient);
-  climb_on(posterior, held, climb, n_alone, patient);
+  Climb climb = best_start(posterior, held, nominal_starts, {});
+  climb_on(posterior, held, climb, n_alone, {});
   climb.ended = false;
-  climb_on(posterior, figures, climb, n_alone, patient);
+  climb_on(posterior, figures, climb, n_alone, {});
   return climb;
 }
 
@@ -192,11 +178,14 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
     Climb other = climb_from(false);
     if (other.log_posterior > climb.log_posterior) climb = std::move(other);
   }
-  if (auto other = climb_without_nuisances(
-          posterior, fit.figures, start_vectors(experiment, fit.figures, hypothesis, start, true),
-          options);
-      other && other->log_posterior > climb.log_posterior)
-    climb = std::move(*other);
+  // An effect that recalibrates, as nuisances do, is aliased with them: where they take up what it
+  // does, it stays near nothing. Beside others it would take up what none of them explains.
+  const auto& effects = hypothesis.effects();
+  if (effects.size() == 1 && effects.front()->retune) {
+    Climb other = climb_before_nuisances(
+        posterior, fit.figures, start_vectors(experiment, fit.figures, hypothesis, start, true));
+    if (other.log_posterior > climb.log_posterior) climb = std::move(other);
+  }
   climb_on(posterior, fit.figures, climb, options.max_iterations, options);
   fit.x = climb.x;
   fit.n_iterations = climb.n_iterations;

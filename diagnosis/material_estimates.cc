@@ -58,15 +58,13 @@ void add_stiffness(const NominalModel& nominal, const HypothesisFit& fit,
 
 void add_mass(const NominalModel& nominal, const HypothesisFit& fit,
               std::vector<ParameterEstimate>& out) {
+  const std::string name = nominal.mass_parameter();
+  const ParameterPath* path = nominal.path(name);
   const auto ratio = fit.place("mass", ratio_number);
-  if (!ratio) return;
-  for (const std::string name : {"fin_density", "wire_density"})
-    if (const ParameterPath* path = nominal.path(name)) {
-      const double slope = -0.5 / path->frequency.front();
-      out.push_back(estimate(fit, "mass", name + "_ratio",
-                             slope * fit.x(static_cast<Eigen::Index>(*ratio)), {{*ratio, slope}}));
-      return;
-    }
+  if (!path || !ratio) return;
+  const double slope = -0.5 / path->frequency.front();
+  out.push_back(estimate(fit, "mass", name + "_ratio",
+                         slope * fit.x(static_cast<Eigen::Index>(*ratio)), {{*ratio, slope}}));
 }
 
 }  // namespace

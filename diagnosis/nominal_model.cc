@@ -56,6 +56,12 @@ const ParameterPath* NominalModel::path(const std::string& parameter) const {
   return std::abs(found->second.frequency.front()) < least_exponent ? nullptr : &found->second;
 }
 
+std::string NominalModel::mass_parameter() const {
+  for (const char* const name : {"fin_density", "wire_density"})
+    if (path(name) != nullptr) return name;
+  return "";
+}
+
 void NominalModel::follow(const ParameterPath& path, const double log_x) {
   assert(path.frequency.size() == modes.size() && path.base_gain.size() == modes.size() &&
          path.wind_gain.size() == modes.size());

@@ -86,6 +86,9 @@ struct NominalModel {
   const ParameterPath* path(const std::string& parameter) const;
   /// The parameter's share in the first mode's compliance, d ln(stiffness) / d ln x.
   static double compliance_share(const ParameterPath& path) { return 2. * path.frequency.front(); }
+  /// Name of the density that its mass follows: of the fin, or else of the wire; empty when neither
+  /// is known.
+  std::string mass_parameter() const;
   /// Takes every figure along the path to ln x; the damping ratios stay. Proven by
   /// tests/diagnosis/nominal_from_model_test.cc.
   void follow(const ParameterPath& path, double log_x);

@@ -31,9 +31,7 @@ Effect mass() {
       .starts = {{0.95, 1., 0.}, {1.05, 1., 0.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         double forcing = std::pow(v[0], v[1]);
-        const ParameterPath* fin = chain.structure.path("fin_density");
-        const ParameterPath* density = fin ? fin : chain.structure.path("wire_density");
-        if (density)
+        if (const auto* density = chain.structure.path(chain.structure.mass_parameter()))
           forcing /= change_density(chain.structure, *density, v[0]);
         else
           chain.joint_change.inertia *= v[0];

@@ -12,15 +12,14 @@ void change_materials(Chain& chain, const ParameterPath& wire, const ParameterPa
   const double of_wire = std::pow(v[0], v[2]), of_silicone = v[0] / of_wire,
                wire_ratio = spring_ratio(of_wire, NominalModel::compliance_share(wire)),
                silicone_ratio = spring_ratio(of_silicone, NominalModel::compliance_share(silicone));
-  const NominalModel before = chain.structure;
+  std::vector<double> before;
+  for (const StructuralMode& mode : chain.structure.modes) before.push_back(mode.frequency_rad_s);
   chain.structure.follow(silicone, std::log(silicone_ratio));
   chain.structure.follow(wire, std::log(wire_ratio));
-  chain.structure.modes.front().frequency_rad_s =
-      before.modes.front().frequency_rad_s * std::sqrt(v[0]);
-  for (std::size_t k = 0; k < before.modes.size(); ++k) {
+  chain.structure.modes.front().frequency_rad_s = before.front() * std::sqrt(v[0]);
+  for (std::size_t k = 0; k < before.size(); ++k) {
     StructuralMode& mode = chain.structure.modes[k];
-    const double damping =
-        std::pow(mode.frequency_rad_s / before.modes[k].frequency_rad_s, 2. * v[1] - 1.);
+    const double damping = std::pow(mode.frequency_rad_s / before[k], 2. * v[1] - 1.);
     mode.damping_ratio *= damping;
     mode.base_rate *= damping;
     mode.wind_rate *= damping;

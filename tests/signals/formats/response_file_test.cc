@@ -38,26 +38,30 @@ void expect_equal(const Uff58Function& function, const FrequencyResponse& respon
   }
 }
 
-TEST(ResponseFile, OfEvenLinesIsAFunctionOfType4WithAnEvenAbscissa) {
+/// The one function that a file of this name holds.
+Uff58Function written(const FrequencyResponse& response, const std::string& file,
+                      const std::string& name) {
   const TemporaryFolder folder;
+  write_response(folder.path() / file, response, name);
+  const auto functions = read_uff58(folder.path() / file);
+  EXPECT_EQ(functions.size(), 1U);
+  return functions.empty() ? Uff58Function{} : functions.front();
+}
+
+TEST(ResponseFile, OfEvenLinesIsAFunctionOfType4WithAnEvenAbscissa) {
   const auto response = response_at({2., 4., 6., 8., 10., 12.});
-  write_response(folder.path() / "r.uff", response, "bench");
-  const auto functions = read_uff58(folder.path() / "r.uff");
-  ASSERT_EQ(functions.size(), 1U);
-  EXPECT_EQ(functions.front().id_lines[0], "bench");
-  EXPECT_TRUE(functions.front().abscissa.empty());
-  EXPECT_DOUBLE_EQ(functions.front().abscissa_step, 2.);
-  expect_equal(functions.front(), response);
+  const Uff58Function function = written(response, "r.uff", "bench");
+  EXPECT_EQ(function.id_lines[0], "bench");
+  EXPECT_TRUE(function.abscissa.empty());
+  EXPECT_DOUBLE_EQ(function.abscissa_step, 2.);
+  expect_equal(function, response);
 }
 
 TEST(ResponseFile, KeepsUnevenFrequencies) {
-  const TemporaryFolder folder;
   const auto response = response_at({1., 3.1623, 10., 31.623, 37.3, 200.});
-  write_response(folder.path() / "r.unv", response, "model");
-  const auto functions = read_uff58(folder.path() / "r.unv");
-  ASSERT_EQ(functions.size(), 1U);
-  EXPECT_EQ(functions.front().abscissa.size(), 6U);
-  expect_equal(functions.front(), response);
+  const Uff58Function function = written(response, "r.unv", "model");
+  EXPECT_EQ(function.abscissa.size(), 6U);
+  expect_equal(function, response);
 }
 
 TEST(ResponseFile, RefusesAnUnknownEndOfTheName) {
