@@ -17,6 +17,8 @@ constexpr double residual_tolerance = 1e-9;  // relative to the pair's own 1 / l
 constexpr double rounding = 1e-15;           // relative to the largest 1 / lambda
 constexpr double lost = 1e-13;               // part of a column's length below which it is rounding
 constexpr double dependence = 1e-13;         // squared part of a scaled column, likewise
+constexpr double independence = 1e-4;        // squared part that one orthonormalisation is good for
+constexpr double apart = 1e-3;               // relative distance of eigenvalues that are no pair
 
 class Lanczos {
  public:
@@ -26,7 +28,7 @@ class Lanczos {
     mass_basis_ = basis_;
   }
 
-  void run(Eigen::Index n);
+  void run(Eigen::Index n, Eigen::Index n_beyond);
   std::vector<Eigenpair> pairs(Eigen::Index n) const;
 
  private:
@@ -37,9 +39,12 @@ class Lanczos {
   void append(const Columns& block, const Columns& mass_block);
   Columns extend(Columns image);
   Eigen::VectorXd take_basis_out(Columns& block) const;
-  Columns orthonormalise(Columns& block, Columns& mass_block,
-                         const Eigen::VectorXd& shortest) const;
-  bool converged(Eigen::Index n, const Columns& beyond) const;
+  struct Factor {
+    Columns r;
+    bool is_well_conditioned;
+  };
+  Factor orthonormalise(Columns& block, Columns& mass_block, const Eigen::VectorXd& shortest) const;
+  bool converged(Eigen::Index n, Eigen::Index n_beyond, const Columns& beyond) const;
 
   const CholeskySolver& stiffness_;
   const Matrix& mass_;
@@ -72,14 +77,16 @@ Columns Lanczos::extend(Columns image) {
   Eigen::VectorXd within = take_basis_out(image);
   within += take_basis_out(image);  // once more for what the rounding of the first left
   Columns mass_image = multiply(mass_, image);
-  Columns factor = orthonormalise(image, mass_image, lost * within.cwiseSqrt());
+  auto [r, is_well_conditioned] = orthonormalise(image, mass_image, lost * within.cwiseSqrt());
   newest_ = image.cols();
-  if (newest_ == 0) return factor;
-  take_basis_out(image);
-  mass_image = multiply(mass_, image);
-  factor = (orthonormalise(image, mass_image, Eigen::VectorXd::Zero(image.cols())) * factor).eval();
+  if (newest_ == 0) return r;
+  if (!is_well_conditioned) {
+    take_basis_out(image);
+    mass_image = multiply(mass_, image);
+    r = (orthonormalise(image, mass_image, Eigen::VectorXd::Zero(image.cols())).r * r).eval();
+  }
   append(image, mass_image);
-  return factor;
+  return r;
 }
 
 // Returns the squared length of what it takes out of each column.
@@ -92,8 +99,8 @@ Eigen::VectorXd Lanczos::take_basis_out(Columns& block) const {
 // block = Q R with Q^T M Q = I, from the eigenvectors of its scaled Gram matrix (Stathopoulos and
 // Wu, SIAM J. Sci. Comput. 23, 2165 (2002)): columns that depend on others or are not longer than
 // stated leave, and Q has fewer columns than the block.
-Columns Lanczos::orthonormalise(Columns& block, Columns& mass_block,
-                                const Eigen::VectorXd& shortest) const {
+Lanczos::Factor Lanczos::orthonormalise(Columns& block, Columns& mass_block,
+                                        const Eigen::VectorXd& shortest) const {
   const Columns gram = inner(block, mass_block);
   const Eigen::VectorXd lengths = gram.diagonal().cwiseMax(0.).cwiseSqrt();
   const Eigen::VectorXd scale =
@@ -106,26 +113,30 @@ Columns Lanczos::orthonormalise(Columns& block, Columns& mass_block,
   const Columns to_unit = scale.asDiagonal() * directions * roots.cwiseInverse().asDiagonal();
   block = (block * to_unit).eval();
   mass_block = (mass_block * to_unit).eval();
-  return roots.asDiagonal() * directions.transpose() * lengths.asDiagonal();
+  return {roots.asDiagonal() * directions.transpose() * lengths.asDiagonal(),
+          kept == gram.cols() && eigen.eigenvalues()[0] > independence};
 }
 
 // The residual K^-1 M x - x / lambda of a Ritz pair is what its newest image has beyond the basis.
-bool Lanczos::converged(const Eigen::Index n, const Columns& beyond) const {
+bool Lanczos::converged(const Eigen::Index n, const Eigen::Index n_beyond,
+                        const Columns& beyond) const {
   const auto size = projected_.cols();
-  if (size < n) return false;
+  if (size < n + n_beyond) return false;
   const Eigen::VectorXd& values = ritz_.eigenvalues();
-  const auto block = beyond.cols();
-  for (auto i = size - n; i < size; ++i) {
+  const auto block = beyond.cols(), last = size - n;
+  for (auto i = last - n_beyond; i < size; ++i) {
     const double residual =
         (beyond * ritz_.eigenvectors().col(i).segment(size - block, block)).norm();
-    if (residual > residual_tolerance * values[i] + rounding * values[size - 1]) return false;
+    const bool is_apart = i < last && values[i] + residual < (1. - apart) * values[last];
+    if (!is_apart && residual > residual_tolerance * values[i] + rounding * values[size - 1])
+      return false;
   }
   return true;
 }
 
-void Lanczos::run(const Eigen::Index n) {
+void Lanczos::run(const Eigen::Index n, const Eigen::Index n_beyond) {
   extend(stiffness_.solve(multiply(mass_, random_block())));
-  const auto most = std::max<Eigen::Index>(columns_each * n, 10 * block_size);
+  const auto most = std::max<Eigen::Index>(columns_each * (n + n_beyond), 10 * block_size);
   while (true) {
     const Columns image = stiffness_.solve(mass_basis_.rightCols(newest_));
     const Columns coupling = inner(mass_basis_, image);
@@ -136,7 +147,7 @@ void Lanczos::run(const Eigen::Index n) {
     ritz_.compute(projected_);
     const Columns beyond = extend(image);
     const bool nothing_left = newest_ == 0;
-    if (nothing_left || converged(n, beyond)) return;
+    if (nothing_left || converged(n, n_beyond, beyond)) return;
     if (size > most) {
       throw signals::UserError("the modes did not converge within a basis of " +
                                std::to_string(size) +
@@ -164,10 +175,10 @@ std::vector<Eigenpair> Lanczos::pairs(const Eigen::Index n) const {
 }  // namespace
 
 std::vector<Eigenpair> smallest_eigenpairs(const CholeskySolver& stiffness, const Matrix& mass,
-                                           const unsigned int n) {
+                                           const unsigned int n, const unsigned int n_beyond) {
   Lanczos lanczos(stiffness, mass);
-  lanczos.run(n);
-  return lanczos.pairs(n);
+  lanczos.run(n, n_beyond);
+  return lanczos.pairs(n + n_beyond);
 }
 
 }  // namespace vibrissa::fem

@@ -24,14 +24,16 @@ void refine(std::vector<Eigenpair>& pairs, const CholeskySolver& stiffness,
   if (pairs.empty()) return;
   const auto communicator = mass.get_mpi_communicator();
   const auto n = static_cast<Eigen::Index>(pairs.size());
-  Columns x(static_cast<Eigen::Index>(mass.local_size()), n);
-  // Scaled so that the images are as long as the vectors.
+  Columns image(static_cast<Eigen::Index>(mass.local_size()), n);
+  Eigen::VectorXd eigenvalues(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const auto& pair = pairs[static_cast<std::size_t>(k)];
-    x.col(k) = pair.eigenvalue * owned_entries(pair.vector);
+    eigenvalues[k] = pair.eigenvalue;
+    image.col(k) = owned_entries(pair.vector);
   }
-  const Columns right = multiply(mass, x);
-  Columns image = stiffness.solve(right), residual;
+  // The vectors solve K image = right up to their own error, which the factors take out.
+  const Columns right = multiply(mass, image) * eigenvalues.asDiagonal();
+  Columns residual;
   take_residual(right, image, product, pairs[0].vector, residual);
   image += stiffness.solve(residual);
   // K image = right, as exactly as the residual is.

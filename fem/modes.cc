@@ -51,34 +51,38 @@ void align_pair(Mode& first, Mode& second, const std::array<double, 3>& axis) {
   }
 }
 
-/// Fields that a mode's sign is told by: translations; rotations; shears, which modes of the blades
-/// against each other have where they have none of the others.
-using Fields = std::array<std::array<Vector, 3>, 3>;
+/// Momenta, each of unit field, that a mode's sign is told by: of translations; of rotations; of
+/// shears, which modes of the blades against each other have where they have none of the others.
+using Momenta = std::array<std::array<Vector, 3>, 3>;
 
-Fields sign_fields(const SolidSpace& space) {
-  Fields fields;
+Vector unit_momentum(const SolidOperators& operators, const Vector& field) {
+  Vector momentum(field);
+  operators.mass->vmult(momentum, field);
+  momentum /= std::sqrt(momentum * field);
+  return momentum;
+}
+
+Momenta sign_momenta(const SolidSpace& space, const SolidOperators& operators) {
+  Momenta momenta;
+  Vector shear = space.make_vector();
   for (unsigned int d = 0; d < 3; ++d) {
-    fields[0][d] = space.translation(d);
-    fields[1][d] = space.rotation(d);
-    Eigen::VectorXd shear = owned_entries(space.rotation(d));
-    for (Eigen::Index i = (d + 1) % 3; i < shear.size(); i += 3) shear[i] = -shear[i];
-    fields[2][d] = space.make_vector();
-    set_owned_entries(shear, fields[2][d]);
+    momenta[0][d] = unit_momentum(operators, space.translation(d));
+    momenta[1][d] = unit_momentum(operators, space.rotation(d));
+    Eigen::VectorXd entries = owned_entries(space.rotation(d));
+    for (Eigen::Index i = (d + 1) % 3; i < entries.size(); i += 3) entries[i] = -entries[i];
+    set_owned_entries(entries, shear);
+    momenta[2][d] = unit_momentum(operators, shear);
   }
-  return fields;
+  return momenta;
 }
 
 // Which of two equal parts is the larger, and which sign a part has that should be zero, is left to
 // rounding: such parts must not decide.
-void fix_sign(Mode& mode, const SolidOperators& operators, const Fields& fields) {
+void fix_sign(Mode& mode, const Momenta& momenta) {
   constexpr double rounding = 1e-6;
-  Vector momentum(mode.shape);
-  for (const auto& group : fields) {
-    std::array<double, 3> part{};
-    for (unsigned int d = 0; d < 3; ++d) {
-      operators.mass->vmult(momentum, group[d]);
-      part[d] = (momentum * mode.shape) / std::sqrt(momentum * group[d]);
-    }
+  for (const auto& group : momenta) {
+    const std::array<double, 3> part{group[0] * mode.shape, group[1] * mode.shape,
+                                     group[2] * mode.shape};
     const double largest = std::max({std::abs(part[0]), std::abs(part[1]), std::abs(part[2])});
     if (largest < rounding) continue;
     const auto deciding = std::find_if(part.begin(), part.end(), [&](const double value) {
@@ -105,7 +109,7 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
   if (n_modes == 0) throw signals::UserError("the number of modes must be at least 1");
   const CholeskySolver stiffness(*operators.clamped_stiffness);
   // One more, so that the last one asked for is not torn from its pair.
-  auto pairs = smallest_eigenpairs(stiffness, *operators.clamped_mass, n_modes + 1);
+  auto pairs = smallest_eigenpairs(stiffness, *operators.clamped_mass, n_modes, 1);
   if (pairs.size() < n_modes) {
     throw signals::UserError("the mesh has only " + std::to_string(pairs.size()) + " of the " +
                              std::to_string(n_modes) +
@@ -133,8 +137,8 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
     }
   }
   modes.resize(n_modes);
-  const Fields fields = sign_fields(space);
-  for (auto& mode : modes) fix_sign(mode, operators, fields);
+  const Momenta momenta = sign_momenta(space, operators);
+  for (auto& mode : modes) fix_sign(mode, momenta);
   return modes;
 }
 
