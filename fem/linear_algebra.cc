@@ -2,6 +2,7 @@
 
 #include <petscksp.h>
 
+#include <new>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 namespace vibrissa::fem {
 
 void check_petsc(const int error_code, const char* call) {
+  // An allocation of its own that fails comes back as the line number of the call.
+  if (error_code == PETSC_ERR_MEM || error_code >= PETSC_ERR_MAX_VALUE) throw std::bad_alloc();
   if (error_code != 0) {
     throw std::runtime_error(std::string(call) + " failed with PETSc error " +
                              std::to_string(error_code));
@@ -114,6 +117,25 @@ Columns sum_over_processes(const Columns& part, MPI_Comm communicator) {
 
 namespace {
 
+Mat factors_of(KSP solver) {
+  PC preconditioner = nullptr;
+  Mat factors = nullptr;
+  check_petsc(KSPGetPC(solver, &preconditioner), "KSPGetPC");
+  check_petsc(PCFactorGetMatrix(preconditioner, &factors), "PCFactorGetMatrix");
+  return factors;
+}
+
+// PETSc calls every failure of MUMPS one of a library.
+void check_mumps(KSP solver, const int error_code, const char* call) {
+  constexpr PetscInt status_info = 1, no_memory = -13, no_integer_memory = -7;
+  if (error_code == PETSC_ERR_LIB) {
+    PetscInt status = 0;
+    check_petsc(MatMumpsGetInfog(factors_of(solver), status_info, &status), "MatMumpsGetInfog");
+    if (status == no_memory || status == no_integer_memory) throw std::bad_alloc();
+  }
+  check_petsc(error_code, call);
+}
+
 void use_mumps_cholesky(KSP solver) {
   PC preconditioner = nullptr;
   check_petsc(KSPSetType(solver, KSPPREONLY), "KSPSetType");
@@ -135,11 +157,8 @@ void order_by_nodes(KSP solver) {
 }
 
 void check_factors(KSP solver) {
-  PC preconditioner = nullptr;
-  Mat factors = nullptr;
+  const Mat factors = factors_of(solver);
   MatFactorError error = MAT_FACTOR_NOERROR;
-  check_petsc(KSPGetPC(solver, &preconditioner), "KSPGetPC");
-  check_petsc(PCFactorGetMatrix(preconditioner, &factors), "PCFactorGetMatrix");
   check_petsc(MatFactorGetError(factors, &error), "MatFactorGetError");
   if (error == MAT_FACTOR_OUTMEMORY) {
     throw signals::UserError(
@@ -174,7 +193,7 @@ CholeskySolver::CholeskySolver(const Matrix& matrix, Product product)
   check_petsc(KSPSetOperators(factors_->solver, raw, raw), "KSPSetOperators");
   use_mumps_cholesky(factors_->solver);
   order_by_nodes(factors_->solver);
-  check_petsc(KSPSetUp(factors_->solver), "KSPSetUp");
+  check_mumps(factors_->solver, KSPSetUp(factors_->solver), "KSPSetUp");
   check_factors(factors_->solver);
 }
 
@@ -183,7 +202,7 @@ CholeskySolver::~CholeskySolver() = default;
 void CholeskySolver::refactor() {
   const Mat raw = matrix_;
   check_petsc(KSPSetOperators(factors_->solver, raw, raw), "KSPSetOperators");
-  check_petsc(KSPSetUp(factors_->solver), "KSPSetUp");
+  check_mumps(factors_->solver, KSPSetUp(factors_->solver), "KSPSetUp");
   check_factors(factors_->solver);
 }
 
@@ -205,16 +224,14 @@ Columns CholeskySolver::solve(const Columns& right_hand_sides) const {
   Columns solution(right_hand_sides.rows(), right_hand_sides.cols());
   const DenseView in(right_hand_sides, matrix_.get_mpi_communicator());
   const DenseView out(solution, matrix_.get_mpi_communicator());
-  check_petsc(KSPMatSolve(factors_->solver, in.matrix, out.matrix), "KSPMatSolve");
+  check_mumps(factors_->solver, KSPMatSolve(factors_->solver, in.matrix, out.matrix),
+              "KSPMatSolve");
   return solution;
 }
 
 FactorCost CholeskySolver::cost() const {
   constexpr PetscInt operations_info = 3, entries_info = 29, memory_info = 22;
-  PC preconditioner = nullptr;
-  Mat factors = nullptr;
-  check_petsc(KSPGetPC(factors_->solver, &preconditioner), "KSPGetPC");
-  check_petsc(PCFactorGetMatrix(preconditioner, &factors), "PCFactorGetMatrix");
+  const Mat factors = factors_of(factors_->solver);
   FactorCost cost;
   PetscInt entries = 0, megabytes = 0;
   check_petsc(MatMumpsGetInfog(factors, entries_info, &entries), "MatMumpsGetInfog");
@@ -229,7 +246,7 @@ FactorCost CholeskySolver::cost() const {
 void CholeskySolver::solve_once(const Vector& right_hand_side, Vector& solution) const {
   const Vec b = right_hand_side;
   const Vec x = solution;
-  check_petsc(KSPSolve(factors_->solver, b, x), "KSPSolve");
+  check_mumps(factors_->solver, KSPSolve(factors_->solver, b, x), "KSPSolve");
 }
 
 }  // namespace vibrissa::fem

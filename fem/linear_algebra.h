@@ -19,7 +19,8 @@ using Vector = dealii::PETScWrappers::MPI::Vector;
 /// Several vectors side by side; each process holds its own rows.
 using Columns = Eigen::MatrixXd;
 
-/// Turns a PETSc error code into an exception that names the call.
+/// Turns a PETSc error code into an exception that names the call, std::bad_alloc where memory ran
+/// out. Proven by tests/faults/visit_fault_points.py.
 void check_petsc(int error_code, const char* call);
 
 /// Sets the given (owned) rows and columns of a symmetric matrix to zero and their diagonal as

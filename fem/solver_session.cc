@@ -3,6 +3,8 @@
 #include <deal.II/base/mpi.h>
 #include <petscsys.h>
 
+#include <cstdlib>
+
 #include "fem/linear_algebra.h"
 
 namespace vibrissa::fem {
@@ -22,6 +24,8 @@ struct SolverSession::Session {
 
 SolverSession::SolverSession() {
   if (is_running) return;
+  // One process alone needs no daemon of Open MPI beside it.
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   session_ = std::make_unique<Session>();
   is_running = true;
   MPI_Comm_dup(MPI_COMM_WORLD, &of_failures);

@@ -108,7 +108,13 @@ class TemporaryFile {
 void fill(FileBuffer& buffer, const fs::path& file,
           const std::function<void(std::ostream&)>& writer) {
   std::ostream out(&buffer);
-  writer(out);
+  try {
+    writer(out);
+  } catch (...) {
+    // Libraries that notice a bad stream know no reason.
+    if (buffer.error() != 0) refuse(file, reason_of(buffer.error()));
+    throw;
+  }
   buffer.flush_to_disk();
   buffer.close();
   if (buffer.error() != 0) refuse(file, reason_of(buffer.error()));
