@@ -99,8 +99,17 @@ void CaseOptions::add_to(CLI::App& command) {
   command.add_option("--remove-mean", remove_means,
                      "CHANNEL whose mean (gravity) is taken off; repeatable");
   command.add_option("--duration", duration_s, "Length of all records [s]");
-  command.add_option("-o,--output", output_folder, "Results folder; must not exist yet");
   command.add_option("--set", settings, "SECTION/ENTRY=VALUE of the case file; repeatable");
+}
+
+void CaseOptions::add_folder_to(CLI::App& command) {
+  command.add_option("-o,--output", output_folder, "Results folder; must not exist yet");
+}
+
+bool CaseOptions::is_plain() const {
+  return !base_acceleration_file && !wind_file && !output_folder && !duration_s &&
+         columns.empty() && rates.empty() && rows.empty() && ranges.empty() &&
+         remove_means.empty() && settings.empty();
 }
 
 CaseFile CaseOptions::load() const {

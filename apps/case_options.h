@@ -18,6 +18,10 @@ struct CaseOptions {
   std::optional<std::string> duration_s;
 
   void add_to(CLI::App& command);
+  /// For commands that leave a results folder.
+  void add_folder_to(CLI::App& command);
+  /// Whether nothing overrides the case file.
+  bool is_plain() const;
   /// The case file with the overrides set. Throws UserError naming the option.
   CaseFile load() const;
 };

@@ -106,6 +106,10 @@ void add_benchmark_command(CLI::App& app) {
                       "Results folder; must be new or empty (default: runs/benchmark_separation)");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa benchmark separation\n"
+      "  vibrissa benchmark separation --dataset bench.csv --truth-column wind_moment_N_m");
   command->callback([options] { benchmark_separation(*options); });
 }
 

@@ -139,6 +139,11 @@ void add_bode_command(CLI::App& app) {
       ->capture_default_str();
   options->record.add_to(*command);
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa bode sensor.prm -o response\n"
+      "  vibrissa bode bench.csv --period 2048 --column 'base_acceleration=ax[g]'\n"
+      "  vibrissa bode bench.csv --method local-polynomial --response bench.uff");
   command->callback([options] { bode(*options); });
 }
 

@@ -11,6 +11,9 @@ void add_draw_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "draw", "Draws the figures of a results folder again (needs a display, or xvfb-run)");
   command->add_option("folder", *folder, "Results folder")->required();
+  command->footer(
+      "Example:\n"
+      "  vibrissa draw runs/flow_sensor");
   command->callback([folder] {
     if (report::draw_folder(*folder) != 0) {
       throw signals::UserError(*folder + ": not every figure could be drawn");

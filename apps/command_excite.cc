@@ -249,6 +249,11 @@ void add_excite_command(CLI::App& app) {
                    "Channel of the CSV: base_acceleration, coil_current, ...")
       ->capture_default_str();
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa excite --low 2 --high 200 --peak 0.4 --unit g --levels 0.25,0.5,1 -o drive "
+      "--wav\n"
+      "  vibrissa excite --kind sweep --period 30000 --fade 0.5 -o sweep");
   command->callback([options] { excite(*options); });
 }
 

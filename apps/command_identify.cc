@@ -137,6 +137,11 @@ void add_identify_command(CLI::App& app) {
                       "Model written as C header for a microcontroller, at the record's rate");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa identify bench.csv --column 'base_acceleration=ax[g]' -o bvrm.json\n"
+      "  vibrissa identify bench.csv --method srivc --hold first_order --c-header bvrm.h\n"
+      "  vibrissa identify ring_down.csv --output-only");
   command->callback([options] {
     if (options->output_only)
       identify_from_output(*options);

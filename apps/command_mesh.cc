@@ -88,6 +88,10 @@ void add_mesh_command(CLI::App& app) {
   command->add_option("--calculix", options->calculix_file,
                       "Also write the mesh as a CalculiX/Abaqus deck (.inp) for its modes");
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa mesh sensor.prm\n"
+      "  vibrissa mesh sensor.prm --calculix sensor.inp");
   command->callback([options] { audit(*options); });
 }
 

@@ -89,6 +89,10 @@ void add_modes_command(CLI::App& app) {
                    "(default: the case's)")
       ->check(CLI::Range(1, 6));
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa modes sensor.prm\n"
+      "  vibrissa modes sensor.prm --no-convergence --json");
   command->callback([options] { show_modes(*options); });
 }
 

@@ -100,6 +100,9 @@ void add_reproduce_command(CLI::App& app) {
   command->add_option("-o,--output", options->folder,
                       "Results folder; must be new or empty (default: runs/reproduce)");
   add_common_options(*command, options->common);
+  command->footer(
+      "Example:\n"
+      "  vibrissa reproduce -o runs/paper");
   command->callback([options] { reproduce(*options); });
 }
 

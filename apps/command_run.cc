@@ -42,7 +42,14 @@ void add_run_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "run", "The main job: simulate, identify and separate, into a new results folder");
   options->chosen.add_to(*command);
+  options->chosen.add_folder_to(*command);
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa run sensor.prm\n"
+      "  vibrissa run sensor.prm --base-acceleration bus.csv --column 'base_acceleration=az[g]' "
+      "\\\n"
+      "    --remove-mean base_acceleration --output runs/bus");
   command->callback([options] {
     const bool quiet = options->common.quiet || options->common.json;
     const RunOutcome outcome = run_job(options->chosen, given_command_line(), quiet);

@@ -222,6 +222,11 @@ void add_separate_command(CLI::App& app) {
                     "scores");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa separate bench.csv --model bvrm.json -o wind.csv\n"
+      "  vibrissa separate bench.csv --method kalman --method fdaf --taps 400 -o wind.csv\n"
+      "  vibrissa separate long.csv --model bvrm.json --stream -o wind.csv");
   command->callback([options] { separate(*options); });
 }
 

@@ -29,6 +29,10 @@ struct SimulateOptions {
 
 /// The inputs of a record with the base moment that a mended model reads under them.
 signals::Record mended_record(const SimulateOptions& options) {
+  if (!options.chosen.is_plain() || options.model_file)
+    throw signals::UserError(
+        "a mended model is simulated under --inputs as it is: what changes a case file, and "
+        "--model, are not for it");
   if (!options.input_file)
     throw signals::UserError("--inputs: a mended model needs a record with its inputs");
   signals::Record record = signals::read_record(*options.input_file);
@@ -81,7 +85,8 @@ void add_simulate_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "simulate", "Base-moment record of a sensor that is shaken and blown at, with noise");
   options->chosen.add_to(*command);
-  command->add_option("--record", options->record_file, "Record written")->capture_default_str();
+  command->add_option("-o,--output,--record", options->record_file, "Record written")
+      ->capture_default_str();
   command->add_option("--model", options->model_file, "Also write the reduced model (JSON)");
   command->add_option("--inputs", options->input_file,
                       "With a mended model (mended_model.json of a diagnosis) in place of the case "
@@ -89,6 +94,11 @@ void add_simulate_command(CLI::App& app) {
   command->add_flag("--periodic", options->periodic,
                     "These inputs are whole periods in steady state");
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa simulate sensor.prm -o simulated.csv --model model.json\n"
+      "  vibrissa simulate sensor.prm --set 'Materials/Silicone/c1=2.4e5' -o softer.csv\n"
+      "  vibrissa simulate diagnosis/mended_model.json --inputs bench.csv -o mended.csv");
   command->callback([options] { simulate(*options); });
 }
 

@@ -132,6 +132,9 @@ void add_static_command(CLI::App& app) {
   command->add_option("-o,--output", options->folder,
                       "Results folder; must be new or empty (default: runs/static)");
   add_common_options(*command, options->common);
+  command->footer(
+      "Example:\n"
+      "  vibrissa static cases/flow_sensor.prm cases/whisker_sensor.prm --wind-to 6 -o steady");
   command->callback([options] { find_equilibria(*options); });
 }
 

@@ -35,7 +35,7 @@ void print_outcome(const TransientOutcome& outcome) {
 TransientOutcome run(TransientCommandOptions& options) {
   const bool show = options.common.is_talkative();
   if (options.resumed_folder) {
-    if (!options.chosen.case_file.empty() || options.strain || !options.chosen.settings.empty())
+    if (!options.chosen.case_file.empty() || options.strain || !options.chosen.is_plain())
       throw signals::UserError(
           "--resume goes on with the folder's own case: give nothing beside it");
     return resume_transient(*options.resumed_folder, show);
@@ -68,12 +68,18 @@ void add_transient_command(CLI::App& app) {
       "The full-order solid through the case's record, at finite strain: base moment, energies, "
       "fields; can be interrupted and gone on with");
   options->chosen.add_to(*command);
+  options->chosen.add_folder_to(*command);
   command->get_option("case")->required(false);
   command->add_option("--strain", options->strain,
                       "finite or small: as Transient/Strain of the case file");
   command->add_option("--resume", options->resumed_folder,
                       "Go on with the run in this folder from its checkpoint, in place of a case");
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa transient sensor.prm --duration 0.5 --output runs/finite\n"
+      "  vibrissa transient --resume runs/finite\n"
+      "  mpirun -np 2 vibrissa transient sensor.prm --strain small");
   command->callback([options] { report_outcome(run(*options), options->common); });
 }
 

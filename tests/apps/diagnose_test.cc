@@ -200,5 +200,25 @@ TEST(SimulateCommand, AsksForTheInputsOfAMendedModel) {
   EXPECT_THAT(result.errors, HasSubstr("--inputs"));
 }
 
+TEST(SimulateCommand, ChangesNoMendedModelByTheOptionsOfACaseFile) {
+  const Folder folder;
+  const std::string model = folder.write("mended.json", R"({"schema": "vibrissa-mended-model-1"})");
+  for (const std::string option : {"--duration 1", "--set Wind/Kind=steady", "--model m.json"}) {
+    const auto result =
+        vibrissa("simulate '" + model + "' --inputs '" + folder.file("in.csv") + "' " + option);
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_THAT(result.errors, HasSubstr("case file")) << option;
+  }
+}
+
+TEST(SimulateCommand, WritesItsRecordWhereTheOutputIs) {
+  const Folder folder;
+  const std::string record = folder.file("simulated.csv");
+  const auto result =
+      vibrissa("simulate '" + coarse_case(folder) + "' -q --duration 1 -o '" + record + "'");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(content(record), HasSubstr("base_moment_N_m"));
+}
+
 }  // namespace
 }  // namespace vibrissa::apps
