@@ -7,6 +7,7 @@
 
 #include "diagnosis/planned_menu.h"
 #include "signals/error.h"
+#include "signals/number_text.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -127,7 +128,7 @@ class Planner {
 void check_noise(const ChannelNoise& noise) {
   const auto refuse = [](double value, const std::string& name) {
     if (!std::isfinite(value) || value <= 0.)
-      throw signals::UserError(name + " is " + std::to_string(value) +
+      throw signals::UserError(name + " is " + signals::to_text(value) +
                                "; give the standard deviation of a sample, more than 0");
   };
   refuse(noise.moment_n_m, "the noise of the moment");

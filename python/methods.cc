@@ -16,6 +16,7 @@
 #include "separation/identification_json.h"
 #include "separation/identify.h"
 #include "separation/stream_methods.h"
+#include "signals/decimal_point.h"
 #include "signals/output_file.h"
 
 namespace vibrissa::python {
@@ -151,11 +152,12 @@ void add_models(py::module_& module) {
 
 void add_methods(py::module_& module) {
   add_models(module);
-  const auto without_lock = py::call_guard<py::gil_scoped_release>();
+  const py::call_guard<signals::DecimalPoint> plain;
+  const py::call_guard<py::gil_scoped_release, signals::DecimalPoint> without_lock;
   module.def("identify", &identify, without_lock, py::arg("record"), py::arg("held_out"),
              py::arg("order"), py::arg("max_order"), py::arg("period_samples"), py::arg("method"),
              py::arg("hold"), py::arg("direct_term"));
-  module.def("separate", &separate, py::arg("record"), py::arg("model"), py::arg("methods"),
+  module.def("separate", &separate, plain, py::arg("record"), py::arg("model"), py::arg("methods"),
              py::arg("block"), py::arg("taps"), py::arg("step"), py::arg("hold"));
   py::class_<Answer>(module, "Answer")
       .def_readonly("mended", &Answer::mended)

@@ -6,7 +6,9 @@
 
 #include "signals/column_choice.h"
 #include "signals/dataset.h"
+#include "signals/decimal_point.h"
 #include "signals/error.h"
+#include "signals/number_text.h"
 #include "signals/record_io.h"
 
 namespace vibrissa::python {
@@ -67,7 +69,7 @@ void add_record_class(py::module_& module) {
                              const std::string& name) { return to_array(record.channel(name)); })
       .def("__repr__", [](const Record& record) {
         std::string text = "Record(" + std::to_string(record.n_samples()) + " samples at " +
-                           std::to_string(record.sampling_rate_hz()) + " Hz:";
+                           signals::to_text(record.sampling_rate_hz()) + " Hz:";
         for (const std::string& name : record.channel_names()) text.append(" ").append(name);
         return text + ")";
       });
@@ -84,7 +86,8 @@ void add_reader(py::module_& module, const char* const name, const char* const p
              const std::vector<std::string>& remove_mean) {
         return read(file, read_options(columns, sampling_rate_hz, remove_mean));
       },
-      py::arg(path), py::kw_only(), py::arg("columns") = std::map<std::string, std::string>{},
+      py::call_guard<signals::DecimalPoint>(), py::arg(path), py::kw_only(),
+      py::arg("columns") = std::map<std::string, std::string>{},
       py::arg("sampling_rate_hz") = py::none(), py::arg("remove_mean") = std::vector<std::string>{},
       description);
 }
@@ -97,7 +100,8 @@ void add_records(py::module_& module) {
       module, "read_record", "file", &signals::read_record,
       "Reads .csv, .mat, .h5, .npy, .uff or .wav. columns: which column is which channel and "
       "in\nwhich unit, as {'base_acceleration': 'ax[g]', 'base_moment': 'B[uT]*0.18[N m/T]'}.");
-  module.def("write_record", &signals::write_record, py::arg("file"), py::arg("record"),
+  module.def("write_record", &signals::write_record, py::call_guard<signals::DecimalPoint>(),
+             py::arg("file"), py::arg("record"),
              "Writes .csv, .mat, .h5, .npy or .uff, by the end of the file's name.");
   py::class_<signals::Dataset>(module, "Dataset",
                                "Records of one sensor and what moved it in each.")

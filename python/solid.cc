@@ -11,6 +11,7 @@
 #include "apps/rig.h"
 #include "apps/sensor_model.h"
 #include "fem/solver_session.h"
+#include "signals/decimal_point.h"
 #include "signals/error.h"
 
 namespace vibrissa::python {
@@ -72,7 +73,8 @@ PYBIND11_MODULE(_solid, module) {
   });
   py::module_::import("atexit").attr("register")(
       py::cpp_function([] { vibrissa::python::session().reset(); }));
-  module.def("simulate", &vibrissa::python::simulate, py::arg("case"), py::arg("settings"));
-  module.def("write_model", &vibrissa::python::write_model, py::arg("case"), py::arg("settings"),
-             py::arg("to"));
+  const py::call_guard<vibrissa::signals::DecimalPoint> plain;
+  module.def("simulate", &vibrissa::python::simulate, plain, py::arg("case"), py::arg("settings"));
+  module.def("write_model", &vibrissa::python::write_model, plain, py::arg("case"),
+             py::arg("settings"), py::arg("to"));
 }

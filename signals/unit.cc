@@ -7,6 +7,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "signals/decimal_point.h"
 #include "signals/error.h"
 
 namespace vibrissa::signals {
@@ -86,6 +87,7 @@ UnitConversion convert_unit(const std::string& from, const std::string& to) {
   // UDUNITS keeps its state in globals.
   static std::mutex alone;
   const std::lock_guard lock(alone);
+  const DecimalPoint in_its_tables;
   const Unit target = parse(replaced(to, usual_words()));
   const Unit plain = parse(replaced(from, usual_words()));
   if (!target || !plain)

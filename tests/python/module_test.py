@@ -4,6 +4,7 @@
 usage: module_test.py VIBRISSA CASE
 """
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -61,6 +62,31 @@ class Module(unittest.TestCase):
         for name, values in vibrissa.separate(self.record, model=found,
                                               methods=["fdaf", "kalman"]).items():
             np.testing.assert_array_equal(values, written[f"wind_moment_{name}_N_m"])
+
+    def test_reads_and_writes_alike_under_decimal_commas(self):
+        script = """if True:
+            import locale, sys
+            print(locale.setlocale(locale.LC_ALL, sys.argv[1]), file=sys.stderr)
+            import vibrissa
+            record = vibrissa.read_record(sys.argv[2] + "/r.csv", columns={
+                "base_acceleration": "base_acceleration_m_s2[g]*0.5[m/m]",
+                "base_moment": "base_moment_N_m[mN mm]"})
+            vibrissa.write_record(sys.argv[2] + "/written.csv", record)
+            print(record, vibrissa.identify(record, order=2).report)
+            simulated = vibrissa.simulate(sys.argv[3], settings=sys.argv[4:] + ["Wind/Mean speed=1.5"])
+            print(float(abs(simulated["base_moment_N_m"]).sum()))"""
+        if subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", str(self.path / "de_DE.UTF-8")],
+                          capture_output=True, check=False).returncode:
+            self.skipTest("no locales here (package locales)")
+        said = []
+        for name in ["C", "de_DE.UTF-8"]:
+            done = subprocess.run(
+                [sys.executable, "-c", script, name, str(self.path), CASE, *QUICK],
+                env=dict(os.environ, LOCPATH=str(self.path)), capture_output=True, text=True,
+                check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            said.append((done.stdout, (self.path / "written.csv").read_text()))
+        self.assertEqual(*said)
 
     def test_diagnoses_the_same(self):
         model = str(self.path / "model.json")
