@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "signals/output_file.h"
 
@@ -37,21 +35,6 @@ void print(std::ostream& out, const nlohmann::json& json, const std::string& ind
 }
 
 }  // namespace
-
-nlohmann::json read_json(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw signals::UserError(file.string() + ": cannot be opened for reading");
-  std::ostringstream text;
-  text << in.rdbuf();
-  try {
-    return nlohmann::json::parse(text.str());
-  } catch (const nlohmann::json::exception& error) {
-    const std::string what = error.what();
-    const auto reason = what.find("parse error");
-    throw signals::UserError(file.string() + ": " +
-                             what.substr(reason == std::string::npos ? 0 : reason));
-  }
-}
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
   signals::write_file(file, [&](std::ostream& out) {

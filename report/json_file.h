@@ -6,11 +6,11 @@
 #include <string>
 
 #include "signals/error.h"
+#include "signals/json_input.h"
 
 namespace vibrissa::report {
 
-/// Throws UserError with the file and, for text that is no JSON, the line and column.
-nlohmann::json read_json(const std::filesystem::path& file);
+using signals::read_json;
 
 /// Two-space indented, lists of numbers on one line each; the file is whole or not there at all.
 void write_json(const std::filesystem::path& file, const nlohmann::json& json);

@@ -1,10 +1,10 @@
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "separation/rational_model.h"
 #include "signals/error.h"
+#include "signals/json_input.h"
 #include "signals/number_text.h"
 #include "signals/output_file.h"
 
@@ -105,15 +105,7 @@ Bvrm bvrm_from_json(const json& value, const std::string& where) {
 }
 
 Bvrm read_bvrm(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw UserError(file.string() + ": cannot be opened");
-  json value;
-  try {
-    value = json::parse(stream);
-  } catch (const json::exception& error) {
-    throw UserError(file.string() + ": is not JSON: " + error.what());
-  }
-  return bvrm_from_json(value, file.string());
+  return bvrm_from_json(signals::read_json(file), file.string());
 }
 
 void write_bvrm(const std::filesystem::path& file, const Bvrm& model) {

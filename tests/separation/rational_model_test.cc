@@ -87,7 +87,7 @@ TEST(BvrmFile, NamesTheFileThatIsMissingOrNoJson) {
   std::filesystem::remove(file);
   EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr(file.string())));
   std::ofstream(file) << "{\"schema\": ";
-  EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr("is not JSON")));
+  EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr("no valid JSON")));
   std::ofstream(file) << "{\"delay_s\": 1e400}";  // beyond every double
   EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr("1e400")));
   std::filesystem::remove(file);
