@@ -84,8 +84,17 @@ void set_entry(CaseFile& file, const std::string& text) {
 
 }  // namespace
 
-void CaseOptions::add_to(CLI::App& command) {
+void CaseOptions::add_settings_to(CLI::App& command) {
+  command.add_option("--set", settings, "SECTION/ENTRY=VALUE of the case file; repeatable");
+}
+
+void CaseOptions::add_case_to(CLI::App& command) {
   command.add_option("case", case_file, "Case file (.prm)")->required();
+  add_settings_to(command);
+}
+
+void CaseOptions::add_to(CLI::App& command) {
+  add_case_to(command);
   command.add_option("--base-acceleration", base_acceleration_file,
                      "File with a recorded base acceleration (CSV, .mat, .h5, .npy, .uff, .wav)");
   command.add_option("--wind", wind_file, "File with a recorded wind speed");
@@ -99,7 +108,6 @@ void CaseOptions::add_to(CLI::App& command) {
   command.add_option("--remove-mean", remove_means,
                      "CHANNEL whose mean (gravity) is taken off; repeatable");
   command.add_option("--duration", duration_s, "Length of all records [s]");
-  command.add_option("--set", settings, "SECTION/ENTRY=VALUE of the case file; repeatable");
 }
 
 void CaseOptions::add_folder_to(CLI::App& command) {

@@ -17,6 +17,10 @@ struct CaseOptions {
   std::vector<std::string> columns, rates, rows, ranges, remove_means, settings;
   std::optional<std::string> duration_s;
 
+  /// The case file and --set: for commands that ask for the sensor alone.
+  void add_case_to(CLI::App& command);
+  void add_settings_to(CLI::App& command);
+  /// These, and the inputs.
   void add_to(CLI::App& command);
   /// For commands that leave a results folder.
   void add_folder_to(CLI::App& command);

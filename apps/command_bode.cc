@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/bode_data.h"
-#include "apps/case_file.h"
+#include "apps/case_options.h"
 #include "apps/command.h"
 #include "apps/measured_response.h"
 #include "apps/record_options.h"
@@ -23,6 +23,7 @@ struct BodeOptions {
   CommonOptions common;
   RecordOptions record;
   std::string input;
+  CaseOptions chosen;
   std::optional<std::string> folder, response_file;
   ResponseOptions response;
   std::vector<std::string> realisations;
@@ -40,7 +41,9 @@ BodeCurve of_model(const signals::ReducedModel& model, const BodeOptions& option
 }
 
 BodeCurve of_case(const BodeOptions& options) {
-  const Case parameters = CaseFile(options.input).read();
+  CaseOptions chosen = options.chosen;
+  chosen.case_file = options.input;
+  const Case parameters = chosen.load().read();
   const fem::SolverSession session;
   auto model = fem::reduce(fem::Sensor(parameters.sensor));
   model.name = "simulated sensor";
@@ -58,6 +61,8 @@ MeasuredResponse make_response(const BodeOptions& options) {
     throw signals::UserError("--low must be positive and below --high");
   }
   const auto extension = std::filesystem::path(options.input).extension();
+  if (extension != ".prm" && !options.chosen.is_plain())
+    throw signals::UserError("--set is for case files (.prm), which " + options.input + " is not");
   if (extension != ".prm" && extension != ".json") return of_record(options);
   if (options.response.method || options.response.period_samples > 0 ||
       !options.realisations.empty()) {
@@ -116,6 +121,7 @@ void add_bode_command(CLI::App& app) {
       ->add_option("input", options->input,
                    "Case file (.prm), reduced model (.json) or record (.csv)")
       ->required();
+  options->chosen.add_settings_to(*command);
   command->add_option("-o,--output", options->folder,
                       "New folder for figure, picture and response.csv");
   command->add_option("--response", options->response_file,

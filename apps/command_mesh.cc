@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/case_file.h"
+#include "apps/case_options.h"
 #include "apps/command.h"
 #include "fem/calculix_file.h"
 #include "fem/solver_session.h"
@@ -20,7 +20,7 @@ namespace {
 
 struct MeshOptions {
   CommonOptions common;
-  std::string case_file;
+  CaseOptions chosen;
   std::optional<std::string> calculix_file;
 };
 
@@ -54,7 +54,7 @@ void print_audit(const meshes::MeshAudit& audit) {
 }
 
 void audit(const MeshOptions& options) {
-  const Case parameters = CaseFile(options.case_file).read();
+  const Case parameters = options.chosen.load().read();
   const auto materials = parameters.sensor.materials.by_region();
   dealii::Triangulation<3> mesh;
   if (parameters.sensor.model.mesh_file) {
@@ -84,14 +84,14 @@ void add_mesh_command(CLI::App& app) {
   const auto options = std::make_shared<MeshOptions>();
   auto* command =
       app.add_subcommand("mesh", "Audit of a sensor's mesh: volumes, masses, areas, cell quality");
-  command->add_option("case", options->case_file, "Case file (.prm)")->required();
+  options->chosen.add_case_to(*command);
   command->add_option("--calculix", options->calculix_file,
                       "Also write the mesh as a CalculiX/Abaqus deck (.inp) for its modes");
   add_common_options(*command, options->common);
   command->footer(
       "Examples:\n"
       "  vibrissa mesh sensor.prm\n"
-      "  vibrissa mesh sensor.prm --calculix sensor.inp");
+      "  vibrissa mesh sensor.prm --set 'Model/Mesh resolution=3' --calculix sensor.inp");
   command->callback([options] { audit(*options); });
 }
 

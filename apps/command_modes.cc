@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/case_file.h"
+#include "apps/case_options.h"
 #include "apps/command.h"
 #include "apps/mode_table.h"
 #include "fem/solver_session.h"
@@ -14,7 +14,7 @@ namespace {
 
 struct ModesOptions {
   CommonOptions common;
-  std::string case_file;
+  CaseOptions chosen;
   bool convergence = true;
   std::optional<unsigned int> first_resolution;
 };
@@ -54,7 +54,7 @@ void print_convergence(const nlohmann::json& document) {
 }
 
 void show_modes(const ModesOptions& options) {
-  const Case parameters = CaseFile(options.case_file).read();
+  const Case parameters = options.chosen.load().read();
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
   nlohmann::json document = modes_json(sensor);
@@ -80,7 +80,7 @@ void add_modes_command(CLI::App& app) {
   const auto options = std::make_shared<ModesOptions>();
   auto* command = app.add_subcommand(
       "modes", "Resonances of a sensor, with damping, effective masses and mesh convergence");
-  command->add_option("case", options->case_file, "Case file (.prm)")->required();
+  options->chosen.add_case_to(*command);
   command->add_flag("!--no-convergence", options->convergence,
                     "Skip the further meshes of the refinement table");
   command
@@ -92,7 +92,7 @@ void add_modes_command(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  vibrissa modes sensor.prm\n"
-      "  vibrissa modes sensor.prm --no-convergence --json");
+      "  vibrissa modes sensor.prm --no-convergence --set Materials/Silicone/c1=2.4e5 --json");
   command->callback([options] { show_modes(*options); });
 }
 

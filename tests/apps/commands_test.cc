@@ -191,6 +191,31 @@ TEST(Excite, RefusesBadInputAndWritesNothing) {
   EXPECT_EQ(vibrissa("excite --wav").status, 2);
 }
 
+double first_frequency_hz(const std::string& densities) {
+  const auto result =
+      vibrissa("modes '" + case_file("flow_sensor.prm") +
+               "' --json --no-convergence --set 'Model/Mesh resolution=1'" + densities);
+  EXPECT_EQ(result.status, 0) << result.errors;
+  return result.json()["modes"][0]["frequency_hz"];
+}
+
+TEST(Modes, OfFourTimesTheDensityAreHalfAsHigh) {
+  const std::string materials = " --set Materials/";
+  const double light = first_frequency_hz(materials + "Silicone/Density=1000" + materials +
+                                          "Wire/Density=6000" + materials + "Fin/Density=1200"),
+               heavy = first_frequency_hz(materials + "Silicone/Density=4000" + materials +
+                                          "Wire/Density=24000" + materials + "Fin/Density=4800");
+  EXPECT_NEAR(light / heavy, 2., 1e-6);
+}
+
+TEST(Bode, SetsNoEntryOfARecord) {
+  const Folder folder;
+  const std::string record = folder.file("r.csv");
+  const auto result = vibrissa("bode '" + record + "' --set Model/x=1");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, testing::HasSubstr("--set is for case files"));
+}
+
 TEST(Bode, OfARecordAgreesWithThatOfItsModelAtThePeriodicLines) {
   const Folder folder;
   const std::string record = folder.file("clean.csv");
