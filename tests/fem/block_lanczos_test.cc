@@ -80,6 +80,19 @@ TEST_P(SomeOfThreeChains, VectorsAreOrthonormalInMassAndSolveTheProblem) {
 
 INSTANTIATE_TEST_SUITE_P(FewAndMany, SomeOfThreeChains, testing::Values(1u, 7u, 40u));
 
+TEST_F(ThreeChains, HaveConvergedBeyondTheNthWhereTheyEqualIt) {
+  const CholeskySolver factors(stiffness);
+  const Eigen::VectorXd expected = dense_eigenvalues();
+  const auto equal = smallest_eigenpairs(factors, mass, 1, 2);
+  ASSERT_EQ(equal.size(), 3U);
+  for (const auto& pair : equal) EXPECT_NEAR(pair.eigenvalue, expected[0], 1e-12 * expected[0]);
+  const auto apart = smallest_eigenpairs(factors, mass, 3, 1);
+  ASSERT_EQ(apart.size(), 4U);
+  for (Eigen::Index k = 0; k < 3; ++k)
+    EXPECT_NEAR(apart[static_cast<std::size_t>(k)].eigenvalue, expected[k], 1e-12 * expected[k]);
+  EXPECT_GT(apart[3].eigenvalue, 1.001 * expected[2]);
+}
+
 TEST_F(ThreeChains, AreGivenInFullWhenMoreAreAskedForThanThereAre) {
   const auto pairs = smallest_eigenpairs(CholeskySolver(stiffness), mass, n);
   EXPECT_EQ(pairs.size(), n - 3);  // three have no mass
