@@ -88,7 +88,7 @@ signals::ExcitationDesign resolved(const ExciteOptions& options) {
   return design;
 }
 
-std::string drive_name(const signals::Excitation& excitation, const signals::Drive& drive) {
+std::string drive_name(const signals::DesignedExcitation& excitation, const signals::Drive& drive) {
   const auto& levels = excitation.design.levels;
   const auto level = std::ranges::find(levels, drive.level) - levels.begin() + 1;
   std::string name = "drive";
@@ -117,7 +117,7 @@ void check_options(const ExciteOptions& options) {
   chosen(formats, options.wav_format, "--wav-format");
 }
 
-void write_files(const ExciteOptions& options, const signals::Excitation& excitation,
+void write_files(const ExciteOptions& options, const signals::DesignedExcitation& excitation,
                  nlohmann::json& document) {
   const fs::path folder(*options.folder);
   const std::string channel = channel_of(options);
@@ -141,7 +141,7 @@ void write_files(const ExciteOptions& options, const signals::Excitation& excita
 }
 
 // The first lines of a list that may have hundreds.
-std::string some_frequencies(const signals::Excitation& excitation, LineRole role) {
+std::string some_frequencies(const signals::DesignedExcitation& excitation, LineRole role) {
   constexpr std::size_t n_shown = 8;
   std::ostringstream text;
   std::size_t n = 0;
@@ -154,7 +154,7 @@ std::string some_frequencies(const signals::Excitation& excitation, LineRole rol
   return std::to_string(n) + " lines [Hz]: " + text.str();
 }
 
-void print_lines(const signals::Excitation& excitation) {
+void print_lines(const signals::DesignedExcitation& excitation) {
   std::cout << signals::name_of(excitation.design.grid) << " grid, lines "
             << excitation.resolution_hz() << " Hz apart\n";
   for (const LineRole role :
@@ -166,7 +166,7 @@ void print_lines(const signals::Excitation& excitation) {
   }
 }
 
-void print_text(const ExciteOptions& options, const signals::Excitation& excitation) {
+void print_text(const ExciteOptions& options, const signals::DesignedExcitation& excitation) {
   const auto& design = excitation.design;
   std::cout << signals::name_of(design.kind) << ", " << design.low_hz << " .. " << design.high_hz
             << " Hz, " << design.n_lead_in_periods << " + " << design.n_periods << " periods of "

@@ -1,10 +1,18 @@
 get_filename_component(VIBRISSA_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
 
-# Rooms whose files read more than they compile: deal.II's headers are compiled once for the room. A
+# Rooms whose files read more than they compile: deal.II's headers are compiled once for them. A
 # file still includes what it uses; the debug and sanitize presets, which build without, would miss it.
-set(VIBRISSA_SOLID_ROOMS "^(fem|apps)$")
+# Rooms in which reading headers is most of the work are compiled by eight files at a time; the debug and
+# sanitize presets, which do not, would find a name that two files of a batch share by mistake.
+set(VIBRISSA_BATCHED_ROOMS "^(materials|meshes|flow|fem|report|apps)$")
 set(VIBRISSA_SOLID_HEADERS <Eigen/Dense> <nlohmann/json.hpp> <deal.II/base/parameter_handler.h>
     <deal.II/fe/fe_values.h> <deal.II/grid/tria.h>)
+
+function(vibrissa_batch target room)
+  if(VIBRISSA_BATCHES AND room MATCHES "${VIBRISSA_BATCHED_ROOMS}")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+endfunction()
 
 # vibrissa_library(ROOM SOURCES ... LINK ...): the static library of one room (folder), vibrissa::ROOM.
 function(vibrissa_library room)
@@ -14,9 +22,12 @@ function(vibrissa_library room)
   target_include_directories(vibrissa_${room} PUBLIC
     $<BUILD_INTERFACE:${VIBRISSA_ROOT}> $<INSTALL_INTERFACE:include/vibrissa>)
   target_link_libraries(vibrissa_${room} PUBLIC ${ARG_LINK})
-  if(VIBRISSA_PRECOMPILE AND room MATCHES "${VIBRISSA_SOLID_ROOMS}")
-    target_precompile_headers(vibrissa_${room} PRIVATE ${VIBRISSA_SOLID_HEADERS})
+  if(VIBRISSA_PRECOMPILE AND room STREQUAL "fem")
+    target_precompile_headers(vibrissa_fem PRIVATE ${VIBRISSA_SOLID_HEADERS})
+  elseif(VIBRISSA_PRECOMPILE AND room STREQUAL "apps")
+    target_precompile_headers(vibrissa_apps REUSE_FROM vibrissa_fem)
   endif()
+  vibrissa_batch(vibrissa_${room} ${room})
 endfunction()
 
 # vibrissa_tests(ROOM SOURCES ... LINK ...): the GoogleTest program of one room. One CTest test a case; in
@@ -24,6 +35,7 @@ endfunction()
 function(vibrissa_tests room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(test_${room} ${ARG_SOURCES})
+  vibrissa_batch(test_${room} ${room})
   target_link_libraries(test_${room} PRIVATE ${ARG_LINK} GTest::gmock_main)
   target_include_directories(test_${room} PRIVATE ${VIBRISSA_ROOT})
   target_compile_definitions(test_${room} PRIVATE

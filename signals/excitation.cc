@@ -146,15 +146,15 @@ std::vector<std::size_t> excited_orders(const std::vector<DescribedLine>& lines)
 
 }  // namespace
 
-double Excitation::resolution_hz() const {
+double DesignedExcitation::resolution_hz() const {
   return design.sampling_rate_hz / static_cast<double>(design.period_samples);
 }
 
-double Excitation::full_scale() const {
+double DesignedExcitation::full_scale() const {
   return design.peak * std::ranges::max(design.levels);
 }
 
-std::vector<double> Excitation::samples(const Drive& drive) const {
+std::vector<double> DesignedExcitation::samples(const Drive& drive) const {
   std::vector<double> result;
   const std::size_t n = design.n_lead_in_periods + design.n_periods;
   result.reserve(n * drive.period.size());
@@ -163,9 +163,9 @@ std::vector<double> Excitation::samples(const Drive& drive) const {
   return result;
 }
 
-Excitation design_excitation(const ExcitationDesign& design) {
+DesignedExcitation design_excitation(const ExcitationDesign& design) {
   check_design(design);
-  Excitation result{design, {}, {}};
+  DesignedExcitation result{design, {}, {}};
   if (design.kind == ExcitationKind::multisine) result.lines = described_lines(design);
   const auto order = excited_orders(result.lines);
   std::vector<Drive> realisations;
@@ -187,7 +187,7 @@ Excitation design_excitation(const ExcitationDesign& design) {
   return result;
 }
 
-void write_drive_record(const std::filesystem::path& file, const Excitation& excitation,
+void write_drive_record(const std::filesystem::path& file, const DesignedExcitation& excitation,
                         const Drive& drive, const std::string& channel) {
   std::vector<double> samples = excitation.samples(drive);
   Record record(excitation.design.sampling_rate_hz, samples.size());
@@ -195,7 +195,7 @@ void write_drive_record(const std::filesystem::path& file, const Excitation& exc
   write_record(file, record);
 }
 
-void write_drive_wav(const std::filesystem::path& file, const Excitation& excitation,
+void write_drive_wav(const std::filesystem::path& file, const DesignedExcitation& excitation,
                      const Drive& drive, WavFormat format) {
   const std::vector<double> samples = excitation.samples(drive);
   write_wav(file, {.samples = samples,

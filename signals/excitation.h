@@ -61,7 +61,7 @@ struct Drive {
 };
 
 /// A designed excitation: its drives and what may be learned from them.
-struct Excitation {
+struct DesignedExcitation {
   ExcitationDesign design;
   std::vector<DescribedLine> lines;  // of a multisine
   std::vector<Drive> drives;         // [level][realisation], realisation fastest
@@ -77,7 +77,7 @@ struct Excitation {
 /// the levels are exact multiples of each other. Throws UserError when the design contradicts
 /// itself (which entry and what to do) and what grid_lines and the drives' makers throw.
 /// Proven by tests/signals/excitation_test.cc.
-Excitation design_excitation(const ExcitationDesign& design);
+DesignedExcitation design_excitation(const ExcitationDesign& design);
 
 /// "multisine", "sweep", "noise"; "schroeder", "random", "optimised"; "linear", "logarithmic".
 std::string name_of(ExcitationKind kind);
@@ -86,13 +86,13 @@ std::string name_of(SweepLaw law);
 
 /// Schema "vibrissa-excitation-1": the design, crest factors, the table of lines with what each
 /// reveals in words, and phases, so that the drive can be made again elsewhere.
-nlohmann::json to_json(const Excitation& excitation);
+nlohmann::json to_json(const DesignedExcitation& excitation);
 
 /// Writes one drive as a record (records.md) with the drive as the given channel, or as WAV scaled
 /// to the full scale of all drives, so that their levels stay in proportion.
-void write_drive_record(const std::filesystem::path& file, const Excitation& excitation,
+void write_drive_record(const std::filesystem::path& file, const DesignedExcitation& excitation,
                         const Drive& drive, const std::string& channel);
-void write_drive_wav(const std::filesystem::path& file, const Excitation& excitation,
+void write_drive_wav(const std::filesystem::path& file, const DesignedExcitation& excitation,
                      const Drive& drive, WavFormat format);
 
 }  // namespace vibrissa::signals

@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-json line_json(const Excitation& excitation, const DescribedLine& line) {
+json line_json(const DesignedExcitation& excitation, const DescribedLine& line) {
   return {{"line", line.order},
           {"frequency_hz", line.frequency_hz},
           {"role", name_of(line.role)},
@@ -24,7 +24,7 @@ json drive_json(const Drive& drive) {
   return result;
 }
 
-void add_multisine(json& document, const Excitation& excitation) {
+void add_multisine(json& document, const DesignedExcitation& excitation) {
   const ExcitationDesign& design = excitation.design;
   document["grid"] = name_of(design.grid);
   if (design.grid == LineGrid::random_odd) document["group_size"] = design.group_size;
@@ -67,7 +67,7 @@ std::string name_of(SweepLaw law) {
   return law == SweepLaw::linear ? "linear" : "logarithmic";
 }
 
-json to_json(const Excitation& excitation) {
+json to_json(const DesignedExcitation& excitation) {
   const ExcitationDesign& design = excitation.design;
   json document{{"schema", "vibrissa-excitation-1"},
                 {"kind", name_of(design.kind)},

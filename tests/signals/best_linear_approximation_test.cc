@@ -67,7 +67,7 @@ Measurement measure(const std::vector<double>& drive, const WienerSystem& system
 }
 
 // The third harmonic of 60 Hz stays below half the rate: no aliases.
-Excitation drives(LineGrid grid, std::size_t n_realisations, std::uint64_t seed) {
+DesignedExcitation drives(LineGrid grid, std::size_t n_realisations, std::uint64_t seed) {
   return design_excitation({.high_hz = 60.,
                             .sampling_rate_hz = rate_hz,
                             .period_samples = period,
@@ -77,8 +77,9 @@ Excitation drives(LineGrid grid, std::size_t n_realisations, std::uint64_t seed)
                             .seed = seed});
 }
 
-std::vector<PeriodAverage> averages(const Excitation& excitation, const WienerSystem& system,
-                                    std::size_t n_periods, double input_noise, double output_noise,
+std::vector<PeriodAverage> averages(const DesignedExcitation& excitation,
+                                    const WienerSystem& system, std::size_t n_periods,
+                                    double input_noise, double output_noise,
                                     std::mt19937_64& random) {
   std::vector<PeriodAverage> result;
   for (const Drive& drive : excitation.drives)
@@ -222,7 +223,7 @@ TEST(RobustApproximation, RefusesWhatHoldsNoAnswer) {
               ThrowsMessage<UserError>(HasSubstr("periods of 1024 and 512")));
 }
 
-std::vector<std::size_t> excited_lines(const Excitation& excitation) {
+std::vector<std::size_t> excited_lines(const DesignedExcitation& excitation) {
   std::vector<std::size_t> orders;
   for (const auto& line : excitation.lines)
     if (line.role == LineRole::excited) orders.push_back(line.order);
