@@ -36,6 +36,10 @@ function(vibrissa_tests room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(test_${room} ${ARG_SOURCES})
   vibrissa_batch(test_${room} ${room})
+  if(VIBRISSA_PRECOMPILE AND room MATCHES "^(materials|meshes|flow|fem)$")
+    # First, too: deal.II's macro Assert hides a function of GoogleMock.
+    target_precompile_headers(test_${room} PRIVATE <gmock/gmock.h>)
+  endif()
   target_link_libraries(test_${room} PRIVATE ${ARG_LINK} GTest::gmock_main)
   target_include_directories(test_${room} PRIVATE ${VIBRISSA_ROOT})
   target_compile_definitions(test_${room} PRIVATE

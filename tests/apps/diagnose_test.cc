@@ -161,7 +161,7 @@ nlohmann::json diagnosis_of_simulated(const std::string& setting) {
   return result.json();
 }
 
-double first_frequency_hz(const std::string& setting) {
+double first_model_frequency_hz(const std::string& setting) {
   const Folder folder;
   const std::string model = folder.file("model.json");
   const auto result =
@@ -181,9 +181,10 @@ TEST(DiagnoseCommand, TellsASofterSiliconeFromALighterFin) {
   const std::string softer = "Materials/Silicone/c1=240000";
   const auto soft = diagnosis_of_simulated(softer);
   EXPECT_EQ(soft["verdict"], "stiffness");
-  EXPECT_NEAR(soft["ranking"][0]["parameters"][0]["value"],
-              std::pow(first_frequency_hz(softer) / first_frequency_hz("Records/Seed=1"), 2),
-              0.004);
+  EXPECT_NEAR(
+      soft["ranking"][0]["parameters"][0]["value"],
+      std::pow(first_model_frequency_hz(softer) / first_model_frequency_hz("Records/Seed=1"), 2),
+      0.004);
   const auto& silicone = soft["ranking"][0]["in_the_models_parameters"][0];
   EXPECT_EQ(silicone["name"], "silicone_modulus_ratio");
   EXPECT_NEAR(silicone["value"], 240. / 340., 0.03);

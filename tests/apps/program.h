@@ -34,6 +34,12 @@ class Folder {
   std::filesystem::path path_;
 };
 
+/// As one word of a shell's command.
+inline std::string quoted(const std::string& text) {
+  std::string word(1, '\'');
+  return word.append(text).append(1, '\'');
+}
+
 struct ProgramResult {
   int status = -1;
   std::string output, errors;

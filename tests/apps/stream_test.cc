@@ -10,11 +10,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string quoted(const std::string& name) {
-  std::string text(1, '\'');
-  return text.append(name).append(1, '\'');
-}
-
 // Longer than two of the stream's blocks.
 std::string write_long_record(const Folder& folder, const std::size_t gap_at = 0) {
   std::string text = "time_s,base_acceleration_m_s2,base_moment_N_m,hall_mT\n";

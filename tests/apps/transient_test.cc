@@ -16,19 +16,12 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const std::string coarse =
+const std::string coarse_and_short =
     " --set 'Model/Mesh resolution=1' --set Model/Sensitivities=false --duration 0.2";
-
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  result += text;
-  result += "'";
-  return result;
-}
 
 /// A whisker at 1 g and its resonance, finite strain, 64 samples, a checkpoint at every second one.
 const std::string swinging =
-    "transient '" + case_file("whisker_sensor.prm") + "'" + coarse +
+    "transient '" + case_file("whisker_sensor.prm") + "'" + coarse_and_short +
     " --set 'Records/Sampling rate=320' --set 'Base motion/Lines=27'"
     " --set 'Base motion/Peak=9.81' --set 'Transient/Checkpoint interval=2'";
 
@@ -69,11 +62,11 @@ TEST(Transient, WritesRecordEnergiesFieldsAndASummary) {
 
 TEST(Transient, SmallStrainIsWhatTheReducedModelSays) {
   const Folder folder;
-  const std::string linear = "transient '" + case_file("flow_sensor.prm") + "'" + coarse +
+  const std::string linear = "transient '" + case_file("flow_sensor.prm") + "'" + coarse_and_short +
                              " --set Records/Seed=3 --set Transient/Substeps=20 --strain small";
   ASSERT_EQ(vibrissa(linear + " -o '" + folder.file("run") + "' --quiet").status, 0);
-  ASSERT_EQ(vibrissa("simulate '" + case_file("flow_sensor.prm") + "'" + coarse + " --quiet" +
-                     " --record '" + folder.file("any.csv") + "' --model '" +
+  ASSERT_EQ(vibrissa("simulate '" + case_file("flow_sensor.prm") + "'" + coarse_and_short +
+                     " --quiet" + " --record '" + folder.file("any.csv") + "' --model '" +
                      folder.file("model.json") + "'")
                 .status,
             0);

@@ -10,6 +10,7 @@
 #include "fem/linear_transient.h"
 #include "fem/nonlinear_transient.h"
 #include "signals/error.h"
+#include "tests/fem/file_content.h"
 #include "tests/fem/sensors.h"
 
 namespace vibrissa::fem {
@@ -41,11 +42,6 @@ class Checkpoint : public testing::TestWithParam<bool> {
     go_to(sample, run);
     write_checkpoint(folder / "checkpoint.h5", run, owner);
     return folder / "checkpoint.h5";
-  }
-  static std::string content(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
   }
   void expect_refusal(const std::filesystem::path& file, const CheckpointOwner& reader,
                       const std::string& reason) const {

@@ -10,6 +10,7 @@
 #include "fem/reduction.h"
 #include "signals/error.h"
 #include "signals/reduced_model.h"
+#include "tests/fem/samples.h"
 #include "tests/fem/sensors.h"
 
 namespace vibrissa::fem {
@@ -22,12 +23,6 @@ std::vector<double> burst(const std::size_t n, const double rate_hz) {
     a[i] = 5. * std::sin(2. * M_PI * 30. * t) * std::exp(-20. * std::pow(t - 0.08, 2) / 0.005);
   }
   return a;
-}
-
-double peak(const std::vector<double>& x) {
-  double largest = 0.;
-  for (const double value : x) largest = std::max(largest, std::abs(value));
-  return largest;
 }
 
 double largest_difference(const std::vector<double>& x, const std::vector<double>& y) {

@@ -7,26 +7,19 @@
 
 #include "fem/linear_transient.h"
 #include "signals/error.h"
+#include "tests/fem/samples.h"
 #include "tests/fem/sensors.h"
 
 namespace vibrissa::fem {
 namespace {
 
-constexpr double rate_hz = 1000.;
-
-std::vector<double> burst(const std::size_t n, const double size) {
+std::vector<double> faded_burst(const std::size_t n, const double size) {
   std::vector<double> a(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double t = static_cast<double>(i) / rate_hz;
     a[i] = size * std::sin(2. * M_PI * 30. * t) * std::pow(std::sin(M_PI * t * rate_hz / n), 2);
   }
   return a;
-}
-
-double peak(const std::vector<double>& x) {
-  double largest = 0.;
-  for (const double value : x) largest = std::max(largest, std::abs(value));
-  return largest;
 }
 
 class NonlinearTransient : public testing::TestWithParam<bool> {
@@ -38,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(Both, NonlinearTransient, testing::Bool(), [](const aut
 });
 
 TEST_P(NonlinearTransient, SmallInputsGiveTheLinearResponse) {
-  const auto a = burst(80, 10. * 1e-6), cross = burst(80, 3. * 1e-6);
+  const auto a = faded_burst(80, 10. * 1e-6), cross = faded_burst(80, 3. * 1e-6);
   std::vector<double> wind(a.size());
   for (std::size_t i = 0; i < wind.size(); ++i) wind[i] = 2e-3 * i / 80.;
   const TransientInput input{rate_hz, a.size(), a, cross, wind};
@@ -54,7 +47,7 @@ TEST_P(NonlinearTransient, SmallInputsGiveTheLinearResponse) {
 }
 
 TEST_P(NonlinearTransient, EnergiesCloseToAMillionthOfTheWorkNearResonance) {
-  const auto a = burst(40, 12.);
+  const auto a = faded_burst(40, 12.);
   const auto output =
       simulate_nonlinear(sensor, {rate_hz, a.size(), a, {}, {}}, {0.9, 4, false, {}, {}});
   double work = 0., error = 0.;
@@ -67,7 +60,7 @@ TEST_P(NonlinearTransient, EnergiesCloseToAMillionthOfTheWorkNearResonance) {
 
 // Six times the weight; lever arms are those of the deformed state.
 TEST_P(NonlinearTransient, BothRoutesToTheMomentAgreeAtLargeSwings) {
-  const auto a = burst(40, 60.);
+  const auto a = faded_burst(40, 60.);
   const auto output = simulate_nonlinear(sensor, {rate_hz, a.size(), a, {}, {}},
                                          {0.9, 1, true, {0., 0., -9.81}, {}});
   EXPECT_LT(output.largest_route_difference(), 1e-9);
@@ -84,7 +77,7 @@ TEST_P(NonlinearTransient, RestsInGravityUntilItIsDriven) {
 }
 
 TEST_P(NonlinearTransient, InputsThatAreNotFiniteAreRefusedByName) {
-  auto a = burst(5, 1.);
+  auto a = faded_burst(5, 1.);
   a[3] = std::nan("");
   EXPECT_THAT(
       [&] {

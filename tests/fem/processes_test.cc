@@ -19,13 +19,14 @@
 #include "fem/static_solution.h"
 #include "fem/vtk_output.h"
 #include "meshes/regions.h"
+#include "tests/fem/file_content.h"
+#include "tests/fem/samples.h"
 #include "tests/fem/sensors.h"
 
 namespace vibrissa::fem {
 namespace {
 
 constexpr double as_alone = 1e-9;
-constexpr double rate_hz = 1000.;
 
 double largest(const std::vector<double>& x) {
   double result = 0.;
@@ -175,13 +176,6 @@ TEST_P(Processes, RestUnderPressureAndWeightAsEachAlone) {
     const double expected_shift = expected.displacement * alone().space().translation(d);
     EXPECT_NEAR(shift / expected_shift, 1., as_alone) << d;
   }
-}
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 TEST_P(Processes, WriteAPartOfThePictureEachAndAListOfThem) {

@@ -9,12 +9,11 @@
 #include "fem/linear_transient.h"
 #include "fem/nonlinear_transient.h"
 #include "flow/drag_law.h"
+#include "tests/fem/samples.h"
 #include "tests/fem/sensors.h"
 
 namespace vibrissa::fem {
 namespace {
-
-constexpr double rate_hz = 1000.;
 
 SensorParameters undamped(SensorParameters parameters, const double air_density) {
   parameters.model.damping_ratios = {0.};

@@ -5,17 +5,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/fem/file_content.h"
 #include "tests/fem/sensors.h"
 
 namespace vibrissa::fem {
 namespace {
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 TEST(VtkOutput, ModeAnimationListsItsFramesWithTimesAndNamedFields) {
   const auto folder = std::filesystem::temp_directory_path() / "vibrissa_vtk_output_test";

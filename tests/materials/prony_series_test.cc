@@ -12,8 +12,8 @@ namespace {
 
 using Gradient = dealii::Tensor<2, 3>;
 
-const IsochoricLaw silicone = Yeoh{{3.4e5, 1.7152e5, 1.32e8}};
-const IsochoricLaw plastic = NeoHookean{1.5e9};
+const IsochoricLaw silicone_law = Yeoh{{3.4e5, 1.7152e5, 1.32e8}};
+const IsochoricLaw plastic_law = NeoHookean{1.5e9};
 const PronySeries two_branches({{0.3, 2e-3}, {0.2, 0.05}});
 
 Stress stress_of(const IsochoricLaw& law, const Strain& e) {
@@ -34,7 +34,7 @@ Gradient motion(const double t) {
 }
 
 class Prony : public testing::TestWithParam<IsochoricLaw> {};
-INSTANTIATE_TEST_SUITE_P(Laws, Prony, testing::Values(silicone, plastic));
+INSTANTIATE_TEST_SUITE_P(Laws, Prony, testing::Values(silicone_law, plastic_law));
 
 TEST_P(Prony, AStrainThatIsHeldRelaxesByItsExponentials) {
   const Strain e = strain_of(motion(0.02));
@@ -136,7 +136,7 @@ TEST(PronySeries, WithoutBranchesIsTheLaw) {
   const PronySeries none;
   auto memory = none.at_rest();
   const Strain e = strain_of(motion(0.02));
-  EXPECT_EQ((none.advance(silicone, e, 1e-3, memory) - stress_of(silicone, e)).norm(), 0.);
+  EXPECT_EQ((none.advance(silicone_law, e, 1e-3, memory) - stress_of(silicone_law, e)).norm(), 0.);
   EXPECT_EQ(none.tangent_factor(1e-3), 1.);
   EXPECT_EQ(none.dynamic_ratio(100.), 1.);
 }

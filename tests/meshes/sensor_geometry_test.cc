@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "signals/error.h"
+#include "tests/meshes/flow_sensor.h"
 
 namespace vibrissa::meshes {
 namespace {
@@ -15,13 +16,6 @@ using signals::UserError;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-SensorGeometry flow_sensor() {
-  SensorGeometry geometry;
-  geometry.fin = FinShape::cross;
-  geometry.free_length = 6.57e-3;
-  return geometry;
-}
 
 SensorGeometry parsed(const std::string& text) {
   dealii::ParameterHandler prm;

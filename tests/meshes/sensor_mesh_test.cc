@@ -13,6 +13,7 @@
 #include "meshes/mesh_audit.h"
 #include "meshes/regions.h"
 #include "signals/error.h"
+#include "tests/meshes/flow_sensor.h"
 
 namespace vibrissa::meshes {
 namespace {
@@ -25,13 +26,6 @@ using ::testing::ThrowsMessage;
 
 SensorGeometry whisker_sensor() {
   return {};
-}
-
-SensorGeometry flow_sensor() {
-  SensorGeometry geometry;
-  geometry.fin = FinShape::cross;
-  geometry.free_length = 6.57e-3;
-  return geometry;
 }
 
 SensorGeometry plate_sensor() {

@@ -6,10 +6,11 @@
 #include <cstddef>
 #include <random>
 
+#include "tests/report/gap.h"
+
 namespace vibrissa::report {
 namespace {
 
-const double gap = std::nan("");
 constexpr Range unit{0., 1.};
 
 double length_of(const Polyline& line) {

@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "tests/report/gap.h"
+
 namespace vibrissa::report {
 namespace {
-
-const double gap = std::nan("");
 
 /// Lengths of the pieces between gaps.
 std::vector<double> piece_lengths(const Polyline& line) {

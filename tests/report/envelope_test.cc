@@ -8,10 +8,10 @@
 #include <random>
 #include <set>
 
+#include "tests/report/gap.h"
+
 namespace vibrissa::report {
 namespace {
-
-const double gap = std::nan("");
 
 Polyline noise(const std::size_t n) {
   std::mt19937 generator(1);

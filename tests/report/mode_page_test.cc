@@ -3,14 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "report/text.h"
+#include "tests/report/letters.h"
 
 namespace vibrissa::report {
 namespace {
-
-double wide_letters(const std::string& text, const int size, const bool bold) {
-  return (bold ? 0.75 : 0.65) * size * static_cast<double>(n_characters(text));
-}
 
 ModePage page_for(const double width, const double height, const int zoom = 1) {
   ModePicture picture;
@@ -23,12 +19,6 @@ ModePage page_for(const double width, const double height, const int zoom = 1) {
   view.width = width;
   view.height = height;
   return mode_page(picture, mesh, view, wide_letters, zoom);
-}
-
-Box box_of(const PlacedText& text) {
-  const double length = wide_letters(text.text, text.size, text.bold);
-  const double before = text.anchor == Anchor::centre ? length / 2. : 0.;
-  return {text.x - before, text.y - text.size / 2., length, static_cast<double>(text.size)};
 }
 
 TEST(ModePage, KeepsTextsApartAndOnThePageForTallAndFlatMeshes) {

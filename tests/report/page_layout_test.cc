@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "report/text.h"
+#include "tests/report/letters.h"
 
 namespace vibrissa::report {
 namespace {
@@ -14,11 +15,6 @@ namespace {
 using ::testing::Contains;
 using ::testing::IsSupersetOf;
 using ::testing::Not;
-
-/// Wider than the letters in use, so that what fits here fits on paper.
-double wide_letters(const std::string& text, const int size, const bool bold) {
-  return (bold ? 0.75 : 0.65) * size * static_cast<double>(n_characters(text));
-}
 
 PageLayout page_of(const Figure& figure) {
   return lay_out(figure, wide_letters);
@@ -61,16 +57,6 @@ Figure spectra() {
   Panel panel{.x_label = "Frequency [Hz]", .y_label = "Density [(N m)\u00b2/Hz]", .log_y = true};
   panel.curves = {curve("", 0., 123456., 1e-30, 1e3)};
   return {.name = "spectra", .panels = {panel}};
-}
-
-Box box_of(const PlacedText& text) {
-  const double length = wide_letters(text.text, text.size, text.bold);
-  const double before = text.anchor == Anchor::left     ? 0.
-                        : text.anchor == Anchor::centre ? length / 2.
-                                                        : length;
-  const double half = text.size / 2.;
-  return text.upward ? Box{text.x - half, text.y - before, 2. * half, length}
-                     : Box{text.x - before, text.y - half, length, 2. * half};
 }
 
 bool overlap(const Box& a, const Box& b) {
