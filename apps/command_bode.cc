@@ -126,7 +126,7 @@ void add_bode_command(CLI::App& app) {
                       "New folder for figure, picture and response.csv");
   command->add_option("--response", options->response_file,
                       "Also write the response for other programs: .uff, .unv, .uf58 (Universal "
-                      "File, type 58) or .mat");
+                      "File, type 58), .mat or .csv");
   command->add_option(
       "--period", options->response.period_samples,
       "Period of a periodic record in steady state [samples]; the last whole periods are used");

@@ -1,10 +1,13 @@
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "apps/command.h"
 #include "apps/record_options.h"
 #include "signals/formats/file_format.h"
 #include "signals/formats/mat_file.h"
+#include "signals/formats/response_file.h"
 #include "signals/record_io.h"
 
 namespace vibrissa::apps {
@@ -15,7 +18,19 @@ struct ConvertOptions {
   RecordOptions record;
   std::string from, to;
   std::string mat_version = "5";
+  bool frequency_response = false;
+  std::string response_as;
 };
+
+void convert_response(const ConvertOptions& options) {
+  const auto response = signals::formats::read_response(options.from, {options.response_as});
+  signals::formats::write_response(options.to, response,
+                                   std::filesystem::path(options.from).stem().string());
+  if (options.common.json)
+    print_json({{"response", options.to}, {"frequencies", response.frequency_hz.size()}});
+  else if (!options.common.quiet)
+    std::cout << "wrote " << options.to << ": " << response.frequency_hz.size() << " frequencies\n";
+}
 
 void convert(const ConvertOptions& options) {
   const signals::Record record = options.record.read(options.from);
@@ -45,14 +60,28 @@ void add_convert_command(CLI::App& app) {
   command->add_option("--mat-version", options->mat_version, "Version of a .mat file")
       ->check(CLI::IsMember({"5", "7.3"}))
       ->capture_default_str();
+  command->add_flag("--frequency-response", options->frequency_response,
+                    "The file holds a frequency response base acceleration -> base moment: a "
+                    "Universal File (function of type 4), a .mat or a CSV; written as .uff, .unv, "
+                    ".uf58, .mat or .csv");
+  command->add_option(
+      "--response-as", options->response_as,
+      "--frequency-response: NAME[unit]*FACTOR[unit] of its values, as 'H[mN mm/g]' "
+      "or '[uT/g]*0.18[N m/T]'; of several in a Universal File its number");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
   command->footer(
       "Examples:\n"
       "  vibrissa convert bench.mat bench.csv --column 'base_acceleration=ax[g]' \\\n"
       "    --column 'base_moment=B[uT]*0.18[N m/T]' --rate 500\n"
-      "  vibrissa convert record.csv record.uff");
-  command->callback([options] { convert(*options); });
+      "  vibrissa convert record.csv record.uff\n"
+      "  vibrissa convert modal_test.uff response.mat --frequency-response");
+  command->callback([options] {
+    if (options->frequency_response || !options->response_as.empty())
+      convert_response(*options);
+    else
+      convert(*options);
+  });
 }
 
 }  // namespace vibrissa::apps

@@ -9,8 +9,10 @@
 #include "apps/record_options.h"
 #include "separation/c_header.h"
 #include "separation/identify.h"
+#include "separation/identify_response.h"
 #include "separation/output_only.h"
 #include "signals/error.h"
+#include "signals/formats/response_file.h"
 
 namespace vibrissa::apps {
 
@@ -26,24 +28,65 @@ struct IdentifyCommandOptions {
   std::string method = "output-error";
   bool no_direct_term = false, cross_validation = false, output_only = false;
   std::size_t max_lags = separation::OutputOnlyOptions{}.max_lags;
+  bool frequency_response = false;
+  std::string response_as;
 };
 
+using GivenOptions = std::vector<std::pair<bool, std::string>>;
+
+void refuse(const GivenOptions& given, const std::string& reason) {
+  for (const auto& [is_given, name] : given)
+    if (is_given) throw signals::UserError(name + reason + "; leave one of them out");
+}
+
+/// Those that only a record of acceleration and moment has a use for.
+GivenOptions options_of_records(const IdentifyCommandOptions& options) {
+  return {{options.held_out_file.has_value(), "--held-out"},
+          {options.c_header_file.has_value(), "--c-header"},
+          {options.hold.has_value(), "--hold"},
+          {options.cross_validation, "--cross-validation"},
+          {options.identify.period_samples > 0, "--period"},
+          {options.method != "output-error", "--method"}};
+}
+
 void refuse_what_needs_an_input(const IdentifyCommandOptions& options) {
-  const std::vector<std::pair<bool, std::string>> given = {
-      {options.held_out_file.has_value(), "--held-out"},
-      {options.model_file.has_value(), "-o"},
-      {options.c_header_file.has_value(), "--c-header"},
-      {options.hold.has_value(), "--hold"},
-      {options.no_direct_term, "--no-direct-term"},
-      {options.cross_validation, "--cross-validation"},
-      {options.identify.period_samples > 0, "--period"},
-      {options.method != "output-error", "--method"}};
-  for (const auto& [is_given, name] : given) {
-    if (is_given)
-      throw signals::UserError(name +
-                               " needs the base acceleration, which --output-only does "
-                               "without; leave one of them out");
+  const std::string reason = " needs the base acceleration, which --output-only does without";
+  refuse(options_of_records(options), reason);
+  refuse({{options.model_file.has_value(), "-o"},
+          {options.no_direct_term, "--no-direct-term"},
+          {options.frequency_response, "--frequency-response"}},
+         reason);
+}
+
+void refuse_what_needs_a_record(const IdentifyCommandOptions& options) {
+  const std::string reason = " is for records, which --frequency-response has none of";
+  refuse(options_of_records(options), reason);
+  refuse({{!options.record.columns.empty(), "--column"},
+          {options.record.rate_hz.has_value(), "--rate"},
+          {options.record.rows.has_value(), "--rows"},
+          {!options.record.remove_mean.empty(), "--remove-mean"}},
+         reason);
+}
+
+void identify_from_response(const IdentifyCommandOptions& options) {
+  refuse_what_needs_a_record(options);
+  const signals::FrequencyResponse response =
+      signals::formats::read_response(options.record_file, {options.response_as});
+  const auto found =
+      separation::identify_response(response, {.order = options.identify.order,
+                                               .max_order = options.identify.max_order,
+                                               .direct_term = !options.no_direct_term});
+  if (options.model_file) separation::write_bvrm(*options.model_file, found.fit.model);
+  if (options.common.json) {
+    print_json(separation::identified_response_json(found));
+    return;
   }
+  std::cout << identification_table(found.fit).to_text() << "direct term "
+            << found.fit.direct_term_kg_m.value << " kg m; order " << found.order << ", "
+            << response.value.size() << " lines from " << response.frequency_hz.front() << " to "
+            << response.frequency_hz.back() << " Hz, " << separation::to_string(found.fit.end)
+            << "\nfit of every third line by a model of the others: " << found.held_out_fit_percent
+            << " %\n";
 }
 
 void identify_from_output(const IdentifyCommandOptions& options) {
@@ -84,7 +127,7 @@ void identify(const IdentifyCommandOptions& options) {
     print_json(separation::identification_report(result, evidence, options.method));
     return;
   }
-  std::cout << identification_table(result).to_text() << "direct term "
+  std::cout << identification_table(result.fit).to_text() << "direct term "
             << result.fit.direct_term_kg_m.value << " kg m; order " << result.order << ", "
             << separation::to_string(result.hold) << " input, "
             << separation::to_string(result.fit.end)
@@ -103,7 +146,7 @@ void add_identify_command(CLI::App& app) {
   const auto options = std::make_shared<IdentifyCommandOptions>();
   auto* command = app.add_subcommand(
       "identify", "Base vibration response model from a record of base acceleration and moment");
-  command->add_option("record", options->record_file, "CSV record")->required();
+  command->add_option("record", options->record_file, "Record, or frequency response")->required();
   command->add_option("--held-out", options->held_out_file,
                       "CSV record that only scores the model (default: last third of the record)");
   command->add_option("--order", options->identify.order,
@@ -132,6 +175,13 @@ void add_identify_command(CLI::App& app) {
                    "--output-only: half the longest lag of the covariances [samples]; a few "
                    "periods of the lowest resonance should fit into twice as many")
       ->capture_default_str();
+  command->add_flag("--frequency-response", options->frequency_response,
+                    "The file holds a measured frequency response base acceleration -> base "
+                    "moment: a Universal File (function of type 4), a .mat or a CSV");
+  command->add_option(
+      "--response-as", options->response_as,
+      "--frequency-response: NAME[unit]*FACTOR[unit] of its values, as 'H[mN mm/g]' "
+      "or '[uT/g]*0.18[N m/T]'; of several in a Universal File its number");
   command->add_option("-o,--output", options->model_file, "Model written as JSON");
   command->add_option("--c-header", options->c_header_file,
                       "Model written as C header for a microcontroller, at the record's rate");
@@ -141,10 +191,14 @@ void add_identify_command(CLI::App& app) {
       "Examples:\n"
       "  vibrissa identify bench.csv --column 'base_acceleration=ax[g]' -o bvrm.json\n"
       "  vibrissa identify bench.csv --method srivc --hold first_order --c-header bvrm.h\n"
+      "  vibrissa identify modal_test.uff --frequency-response --response-as '2[mN mm/g]'\n"
       "  vibrissa identify ring_down.csv --output-only");
   command->callback([options] {
+    if (!options->response_as.empty()) options->frequency_response = true;
     if (options->output_only)
       identify_from_output(*options);
+    else if (options->frequency_response)
+      identify_from_response(*options);
     else
       identify(*options);
   });

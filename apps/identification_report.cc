@@ -20,7 +20,7 @@ std::string plane_text(const std::vector<separation::PlaneEstimate>& points) {
 
 }  // namespace
 
-report::Table identification_table(const separation::Identification& identification) {
+report::Table identification_table(const separation::FittedBvrm& fit) {
   report::Table table({{"mode", ""},
                        {"frequency", "Hz", 6},
                        {"+- sd", "Hz", 2},
@@ -29,7 +29,7 @@ report::Table identification_table(const separation::Identification& identificat
                        {"static gain", "kg m"},
                        {"+- sd", "kg m", 2}});
   std::size_t number = 0;
-  for (const auto& mode : identification.fit.modes) {
+  for (const auto& mode : fit.modes) {
     table.add_row({++number, mode.frequency_hz.value, mode.frequency_hz.standard_deviation,
                    mode.damping_ratio.value, mode.damping_ratio.standard_deviation,
                    mode.static_gain_kg_m.value, mode.static_gain_kg_m.standard_deviation});

@@ -7,7 +7,7 @@
 
 namespace vibrissa::apps {
 
-report::Table identification_table(const separation::Identification& identification);
+report::Table identification_table(const separation::FittedBvrm& fit);
 
 /// One row a mode, and one without damping for each frequency that does not decay.
 report::Table output_only_table(const separation::OutputOnlyIdentification& found);

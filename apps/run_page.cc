@@ -60,7 +60,7 @@ report::Page run_page(const RunPageParts& parts) {
       .text = {"Base vibration response model of order " + std::to_string(parts.identified.order) +
                "."},
       .tables = {{"identified", "Identified modes with standard deviations (sd)",
-                  identification_table(parts.identified)}},
+                  identification_table(parts.identified.fit)}},
       .figures = named(parts, {"bode"})};
   report::PageSection records{.heading = "Records", .figures = named(parts, {"records"})};
   report::PageSection separation{.heading = "Separation of wind and vibration",

@@ -27,9 +27,9 @@ nlohmann::json plane_json(const std::vector<PlaneEstimate>& points) {
 
 }  // namespace
 
-nlohmann::json identification_json(const Identification& identification) {
+nlohmann::json fitted_json(const FittedBvrm& fit) {
   nlohmann::json modes = nlohmann::json::array();
-  for (const auto& mode : identification.fit.modes) {
+  for (const auto& mode : fit.modes) {
     modes.push_back({{"frequency_hz", mode.frequency_hz.value},
                      {"frequency_sd_hz", mode.frequency_hz.standard_deviation},
                      {"damping_ratio", mode.damping_ratio.value},
@@ -38,13 +38,24 @@ nlohmann::json identification_json(const Identification& identification) {
                      {"static_gain_sd_kg_m", mode.static_gain_kg_m.standard_deviation}});
   }
   return {{"modes", modes},
-          {"direct_term", identification.fit.direct_term_kg_m.value},
-          {"direct_term_sd", identification.fit.direct_term_kg_m.standard_deviation},
-          {"fit_percent", identification.held_out_fit_percent},
-          {"vaf_percent", identification.held_out_vaf_percent},
-          {"order", identification.order},
-          {"hold", to_string(identification.hold)},
-          {"end", to_string(identification.fit.end)}};
+          {"direct_term", fit.direct_term_kg_m.value},
+          {"direct_term_sd", fit.direct_term_kg_m.standard_deviation},
+          {"order", fit.model.order()},
+          {"end", to_string(fit.end)}};
+}
+
+nlohmann::json identification_json(const Identification& identification) {
+  nlohmann::json document = fitted_json(identification.fit);
+  document["fit_percent"] = identification.held_out_fit_percent;
+  document["vaf_percent"] = identification.held_out_vaf_percent;
+  document["hold"] = to_string(identification.hold);
+  return document;
+}
+
+nlohmann::json identified_response_json(const IdentifiedResponse& identified) {
+  nlohmann::json document = fitted_json(identified.fit);
+  document["fit_percent"] = identified.held_out_fit_percent;
+  return document;
 }
 
 nlohmann::json output_only_json(const OutputOnlyIdentification& found) {

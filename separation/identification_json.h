@@ -5,6 +5,7 @@
 
 #include "separation/hold_check.h"
 #include "separation/identify.h"
+#include "separation/identify_response.h"
 #include "separation/output_only.h"
 #include "separation/poles_zeros.h"
 #include "separation/residual_tests.h"
@@ -12,9 +13,11 @@
 namespace vibrissa::separation {
 
 /// {"modes": [{"frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd",
-/// "static_gain_kg_m",
-///  "static_gain_sd_kg_m"}], "direct_term", "direct_term_sd", "fit_percent", "vaf_percent",
-///  "order", "hold", "end"}.
+/// "static_gain_kg_m", "static_gain_sd_kg_m"}], "direct_term", "direct_term_sd", "order", "end"}.
+nlohmann::json fitted_json(const FittedBvrm& fit);
+/// The same with "fit_percent" of the held-out lines.
+nlohmann::json identified_response_json(const IdentifiedResponse& identified);
+/// The same with "fit_percent" and "vaf_percent" of the held-out record, and "hold".
 nlohmann::json identification_json(const Identification& identification);
 
 /// {"modes": [{"frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd", "n_orders"}],

@@ -1,13 +1,10 @@
 #include "signals/column_choice.h"
 
-#include <cmath>
-#include <optional>
 #include <string_view>
-#include <vector>
 
 #include "signals/channel_name.h"
 #include "signals/error.h"
-#include "signals/number_text.h"
+#include "signals/scaled_name.h"
 #include "signals/trimmed.h"
 #include "signals/unit.h"
 
@@ -18,68 +15,15 @@ namespace {
   throw UserError("column choice '" + choice + "': " + reason);
 }
 
-// A name or a number, and the unit in brackets behind it.
-struct Quantity {
-  std::string text;
-  std::optional<std::string> unit;
-};
-
-Quantity quantity_of(const std::string& text) {
-  const std::string all(trimmed(text));
-  const auto open = all.rfind('[');
-  if (open == std::string::npos || !all.ends_with(']')) return {all, {}};
-  return {std::string(trimmed(std::string_view(all).substr(0, open))),
-          all.substr(open + 1, all.size() - open - 2)};
-}
-
-// Where the last '*' outside brackets stands.
-std::size_t last_star(const std::string& text) {
-  int depth = 0;
-  for (std::size_t i = text.size(); i-- > 0;) {
-    if (text[i] == ']') ++depth;
-    if (text[i] == '[' && depth > 0) --depth;
-    if (text[i] == '*' && depth == 0) return i;
-  }
-  return std::string::npos;
-}
-
-struct Factor {
-  double value;
-  std::optional<std::string> unit;
-};
-
-std::optional<Factor> factor_of(const std::string& text) {
-  const Quantity quantity = quantity_of(text);
-  const std::optional<double> value = to_number(quantity.text);
-  if (!value) return {};
-  return Factor{*value, quantity.unit};
-}
-
-// Takes the factors off the end of the text, the last one first.
-std::vector<Factor> take_factors(std::string& text, const std::string& choice) {
-  std::vector<Factor> factors;
-  for (;;) {
-    const std::size_t star = last_star(text);
-    if (star == std::string::npos) return factors;
-    const auto factor = factor_of(text.substr(star + 1));
-    if (!factor && !factors.empty()) return factors;  // a star in the column's own name
-    if (!factor || !std::isfinite(factor->value) || factor->value == 0.)
-      refuse(choice, "the scale '" + std::string(trimmed(std::string_view(text).substr(star + 1))) +
-                         "' must be a finite number other than 0");
-    factors.push_back(*factor);
-    text.erase(star);
-  }
-}
-
-void convert(ColumnChoice& choice, const std::string& units, const std::string& text) {
-  const std::string needed = unit_of_channel(choice.channel);
+ScaledName scaled_column(const std::string& column, const std::string& needed_unit,
+                         const std::string& choice) {
   try {
-    const UnitConversion conversion = convert_unit(units, needed);
-    choice.scale *= conversion.scale;
-    choice.offset = conversion.offset;
+    return parse_scaled_name(column, needed_unit);
+  } catch (const UnitError& error) {
+    refuse(choice, std::string(error.what()) + ". The channel is in " + needed_unit +
+                       "; a factor can bring its own unit, as in base_moment=B[uT]*0.18[N m/T]");
   } catch (const UserError& error) {
-    refuse(text, std::string(error.what()) + ". The channel is in " + needed +
-                     "; a factor can bring its own unit, as in base_moment=B[uT]*0.18[N m/T]");
+    refuse(choice, error.what());
   }
 }
 
@@ -90,22 +34,11 @@ ColumnChoice parse_column_choice(const std::string& text) {
   if (equals == std::string::npos)
     refuse(text, "expected channel=column, channel=column[unit] or channel=column*scale");
   const std::string name(trimmed(std::string_view(text).substr(0, equals)));
-  ColumnChoice choice;
-  choice.channel = full_channel_name(name);
-  if (choice.channel.empty()) refuse(text, unknown_name("channel", name, known_channels()));
-  std::string rest = text.substr(equals + 1);
-  const std::vector<Factor> factors = take_factors(rest, text);
-  const Quantity column = quantity_of(rest);
-  choice.column = column.text;
-  if (choice.column.empty()) refuse(text, "the name of the column is missing after '='");
-  if (column.unit) choice.column_with_unit = trimmed(rest);
-  std::string units = column.unit ? "(" + *column.unit + ")" : "";
-  for (const Factor& factor : factors) {
-    choice.scale *= factor.value;
-    if (factor.unit) units.append(units.empty() ? "" : ".").append("(" + *factor.unit + ")");
-  }
-  if (!units.empty()) convert(choice, units, text);
-  return choice;
+  const std::string channel = full_channel_name(name);
+  if (channel.empty()) refuse(text, unknown_name("channel", name, known_channels()));
+  const ScaledName column = scaled_column(text.substr(equals + 1), unit_of_channel(channel), text);
+  if (column.name.empty()) refuse(text, "the name of the column is missing after '='");
+  return {channel, column.name, column.scale, column.offset, column.name_with_unit};
 }
 
 }  // namespace vibrissa::signals

@@ -91,11 +91,11 @@ UnitConversion convert_unit(const std::string& from, const std::string& to) {
   const Unit target = parse(replaced(to, usual_words()));
   const Unit plain = parse(replaced(from, usual_words()));
   if (!target || !plain)
-    throw UserError("unit '" + (target ? from : to) +
+    throw UnitError("unit '" + (target ? from : to) +
                     "' is not known; write it as in m/s2, g, mN mm, uT, V, km/h or N m/T");
   auto found = converter(plain, target);
   if (!found) found = converter(parse(replaced(from, gravity_words())), target);
-  if (!found) throw UserError("'" + from + "' does not measure what '" + to + "' measures");
+  if (!found) throw UnitError("'" + from + "' does not measure what '" + to + "' measures");
   const double offset = cv_convert_double(found.get(), 0.);
   return {cv_convert_double(found.get(), 1.) - offset, offset};
 }

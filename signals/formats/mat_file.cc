@@ -33,41 +33,52 @@ std::size_t n_values(const matvar_t& variable) {
 }
 
 template <typename Number>
-std::vector<double> numbers(const matvar_t& variable) {
-  const auto* const first = static_cast<const Number*>(variable.data);
-  return {first, first + n_values(variable)};
+std::vector<double> numbers(const void* const data, const std::size_t n) {
+  const auto* const first = static_cast<const Number*>(data);
+  return {first, first + n};
 }
 
-std::vector<double> values_of(const matvar_t& variable) {
+std::vector<double> values_of(const matvar_t& variable, const void* const data) {
+  const std::size_t n = n_values(variable);
   switch (variable.class_type) {
     case MAT_C_DOUBLE:
-      return numbers<double>(variable);
+      return numbers<double>(data, n);
     case MAT_C_SINGLE:
-      return numbers<float>(variable);
+      return numbers<float>(data, n);
     case MAT_C_INT8:
-      return numbers<std::int8_t>(variable);
+      return numbers<std::int8_t>(data, n);
     case MAT_C_UINT8:
-      return numbers<std::uint8_t>(variable);
+      return numbers<std::uint8_t>(data, n);
     case MAT_C_INT16:
-      return numbers<std::int16_t>(variable);
+      return numbers<std::int16_t>(data, n);
     case MAT_C_UINT16:
-      return numbers<std::uint16_t>(variable);
+      return numbers<std::uint16_t>(data, n);
     case MAT_C_INT32:
-      return numbers<std::int32_t>(variable);
+      return numbers<std::int32_t>(data, n);
     case MAT_C_UINT32:
-      return numbers<std::uint32_t>(variable);
+      return numbers<std::uint32_t>(data, n);
     case MAT_C_INT64:
-      return numbers<std::int64_t>(variable);
+      return numbers<std::int64_t>(data, n);
     case MAT_C_UINT64:
-      return numbers<std::uint64_t>(variable);
+      return numbers<std::uint64_t>(data, n);
     default:
       return {};
   }
 }
 
-bool is_real_array(const matvar_t& variable) {
-  return variable.isComplex == 0 && variable.class_type >= MAT_C_DOUBLE &&
-         variable.class_type <= MAT_C_UINT64;
+bool is_array(const matvar_t& variable) {
+  return variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64;
+}
+
+// A complex array is its two parts.
+std::vector<NamedArray> arrays_of(const matvar_t& variable, const std::string& name) {
+  const std::vector<std::size_t> shape(variable.dims, variable.dims + variable.rank);
+  const bool is_single = variable.class_type == MAT_C_SINGLE;
+  if (variable.isComplex == 0)
+    return {{name, shape, values_of(variable, variable.data), is_single}};
+  const auto* const parts = static_cast<const mat_complex_split_t*>(variable.data);
+  return {{name + "_real", shape, values_of(variable, parts->Re), is_single},
+          {name + "_imaginary", shape, values_of(variable, parts->Im), is_single}};
 }
 
 void add_columns(const matvar_t& variable, const std::string& name,
@@ -83,11 +94,9 @@ void add_columns(const matvar_t& variable, const std::string& name,
     }
     return;
   }
-  if (!is_real_array(variable) || variable.data == nullptr || n_values(variable) == 0) return;
-  const std::vector<std::size_t> shape(variable.dims, variable.dims + variable.rank);
-  for (NumericColumn& column :
-       columns_of({name, shape, values_of(variable), variable.class_type == MAT_C_SINGLE, true}))
-    columns.push_back(std::move(column));
+  if (!is_array(variable) || variable.data == nullptr || n_values(variable) == 0) return;
+  for (NamedArray& array : arrays_of(variable, name))
+    for (NumericColumn& column : columns_of(std::move(array))) columns.push_back(std::move(column));
 }
 
 // What a variable with all its fields claims to hold.

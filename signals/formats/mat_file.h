@@ -12,9 +12,9 @@ namespace vibrissa::signals::formats {
 
 enum class MatVersion { v5, v7_3 };
 
-/// Every real array of a MATLAB file of any version, also within structs ("bench.ax"), as
-/// columns_of makes columns of it. Throws UserError for a file that is damaged or claims more than
-/// most_numbers.
+/// Every array of a MATLAB file of any version, also within structs ("bench.ax"), as columns_of
+/// makes columns of it; of a complex one NAME_real and NAME_imaginary. Throws UserError for a file
+/// that is damaged or claims more than most_numbers.
 std::unique_ptr<RecordTable> read_mat(const std::filesystem::path& file);
 
 /// sampling_rate_hz, start_s, time_s and the channels as column vectors of doubles, to the last

@@ -6,12 +6,13 @@
 #include "signals/error.h"
 #include "signals/formats/file_format.h"
 #include "signals/formats/mat_file.h"
+#include "signals/number_text.h"
+#include "signals/output_file.h"
 
 namespace vibrissa::signals::formats {
 namespace {
 
 constexpr int x_direction = 1, y_axis = 5, base_node = 1;
-constexpr int frequency_response = 4;
 
 const std::string convention = "exp(+j w t), one-sided, Hz, N m s^2/m";
 
@@ -25,6 +26,22 @@ bool is_even(const std::vector<double>& frequency_hz) {
         share_of_a_step * step)
       return false;
   return true;
+}
+
+void write_csv(const std::filesystem::path& file, const FrequencyResponse& response) {
+  write_file(file, [&](std::ostream& out) {
+    const bool has_coherence = !response.coherence.empty();
+    const bool has_deviation = !response.standard_deviation.empty();
+    out << "frequency_hz,response_real,response_imaginary" << (has_coherence ? ",coherence" : "")
+        << (has_deviation ? ",standard_deviation" : "") << "\n";
+    for (std::size_t i = 0; i < response.value.size(); ++i) {
+      out << to_text(response.frequency_hz[i]) << "," << to_text(response.value[i].real()) << ","
+          << to_text(response.value[i].imag());
+      if (has_coherence) out << "," << to_text(response.coherence[i]);
+      if (has_deviation) out << "," << to_text(response.standard_deviation[i]);
+      out << "\n";
+    }
+  });
 }
 
 }  // namespace
@@ -59,13 +76,13 @@ Uff58Function uff58_of(const FrequencyResponse& response, const std::string& nam
 
 void write_response(const std::filesystem::path& file, const FrequencyResponse& response,
                     const std::string& name) {
-  const std::string extension = extension_of(file);
-  if (extension == ".uff" || extension == ".unv" || extension == ".uf58")
+  if (format_of(file).has(universal_extension))
     return write_uff58(file, {uff58_of(response, name)});
-  if (extension == ".mat") return write_mat(file, response, convention);
+  if (format_of(file).has(".mat")) return write_mat(file, response, convention);
+  if (extension_of(file) == ".csv") return write_csv(file, response);
   throw UserError(file.string() +
                   ": a frequency response is written as .uff, .unv, .uf58 (Universal File, type "
-                  "58) or .mat; name the file so");
+                  "58), .mat or .csv; name the file so");
 }
 
 }  // namespace vibrissa::signals::formats

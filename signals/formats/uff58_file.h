@@ -11,6 +11,9 @@ namespace vibrissa::signals::formats {
 /// Types of values that the format numbers.
 enum Uff58Ordinate { real_single = 2, real_double = 4, complex_single = 5, complex_double = 6 };
 
+/// Types of functions that are read and written here, by their numbers in the format.
+enum Uff58FunctionType { time_response = 1, frequency_response = 4 };
+
 /// What lies along an axis: the numbers are those of the format.
 struct Uff58Axis {
   int quantity = 0;  // 17 time, 18 frequency, 12 acceleration, 1 any with the exponents
@@ -22,7 +25,7 @@ struct Uff58Axis {
 /// modal analysis, as SDRC's I-DEAS defined it.
 struct Uff58Function {
   std::array<std::string, 5> id_lines{};
-  int function_type = 1;  // 1 time response, 4 frequency response
+  int function_type = time_response;
   int response_node = 0, response_direction = 0, reference_node = 0, reference_direction = 0;
   bool is_complex = false, single_precision = false;
   double abscissa_start = 0., abscissa_step = 0.;
@@ -30,6 +33,8 @@ struct Uff58Function {
   std::vector<std::complex<double>> values{};  // imaginary parts 0 where not complex
   Uff58Axis abscissa_axis{}, ordinate_axis{}, denominator_axis{};
 };
+
+inline const std::string universal_extension = ".uff";  // and .unv, .uf58
 
 /// Every function of type 58 and 58b (binary) of a file; data sets of other types are left unread.
 /// Throws UserError with file and line for what is damaged, and for more than most_numbers.

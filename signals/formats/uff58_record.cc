@@ -70,11 +70,18 @@ std::vector<std::string> names_of(const std::vector<Uff58Function>& functions) {
 
 std::unique_ptr<RecordTable> read_uff58_table(const std::filesystem::path& file) {
   std::vector<Uff58Function> functions = read_uff58(file);
+  const bool has_response = std::any_of(
+      functions.begin(), functions.end(),
+      [](const auto& function) { return function.function_type == frequency_response; });
   std::erase_if(functions, [](const Uff58Function& function) {
-    return function.function_type != 1 || function.is_complex || !function.abscissa.empty() ||
-           !(function.abscissa_step > 0.);
+    return function.function_type != time_response || function.is_complex ||
+           !function.abscissa.empty() || !(function.abscissa_step > 0.);
   });
-  if (functions.empty()) throw UserError(file.string() + ": holds no evenly sampled time response");
+  if (functions.empty())
+    throw UserError(file.string() + ": holds no evenly sampled time response" +
+                    (has_response ? "; its frequency responses are read by identify and convert "
+                                    "with --frequency-response"
+                                  : ""));
   const Uff58Function first = functions.front();
   std::erase_if(functions, [&](const Uff58Function& function) {
     return function.values.size() != first.values.size() ||

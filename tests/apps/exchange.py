@@ -3,6 +3,7 @@
 
 usage: exchange.py VIBRISSA
 """
+import json
 import pathlib
 import shutil
 import subprocess
@@ -65,6 +66,40 @@ def scipy_reads_a_response(folder):
     assert "exp(+j w t)" in str(found["convention"]), "convention"
 
 
+def responses_of_others(folder):
+    """A response that SciPy writes, through every format of responses, to the modes it was made of."""
+    f = np.arange(1.0, 200.0, 0.25)
+    s = 2j * np.pi * f
+    w, zeta = 2 * np.pi * 31.47, 0.027
+    response = -2e-5 * w**2 / (s**2 + 2 * zeta * w * s + w**2)
+    in_mN_mm_per_g = response * 1e6 * 9.80665
+    scipy.io.savemat(folder / "h.mat", {"f": f, "H": in_mN_mm_per_g})
+    run(VIBRISSA, "convert", folder / "h.mat", folder / "h.uff", "--response-as", "H[mN mm/g]")
+    run(VIBRISSA, "convert", folder / "h.uff", folder / "h.csv", "--frequency-response")
+    run(VIBRISSA, "convert", folder / "h.csv", folder / "back.mat", "--frequency-response")
+    back = scipy.io.loadmat(folder / "back.mat")
+    assert np.allclose(back["response"].ravel(), response, rtol=1e-12), "a response through .uff and .csv"
+    for name in ("h.uff", "h.csv", "back.mat"):
+        found = json.loads(run(VIBRISSA, "identify", folder / name, "--frequency-response", "--order", "2", "--json"))
+        mode = found["modes"][0]
+        assert abs(mode["frequency_hz"] / 31.47 - 1) < 1e-9, f"{name}: {mode}"
+        assert abs(mode["damping_ratio"] / zeta - 1) < 1e-8, f"{name}: {mode}"
+        assert found["fit_percent"] > 99.99, f"{name}: {found}"
+
+
+def model_through_a_universal_file(folder):
+    """Dense, uneven frequencies, which the format rounds to six digits, and the modes that were solved."""
+    coarse = ("--set", "Model/Mesh resolution=1")
+    case = folder / "sensor.prm"
+    run(VIBRISSA, "init", case)
+    run(VIBRISSA, "bode", case, *coarse, "--response", folder / "model.uff")
+    found = json.loads(run(VIBRISSA, "identify", folder / "model.uff", "--frequency-response", "--json"))
+    solved = json.loads(run(VIBRISSA, "modes", case, *coarse, "--no-convergence", "--json"))
+    first = found["modes"][0]["frequency_hz"]
+    nearest = min(abs(first / mode["frequency_hz"] - 1) for mode in solved["modes"])
+    assert nearest < 1e-4, f"mode at {first} Hz, solved: {solved['modes']}"
+
+
 def scipy_and_numpy(folder, record):
     write_csv(folder / "r.csv", record)
     for name in ("r.mat", "r.npy", "r.h5"):
@@ -123,7 +158,9 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         scipy_and_numpy(pathlib.Path(name), record)
         scipy_reads_a_response(pathlib.Path(name))
-        print("SciPy and NumPy: .mat and .npy both ways, a response as .mat")
+        responses_of_others(pathlib.Path(name))
+        model_through_a_universal_file(pathlib.Path(name))
+        print("SciPy and NumPy: .mat and .npy both ways, responses as .mat, .uff and .csv")
         if shutil.which("octave-cli") is None:
             print("octave-cli is missing: its part is left out")
             return

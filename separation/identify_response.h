@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "separation/identify.h"
+#include "signals/frequency_response.h"
+
+namespace vibrissa::separation {
+
+struct IdentifyResponseOptions {
+  std::optional<std::size_t> order = std::nullopt;  // number of poles, even; nothing: chosen
+  std::size_t max_order = 6;
+  bool direct_term = true;
+};
+
+/// A model of a frequency response, and how well the lines that it did not see fit.
+struct IdentifiedResponse {
+  FittedBvrm fit;  // to all lines
+  std::size_t order = 0;
+  /// 100 (1 - |H - G| / |H - mean H|) over every third line, G fitted to the others.
+  double held_out_fit_percent = 0.;
+};
+
+/// The base-vibration response model of a response of the continuous signals, by
+/// identify_frequency(). The order has the least n ln(mean |e|^2) + n_parameters ln n of those up
+/// to max_order, n real residuals. Throws what identify_frequency() throws.
+/// Proven by tests/separation/identify_response_test.cc.
+IdentifiedResponse identify_response(const signals::FrequencyResponse& response,
+                                     const IdentifyResponseOptions& options = {});
+
+}  // namespace vibrissa::separation

@@ -1,0 +1,73 @@
+#include "separation/identify_response.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "signals/error.h"
+#include "test_signals.h"
+
+namespace vibrissa::separation {
+namespace {
+
+using signals::FrequencyResponse;
+using testing::HasSubstr;
+
+/// Lines of a model with noise of a given share of the largest value.
+FrequencyResponse noisy_response(const Bvrm& model, const double noise, const std::uint64_t seed) {
+  FrequencyResponse measured;
+  for (double f = 2.; f < 220.; f += 0.5) measured.frequency_hz.push_back(f);
+  measured.value = response(model, measured.frequency_hz);
+  double peak = 0.;
+  for (const auto& value : measured.value) peak = std::max(peak, std::abs(value));
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal(0., noise * peak / std::sqrt(2.));
+  for (auto& value : measured.value) value += std::complex<double>(normal(random), normal(random));
+  measured.standard_deviation.assign(measured.value.size(), noise * peak);
+  return measured;
+}
+
+class IdentifyResponse : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Modes, IdentifyResponse, testing::Values(1, 2));
+
+TEST_P(IdentifyResponse, FindsOrderAndModesWithinTheDeviationsItStates) {
+  Bvrm truth = test::sensor(GetParam(), -2e-7);
+  std::ranges::sort(truth.modes, {}, &ModalTerm::a0);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto found = identify_response(noisy_response(truth, 1e-3, seed));
+    EXPECT_EQ(found.order, 2 * GetParam());
+    ASSERT_EQ(found.fit.modes.size(), GetParam());
+    for (std::size_t k = 0; k < GetParam(); ++k) {
+      const ModeEstimate& mode = found.fit.modes[k];
+      const double within = 4.5 * mode.frequency_hz.standard_deviation;
+      EXPECT_NEAR(mode.frequency_hz.value, truth.modes[k].frequency_hz(), within);
+      EXPECT_LT(within, 0.02 * mode.frequency_hz.value);
+    }
+    EXPECT_GT(found.held_out_fit_percent, 98.);
+  }
+}
+
+// A curve through all its own lines would fit noise; the lines that it did not see tell.
+TEST(IdentifyResponse, SaysThatNoiseIsNotExplained) {
+  const Bvrm nothing{.modes = {make_modal_term(40., 0.05, 1e-9)}};
+  const auto found = identify_response(noisy_response(nothing, 10., 3), {.order = 6});
+  EXPECT_LT(found.held_out_fit_percent, 15.);
+}
+
+TEST(IdentifyResponse, LeavesOutLinesWithoutAValue) {
+  const Bvrm truth = test::sensor(1, 0.);
+  FrequencyResponse measured = noisy_response(truth, 1e-4, 1);
+  for (const std::size_t i : {7, 8, 9, 100}) measured.value[i] = std::nan("");
+  EXPECT_GT(identify_response(measured).held_out_fit_percent, 99.);
+}
+
+TEST(IdentifyResponse, RefusesFewerLinesThanParameters) {
+  const FrequencyResponse few{{10., 20.}, {1e-5, 2e-5}, {}, {}};
+  EXPECT_THAT([&] { identify_response(few); },
+              testing::ThrowsMessage<signals::UserError>(HasSubstr("lines")));
+}
+
+}  // namespace
+}  // namespace vibrissa::separation
