@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numeric>
 
 #include "separation/identify_frequency.h"
@@ -37,22 +38,8 @@ double information_criterion(const FittedBvrm& fit, const std::size_t n_lines,
   return n * std::log(fit.residual_variance * (n - k) / n) + k * std::log(n);
 }
 
-std::size_t best_order(const FrequencyResponse& response, const IdentifyResponseOptions& options) {
-  const auto fits = identify_frequency_orders(
-      response, {.order = options.max_order, .direct_term = options.direct_term});
-  const FittedBvrm* best = nullptr;
-  double least = 0.;
-  for (const FittedBvrm& fit : fits) {
-    const double criterion = information_criterion(fit, response.value.size(), options.direct_term);
-    if (best != nullptr && !(criterion < least)) continue;
-    best = &fit;
-    least = criterion;
-  }
-  // None: too few lines, which the fit itself will say.
-  return best == nullptr ? 2 : best->model.order();
-}
-
-double fit_percent(const FrequencyResponse& measured, const Bvrm& model) {
+/// |H - G| / |H - mean H| over the lines.
+double relative_error(const FrequencyResponse& measured, const Bvrm& model) {
   const std::vector<std::complex<double>> modelled = response(model, measured.frequency_hz);
   const std::complex<double> sum =
       std::accumulate(measured.value.begin(), measured.value.end(), std::complex<double>());
@@ -62,7 +49,29 @@ double fit_percent(const FrequencyResponse& measured, const Bvrm& model) {
     error += std::norm(measured.value[i] - modelled[i]);
     spread += std::norm(measured.value[i] - mean);
   }
-  return 100. * (1. - std::sqrt(error / spread));
+  return std::sqrt(error / spread);
+}
+
+std::size_t best_order(const FrequencyResponse& known, const FrequencyResponse& held_out,
+                       const IdentifyResponseOptions& options) {
+  constexpr double exact = 1e-9;  // a response that was computed, not measured
+  // Twice the logarithm of the likelihood that a mode, four parameters, must bring to lines that
+  // it did not see.
+  constexpr double least_gain = 4.;
+  const double share = std::exp(-0.5 * least_gain / static_cast<double>(2 * held_out.value.size()));
+  std::size_t best = 2;
+  double least = std::numeric_limits<double>::infinity(), least_error = least;
+  for (const FittedBvrm& fit : identify_frequency_orders(
+           known, {.order = options.max_order, .direct_term = options.direct_term})) {
+    const double error = relative_error(held_out, fit.model);
+    if (least_error < exact || !(error < share * least_error)) continue;
+    least_error = error;
+    const double criterion = information_criterion(fit, known.value.size(), options.direct_term);
+    if (!(criterion < least)) continue;
+    least = criterion;
+    best = fit.model.order();
+  }
+  return best;
 }
 
 }  // namespace
@@ -71,9 +80,9 @@ IdentifiedResponse identify_response(const FrequencyResponse& response,
                                      const IdentifyResponseOptions& options) {
   const FrequencyResponse known = lines_of(response, false), held_out = lines_of(response, true);
   FrequencyFitOptions fit{.direct_term = options.direct_term};
-  fit.order = options.order ? *options.order : best_order(known, options);
+  fit.order = options.order ? *options.order : best_order(known, held_out, options);
   return {identify_frequency(response, fit), fit.order,
-          fit_percent(held_out, identify_frequency(known, fit).model)};
+          100. * (1. - relative_error(held_out, identify_frequency(known, fit).model))};
 }
 
 }  // namespace vibrissa::separation

@@ -23,9 +23,10 @@ struct IdentifiedResponse {
 };
 
 /// The base-vibration response model of a response of the continuous signals, by
-/// identify_frequency(). The order has the least n ln(mean |e|^2) + n_parameters ln n of those up
-/// to max_order, n real residuals. Throws what identify_frequency() throws.
-/// Proven by tests/separation/identify_response_test.cc.
+/// identify_frequency(). Of the orders up to max_order that foretell the held-out lines clearly
+/// better than every lower one, that with the least n ln(mean |e|^2) + n_parameters ln n, n real
+/// residuals. Throws what identify_frequency() throws. Proven by
+/// tests/separation/identify_response_test.cc.
 IdentifiedResponse identify_response(const signals::FrequencyResponse& response,
                                      const IdentifyResponseOptions& options = {});
 

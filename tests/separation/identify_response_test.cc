@@ -56,6 +56,16 @@ TEST(IdentifyResponse, SaysThatNoiseIsNotExplained) {
   EXPECT_LT(found.held_out_fit_percent, 15.);
 }
 
+// A mode without damping would pass through one line that hum has raised.
+TEST(IdentifyResponse, TakesNoStrayLineForAMode) {
+  const Bvrm truth = test::sensor(1, -2e-7);
+  FrequencyResponse measured = noisy_response(truth, 1e-4, 1);
+  measured.value[96] += 3e-6;  // 50 Hz, a line that is fitted
+  const auto found = identify_response(measured);
+  EXPECT_EQ(found.order, 2U);
+  EXPECT_NEAR(found.fit.modes[0].frequency_hz.value, truth.modes[0].frequency_hz(), 0.02);
+}
+
 TEST(IdentifyResponse, LeavesOutLinesWithoutAValue) {
   const Bvrm truth = test::sensor(1, 0.);
   FrequencyResponse measured = noisy_response(truth, 1e-4, 1);
