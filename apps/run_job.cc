@@ -14,11 +14,11 @@
 #include "apps/rig.h"
 #include "apps/run_figures.h"
 #include "apps/run_page.h"
+#include "apps/run_shapes.h"
 #include "apps/sensor_model.h"
 #include "apps/separation_methods.h"
 #include "fem/processes.h"
 #include "fem/solver_session.h"
-#include "fem/vtk_output.h"
 #include "report/mode_picture.h"
 #include "report/pictures.h"
 #include "report/run_folder.h"
@@ -35,8 +35,6 @@ namespace vibrissa::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t n_animated_modes = 6;
 
 separation::Identification identify(const RigRecords& records, const Case& parameters) {
   separation::IdentifyOptions options;
@@ -152,31 +150,6 @@ void write_results(const report::RunFolder& folder, const fem::Sensor& sensor,
   for (const auto& figure : figures) report::write_figure(folder.path(), figure);
 }
 
-void write_mode_animations(const fs::path& folder, const fem::Sensor& sensor) {
-  fs::create_directories(folder);
-  const std::size_t n = std::min(n_animated_modes, sensor.modes().size());
-  for (std::size_t k = 1; k <= n; ++k) fem::write_mode_animation(folder, sensor, k);
-}
-
-/// Of the modes that have an animation.
-std::vector<report::ModePicture> mode_pictures(const fem::Sensor& sensor) {
-  std::vector<report::ModePicture> pictures;
-  for (std::size_t k = 1; k <= std::min(n_animated_modes, sensor.modes().size()); ++k) {
-    const std::string name = "mode_" + std::to_string(k),
-                      file = "vtk/" + name + (fem::n_processes() == 1 ? "_0.vtu" : "_0.pvtu"),
-                      frequency = report::Cell(sensor.modes()[k - 1].frequency_hz).rounded(4);
-    pictures.push_back({.name = name,
-                        .title = (k == 1 ? "First mode, " : "Mode " + std::to_string(k) + ", ") +
-                                 frequency + " Hz",
-                        .caption = "Shape at a size that can be seen; the size has no meaning.",
-                        .vtu = file,
-                        .displacement = "displacement_m",
-                        .colour_label = "Displacement (relative)",
-                        .scale = 1.});
-  }
-  return pictures;
-}
-
 /// What needs no solid: of the first process. Returns what is said of it on the page.
 RunPageParts do_signals_part(const report::RunFolder& folder, const fem::Sensor& sensor,
                              const Case& parameters, const Inputs& inputs,
@@ -243,10 +216,11 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
   std::optional<RunPageParts> page;  // of the first process
   if (folder) page = do_signals_part(*folder, sensor, parameters, inputs, model, outcome);
   if (parameters.output.vtk) {
-    write_mode_animations(vtk_folder, sensor);
+    const auto shapes = write_shapes(vtk_folder, sensor);
     if (folder) {
-      page->shapes = mode_pictures(sensor);
-      report::write_mode_picture(folder->path(), page->shapes.front());
+      page->shapes = shapes;
+      for (const std::size_t drawn : {std::size_t{0}, shapes.size() - 1})
+        report::write_mode_picture(folder->path(), shapes[drawn]);
     }
   }
   if (parameters.output.full_order_duration_s > 0.) {

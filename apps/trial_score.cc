@@ -154,7 +154,7 @@ ScoredCase scored(const std::string& name, const json& label, const json& answer
   const json& effects = label.at("effects");
   out.truth = truth_of(out.kind, effects);
   for (const json& effect : effects) {
-    out.effects += (out.effects.empty() ? "" : "+") + effect.at("id").get<std::string>();
+    out.effects.append(out.effects.empty() ? "" : "+").append(effect.at("id").get<std::string>());
     const double ratio =
         std::abs(effect.at("size").get<double>()) / effect.at("limit").get<double>();
     out.size_in_limits = out.size_in_limits == 0. ? ratio : std::min(out.size_in_limits, ratio);

@@ -1,0 +1,17 @@
+#include "fem/linear_deflection.h"
+
+namespace vibrissa::fem {
+
+Vector linear_deflection(const Sensor& sensor,
+                         const std::array<double, 3>& base_acceleration_m_s2) {
+  const SolidSpace& space = sensor.space();
+  Vector base = space.make_vector(), force = space.make_vector(), found = space.make_vector();
+  for (unsigned int d = 0; d < 3; ++d) base.add(-base_acceleration_m_s2[d], space.translation(d));
+  sensor.operators().mass->vmult(force, base);
+  zero_entries(force, space.clamped());
+  const CholeskySolver solver(*sensor.operators().clamped_stiffness);
+  solver.solve(force, found);
+  return found;
+}
+
+}  // namespace vibrissa::fem
