@@ -3,30 +3,68 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/table.h"
+
 namespace vibrissa::apps {
 namespace {
 
-report::Figure gap_map(const diagnosis::Location& location) {
-  report::Panel panel{.title = "Where the nominal simulation is wrong",
-                      .x_label = "Frequency [Hz]",
-                      .y_label = "Error power / noise power",
-                      .log_x = true,
-                      .log_y = true};
-  for (const diagnosis::ChannelGap& channel : location.map) {
-    // Of records with both, which alone show what neither does.
-    report::Curve curve{.label = channel.channel == "product" ? "base and wind" : channel.channel};
-    for (const diagnosis::BandGap& band : channel.bands) {
-      curve.x.push_back(std::sqrt(band.low_hz * band.high_hz));
-      curve.y.push_back(band.excess);
-    }
-    panel.curves.push_back(std::move(curve));
+const std::string over_noise = "Error power / noise power";
+
+report::Curve excess_curve(const std::string& label, const std::vector<diagnosis::BandGap>& bands) {
+  report::Curve curve{.label = label};
+  for (const diagnosis::BandGap& band : bands) {
+    curve.x.push_back(std::sqrt(band.low_hz * band.high_hz));
+    curve.y.push_back(band.excess);
   }
-  return {.name = "gap_map",
-          .title = "Gap map",
-          .caption =
-              "Whitened error of the nominal model by third-octave band and kind of record; "
-              "1 is noise alone.",
-          .panels = {panel}};
+  return curve;
+}
+
+report::Panel panel_over_frequency(const std::string& title) {
+  return {.title = title,
+          .x_label = "Frequency [Hz]",
+          .y_label = over_noise,
+          .log_x = true,
+          .log_y = true};
+}
+
+report::Panel gap_by_kind(const std::vector<diagnosis::ChannelGap>& map) {
+  report::Panel panel = panel_over_frequency("Where the nominal simulation is wrong");
+  for (const diagnosis::ChannelGap& channel : map)
+    // Of records with both, which alone show what neither does.
+    panel.curves.push_back(excess_curve(
+        channel.channel == "product" ? "base and wind" : channel.channel, channel.bands));
+  return panel;
+}
+
+report::Panel gap_by_level(const std::vector<diagnosis::LevelGap>& levels) {
+  report::Panel panel = panel_over_frequency("Under base motion, by its level");
+  for (const diagnosis::LevelGap& level : levels)
+    panel.curves.push_back(
+        excess_curve(report::Cell(level.level_m_s2).rounded(3) + " m/s²", level.bands));
+  return panel;
+}
+
+report::Panel gap_in_time(const std::vector<diagnosis::GapInTime>& records) {
+  constexpr std::size_t most_curves = 8;  // more cannot be told apart
+  report::Panel panel{
+      .title = "Along the records", .x_label = "Time [s]", .y_label = over_noise, .log_y = true};
+  for (std::size_t i = 0; i < std::min(records.size(), most_curves); ++i)
+    panel.curves.push_back(
+        {.label = records[i].record, .x = records[i].time_s, .y = records[i].excess});
+  return panel;
+}
+
+report::Figure gap_map(const diagnosis::Location& location) {
+  report::Figure figure{
+      .name = "gap_map",
+      .title = "Gap map",
+      .caption =
+          "Whitened error of the nominal model by third-octave band and kind of record, by level "
+          "of the base motion (rms) and along each record; 1 is noise alone.",
+      .panels = {gap_by_kind(location.map)}};
+  if (!location.by_level.empty()) figure.panels.push_back(gap_by_level(location.by_level));
+  if (!location.in_time.empty()) figure.panels.push_back(gap_in_time(location.in_time));
+  return figure;
 }
 
 report::Figure response_figure(const diagnosis::Diagnosis& diagnosis) {

@@ -8,6 +8,7 @@
 #include "diagnosis/effect.h"
 #include "diagnosis/hypothesis.h"
 #include "signals/json_input.h"
+#include "signals/student.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -71,7 +72,7 @@ std::optional<double> true_value(const std::string& id, const std::string& param
 }
 
 std::vector<double> parameter_errors(const json& answer, const json& effects) {
-  constexpr double deviations_in_interval = 2. * 1.959964;
+  constexpr double deviations_in_interval = 2. * signals::normal_quantile_975;
   std::vector<double> out;
   for (const json& effect : effects)
     for (const json& p : answer.at("parameters")) {

@@ -7,6 +7,7 @@
 #include "diagnosis/long_records.h"
 #include "diagnosis/material_estimates.h"
 #include "signals/error.h"
+#include "signals/student.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -129,7 +130,6 @@ void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nomina
 
 std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
                                                    const std::string& name) {
-  constexpr double normal_975 = 1.959964;
   std::vector<ParameterEstimate> out;
   for (const std::string& id : effect_ids(name))
     for (std::size_t i = 0; i < fit.figures.size(); ++i) {
@@ -137,7 +137,8 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
       if (figure.effect == nullptr || figure.effect->id != id) continue;
       const auto place = static_cast<Eigen::Index>(i);
       const Parameter& parameter = figure.description;
-      const double x = fit.x(place), half = normal_975 * std::sqrt(fit.covariance(place, place));
+      const double x = fit.x(place),
+                   half = signals::normal_quantile_975 * std::sqrt(fit.covariance(place, place));
       const auto value = [&](double at) {
         return parameter.value(std::clamp(at, parameter.prior.low, parameter.prior.high));
       };

@@ -54,7 +54,42 @@ std::vector<double> trend_p_values(const RecordGap& gap) {
   return {trend_p_value(gain), trend_p_value(quadrature)};
 }
 
+GapInTime excess_of(const RecordGap& gap) {
+  constexpr std::size_t n_parts = 24;
+  std::vector<Complex> whitened(gap.error);
+  double power = 0.;
+  for (std::size_t b = 0; b < whitened.size(); ++b) {
+    whitened[b] /= std::sqrt(gap.variance[b]);
+    power += std::norm(whitened[b]);
+  }
+  const std::vector<double> samples = judged_samples(*gap.record, whitened);
+  const double square = std::inner_product(samples.begin(), samples.end(), samples.begin(), 0.);
+  if (!(square > 0.)) return {};
+  // A sample's mean square where every bin holds noise alone.
+  const double noise =
+      square / static_cast<double>(samples.size()) * static_cast<double>(whitened.size()) / power;
+  GapInTime out{.record = gap.record->name};
+  for (std::size_t part = 0; part < n_parts; ++part) {
+    const std::size_t from = part * samples.size() / n_parts,
+                      to = (part + 1) * samples.size() / n_parts;
+    double sum = 0.;
+    for (std::size_t i = from; i < to; ++i) sum += samples[i] * samples[i];
+    out.time_s.push_back(
+        (static_cast<double>(gap.record->first) + 0.5 * static_cast<double>(from + to)) /
+        gap.record->sampling_rate_hz);
+    out.excess.push_back(sum / static_cast<double>(to - from) / noise);
+  }
+  return out;
+}
+
 }  // namespace
+
+std::vector<GapInTime> gap_in_time(const std::vector<RecordGap>& gaps) {
+  std::vector<GapInTime> out;
+  for (const RecordGap& gap : gaps)
+    if (GapInTime along = excess_of(gap); !along.time_s.empty()) out.push_back(std::move(along));
+  return out;
+}
 
 bool varies_in_time(const std::vector<RecordGap>& gaps) {
   std::vector<double> p_values;

@@ -91,6 +91,27 @@ std::vector<ChannelGap> gap_map(const Experiment& experiment, const std::vector<
   return map;
 }
 
+std::vector<LevelGap> gap_map_by_level(const Experiment& experiment,
+                                       const std::vector<RecordGap>& gaps, const RestNoise& rest) {
+  constexpr double same_level = 1.1;
+  std::map<double, std::vector<RecordGap>> by_level;
+  for (const RecordGap& gap : gaps) {
+    if (kind_of(*gap.record) != "base" || !gap.record->periodic) continue;
+    const double level = base_level_m_s2(*gap.record);
+    auto place = by_level.lower_bound(level / same_level);
+    if (place == by_level.end() || place->first > level * same_level)
+      place = by_level.emplace(level, std::vector<RecordGap>{}).first;
+    place->second.push_back(gap);
+  }
+  if (by_level.size() < 2) return {};
+  const std::vector<double> edges = band_edges_hz(experiment);
+  const double degrees = noise_degrees(experiment);
+  std::vector<LevelGap> map;
+  for (const auto& [level, level_gaps] : by_level)
+    map.push_back({level, channel_gap("base", level_gaps, rest, edges, degrees).bands});
+  return map;
+}
+
 std::vector<std::array<double, 2>> merged_bands(const std::vector<ChannelGap>& map) {
   std::map<double, double> bands;
   for (const ChannelGap& channel : map)

@@ -28,6 +28,17 @@ struct ChannelGap {
 std::vector<ChannelGap> gap_map(const Experiment& experiment, const std::vector<RecordGap>& gaps,
                                 const RestNoise& rest);
 
+/// Base records of one level.
+struct LevelGap {
+  double level_m_s2 = 0.;  // rms of the base acceleration
+  std::vector<BandGap> bands{};
+};
+
+/// The same bands of periodic base records by level (within a tenth), ascending; each band with its
+/// own p-value, not corrected. Empty with one level only.
+std::vector<LevelGap> gap_map_by_level(const Experiment& experiment,
+                                       const std::vector<RecordGap>& gaps, const RestNoise& rest);
+
 /// Significant bands of all kinds of records, neighbours merged.
 std::vector<std::array<double, 2>> merged_bands(const std::vector<ChannelGap>& map);
 /// Mode, from 1 in ascending frequency, nearest to the band with the largest error; none when it is

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "diagnosis/gap_by_level.h"
-#include "diagnosis/gap_in_time.h"
 #include "diagnosis/words.h"
 
 namespace vibrissa::diagnosis {
@@ -17,6 +16,8 @@ Location locate_gap(const Experiment& experiment) {
   for (const PreparedRecord& record : experiment.records)
     if (kind_of(record) != "rest") gaps.push_back(gap_of(experiment, record, rest));
   out.map = gap_map(experiment, gaps, rest);
+  out.by_level = gap_map_by_level(experiment, gaps, rest);
+  out.in_time = gap_in_time(gaps);
   out.present_at_rest = rest.coloured;
   out.p_value = rest.p_value;
   for (const ChannelGap& channel : out.map) out.p_value = std::min(out.p_value, channel.p_value);

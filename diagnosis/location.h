@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnosis/gap_harmonics.h"
+#include "diagnosis/gap_in_time.h"
 #include "diagnosis/gap_map.h"
 #include "diagnosis/search.h"
 
@@ -15,6 +16,8 @@ namespace vibrissa::diagnosis {
 struct Location {
   double p_value = 1.;  // of the gap: its most significant band or its presence at rest
   std::vector<ChannelGap> map{};
+  std::vector<LevelGap> by_level{};  // empty with one level only
+  std::vector<GapInTime> in_time{};
   std::vector<std::array<double, 2>> bands_hz{};  // significant neighbours merged
   std::optional<std::size_t> mode{};              // from 1, in ascending frequency
   /// The relative gap grows as level^n; nothing when there is one level only or no gap under base

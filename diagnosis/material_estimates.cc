@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/hypothesis.h"
+#include "signals/student.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -14,13 +15,12 @@ constexpr std::size_t ratio_number = 0, wire_share_number = 2;
 ParameterEstimate estimate(const HypothesisFit& fit, const std::string& effect,
                            const std::string& name, const double log_ratio,
                            const std::vector<std::pair<std::size_t, double>>& gradient) {
-  constexpr double normal_975 = 1.959964;
   double variance = 0.;
   for (const auto& [i, slope_i] : gradient)
     for (const auto& [j, slope_j] : gradient)
       variance += slope_i * slope_j *
                   fit.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-  const double half = normal_975 * std::sqrt(std::max(0., variance));
+  const double half = signals::normal_quantile_975 * std::sqrt(std::max(0., variance));
   return {.effect = effect,
           .name = name,
           .unit = "1",

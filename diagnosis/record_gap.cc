@@ -29,6 +29,12 @@ std::string kind_of(const PreparedRecord& record) {
   return record.excitation.wind ? "wind" : "rest";
 }
 
+double base_level_m_s2(const PreparedRecord& record) {
+  double power = 0.;
+  for (const Complex& line : record.acceleration) power += std::norm(line);
+  return std::sqrt(2. * power) / static_cast<double>(record.n_samples);
+}
+
 RestNoise rest_noise(const Experiment& experiment) {
   RestNoise out;
   for (const PreparedRecord& record : experiment.records) {

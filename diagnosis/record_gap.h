@@ -36,6 +36,9 @@ struct RecordGap {
   std::vector<Complex> predicted{}, error{};
   std::vector<double> variance{};
 };
+/// Rms of the measured base acceleration over the record [m/s^2].
+double base_level_m_s2(const PreparedRecord& record);
+
 RecordGap gap_of(const Experiment& experiment, const PreparedRecord& record, const RestNoise& rest);
 
 }  // namespace vibrissa::diagnosis

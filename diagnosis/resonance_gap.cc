@@ -8,6 +8,7 @@
 #include "diagnosis/words.h"
 #include "signals/error.h"
 #include "signals/number_text.h"
+#include "signals/student.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -61,7 +62,7 @@ std::optional<std::array<double, 2>> interval(const ResonanceEffect& effect,
   const auto at = [&](double z) {
     return effect.solve({}, std::exp(gap.log_ratio + z * gap.deviation), gap.joint_share);
   };
-  const auto low = at(-1.96), high = at(1.96);
+  const auto low = at(-signals::normal_quantile_975), high = at(signals::normal_quantile_975);
   if (!low || !high) return std::nullopt;
   return std::array<double, 2>{std::min(*low, *high), std::max(*low, *high)};
 }

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "one_mode_rig.h"
 
 namespace vibrissa::diagnosis {
@@ -15,6 +17,20 @@ using testing::Not;
 Location located(const test::OneModeRig& rig, const test::RigDatasetOptions& options = {}) {
   const NominalModel nominal = test::nominal_of(test::OneModeRig{}, options.wind);
   return locate_gap(prepare_experiment(nominal, test::rig_dataset(rig, options),
+                                       signals::Split::fit, InputNoise::reduced));
+}
+
+/// Of a sensor whose gain rises by a fifth from the start to the end of every record.
+Location drifting_gain() {
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
+  for (signals::DatasetRecord& entry : dataset.records) {
+    const auto m = entry.record.channel(signals::channel::base_moment);
+    std::vector<double> drifting(m.begin(), m.end());
+    for (std::size_t i = 0; i < drifting.size(); ++i)
+      drifting[i] *= 1. + 0.2 * static_cast<double>(i) / static_cast<double>(drifting.size());
+    entry.record.set_channel(signals::channel::base_moment, std::move(drifting));
+  }
+  return locate_gap(prepare_experiment(test::nominal_of(test::OneModeRig{}, false), dataset,
                                        signals::Split::fit, InputNoise::reduced));
 }
 
@@ -64,6 +80,40 @@ TEST(Location, TellsNoLevelExponentFromOneLevelOrWithoutAGap) {
   EXPECT_FALSE(located(test::noisy_rig()).level_exponent);
 }
 
+double largest_excess(const LevelGap& level) {
+  double largest = 0.;
+  for (const BandGap& band : level.bands) largest = std::max(largest, band.excess);
+  return largest;
+}
+
+// What is linear grows in power as the level squared; a cubic spring's moment as its sixth power.
+TEST(Location, MapsTheGapByLevel) {
+  test::OneModeRig softer = test::noisy_rig(), hardening = test::noisy_rig();
+  softer.stiffness = 0.9;
+  hardening.cubic = 4e5;
+  const auto linear = located(softer, {.low_level = 2., .high_level = 4.}).by_level;
+  const auto cubic = located(hardening, {.low_level = 2., .high_level = 4.}).by_level;
+  ASSERT_EQ(linear.size(), 2U);
+  ASSERT_EQ(cubic.size(), 2U);
+  EXPECT_NEAR(linear[1].level_m_s2 / linear[0].level_m_s2, 2., 0.05);
+  EXPECT_NEAR(largest_excess(linear[1]) / largest_excess(linear[0]), 4., 1.);
+  EXPECT_GT(largest_excess(cubic[1]) / largest_excess(cubic[0]), 16.);
+  EXPECT_THAT(located(softer, {.low_level = 4., .high_level = 4.}).by_level, IsEmpty());
+}
+
+TEST(Location, FollowsTheGapAlongEachRecord) {
+  const auto nothing = located(test::noisy_rig()).in_time;
+  ASSERT_THAT(nothing, Not(IsEmpty()));
+  for (const GapInTime& record : nothing) {
+    const auto [least, most] = std::minmax_element(record.excess.begin(), record.excess.end());
+    EXPECT_GT(*least, 0.4) << record.record;
+    EXPECT_LT(*most, 2.) << record.record;
+    EXPECT_LT(record.time_s.front(), record.time_s.back());
+  }
+  for (const GapInTime& record : drifting_gain().in_time)
+    EXPECT_GT(record.excess.back(), 5. * record.excess.front()) << record.record;
+}
+
 TEST(Location, TellsNoModeWithoutAGap) {
   EXPECT_FALSE(located(test::noisy_rig()).mode);
 }
@@ -83,17 +133,7 @@ TEST(Location, FindsTheWrongDragUnderWindAlone) {
 }
 
 TEST(Location, NoticesAGainThatDriftsWithinARecord) {
-  signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
-  for (signals::DatasetRecord& entry : dataset.records) {
-    const auto m = entry.record.channel(signals::channel::base_moment);
-    std::vector<double> drifting(m.begin(), m.end());
-    for (std::size_t i = 0; i < drifting.size(); ++i)
-      drifting[i] *= 1. + 0.2 * static_cast<double>(i) / static_cast<double>(drifting.size());
-    entry.record.set_channel(signals::channel::base_moment, std::move(drifting));
-  }
-  EXPECT_TRUE(locate_gap(prepare_experiment(test::nominal_of(test::OneModeRig{}, false), dataset,
-                                            signals::Split::fit, InputNoise::reduced))
-                  .varies_in_time);
+  EXPECT_TRUE(drifting_gain().varies_in_time);
 }
 
 TEST(Location, SumsProbabilitiesOfLinksOverCandidates) {
