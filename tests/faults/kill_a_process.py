@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Kills one of the processes that share `vibrissa run`, at times spread over the job.
 
-After each: the others end by themselves, the status is not 0, and no file with a final name is half.
+After each: the others are ended and it is said once, the status is not 0, and no file with a final name is half.
 """
 import argparse
 import os
@@ -46,8 +46,8 @@ def complaints(job, folder, whole):
         return
     if job.returncode == 0:
         yield "status 0"
-    if "vibrissa" not in said:
-        yield f"says nothing of the job: {said[-300:]!r}"
+    if said.count("signal 9") != 1:
+        yield f"does not say once what happened: {said[-600:]!r}"
     for name, file in (files(folder) if folder.exists() else {}).items():
         wrong = None if file.name.startswith(".unfinished") else half_file(name, file, whole)
         if wrong:
