@@ -265,6 +265,7 @@ TransientOutcome resume_transient(const fs::path& folder, const bool show_progre
   const Case parameters = file.read();
   const Inputs inputs = make_inputs(parameters);
   const fem::SolverSession session;
+  if (fem::is_first_process()) signals::remove_unfinished_files(folder);
   const fem::Sensor sensor(parameters.sensor);
   Job job(folder, file, parameters, inputs, sensor);
   job.resume();

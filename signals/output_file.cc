@@ -1,14 +1,17 @@
 #include "signals/output_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <streambuf>
 #include <system_error>
+#include <vector>
 
 #include "signals/error.h"
 
@@ -74,12 +77,14 @@ class FileBuffer : public std::streambuf {
   std::array<char, 1 << 16> block_;
 };
 
+const std::string unfinished = ".unfinished-";  // then the process and a number
+
 // A new file beside another, removed unless it has got its final name.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& beside) {
     static std::atomic<unsigned> n_made = 0;
-    const std::string stem = ".unfinished-" + std::to_string(::getpid()) + "-";
+    const std::string stem = unfinished + std::to_string(::getpid()) + "-";
     do {
       name_ = beside.parent_path() / (stem + std::to_string(n_made++));
       descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -149,6 +154,17 @@ void write_file(const fs::path& file, const std::function<void(std::ostream&)>& 
   copy_permissions(target, temporary.descriptor());
   fill(buffer, file, writer);
   temporary.rename_to(target);
+}
+
+void remove_unfinished_files(const fs::path& folder) {
+  std::vector<fs::path> left;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(unfinished) || !entry.is_regular_file()) continue;
+    const auto process = static_cast<::pid_t>(std::atoi(name.c_str() + unfinished.size()));
+    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) left.push_back(entry.path());
+  }
+  for (const fs::path& file : left) fs::remove(file);
 }
 
 void make_new_folder(const fs::path& folder) {

@@ -15,6 +15,10 @@ namespace vibrissa::signals {
 void write_file(const std::filesystem::path& file,
                 const std::function<void(std::ostream&)>& writer);
 
+/// Removes what write_file of killed programs left below a folder: temporary files of processes
+/// that run no longer on this machine.
+void remove_unfinished_files(const std::filesystem::path& folder);
+
 /// Makes a folder that did not exist, with its parents. An existing, non-empty folder is refused
 /// with a UserError: results of an earlier run are never overwritten.
 void make_new_folder(const std::filesystem::path& folder);

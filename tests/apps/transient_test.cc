@@ -110,6 +110,8 @@ TEST(Transient, KilledAgainAndAgainAndGoneOnWithLeavesTheSameFiles) {
   EXPECT_GE(n_killed, 1);
   for (const char* name : {"record.csv", "energy.csv", "summary.json"})
     EXPECT_EQ(content(killed + "/" + name), content(undisturbed + "/" + name)) << name;
+  for (const auto& entry : fs::recursive_directory_iterator(killed))
+    EXPECT_THAT(entry.path().filename().string(), testing::Not(HasSubstr("unfinished")));
   RecordProperty("kills", n_killed);
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -94,6 +95,22 @@ TEST_F(WriteFile, LeavesTheLeftoverOfAKilledRunAlone) {
   write_file(file_, write_new);
   EXPECT_EQ(content_of(file_), "new");
   EXPECT_EQ(content_of(leftover), "of a run that was killed");
+}
+
+TEST_F(WriteFile, LeftoversOfProcessesThatHaveEndedCanBeRemoved) {
+  const ::pid_t ended = ::fork();
+  if (ended == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(ended, nullptr, 0), ended);
+  fs::create_directory(folder_.path() / "deep");
+  const fs::path dead =
+      folder_.file("deep/.unfinished-" + std::to_string(ended) + "-3", "of a killed run");
+  const fs::path alive =
+      folder_.file(".unfinished-" + std::to_string(::getpid()) + "-77", "being written");
+  const fs::path other = folder_.file(".unfinished-notes", "no number of a process");
+  remove_unfinished_files(folder_.path());
+  EXPECT_FALSE(fs::exists(dead));
+  EXPECT_TRUE(fs::exists(alive));
+  EXPECT_TRUE(fs::exists(other));
 }
 
 TEST_F(WriteFile, GivesUpWhenTheWriterThrows) {
