@@ -2,8 +2,11 @@
 
 #include "fem/linear_deflection.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tests/fem/sensors.h"
 
@@ -17,15 +20,20 @@ TEST(LinearDeflection, HasInEveryModeWhatTheModeItselfWouldTake) {
   const Vector bent = linear_deflection(sensor, acceleration);
   Vector momentum = sensor.space().make_vector();
   sensor.operators().mass->vmult(momentum, bent);
+  double largest = 0.;
+  std::vector<std::array<double, 2>> found_and_expected;
   for (const Mode& mode : sensor.modes()) {
     const double w = 2. * std::numbers::pi * mode.frequency_hz;
-    double expected = 0., largest = 0.;
-    for (unsigned int d = 0; d < 3; ++d) {
+    double expected = 0.;
+    for (unsigned int d = 0; d < 3; ++d)
       expected -= mode.participation[d] * acceleration[d] / (w * w);
-      largest += std::abs(mode.participation[d] * acceleration[d]) / (w * w);
-    }
-    EXPECT_NEAR(momentum * mode.shape, expected, 1e-7 * largest) << mode.frequency_hz << " Hz";
+    found_and_expected.push_back({momentum * mode.shape, expected});
+    largest = std::max(largest, std::abs(expected));
   }
+  EXPECT_GT(largest, 1e-6);
+  // Torsion has no part in it.
+  for (const auto& [found, expected] : found_and_expected)
+    EXPECT_NEAR(found, expected, 1e-7 * largest);
 }
 
 }  // namespace
