@@ -19,7 +19,8 @@ std::size_t checked_length(std::size_t block_length) {
 BlockSeparator::BlockSeparator(std::size_t block_length)
     : acceleration_(checked_length(block_length), 0.),
       moment_(block_length, 0.),
-      wind_(block_length, 0.) {}
+      wind_(block_length, 0.),
+      next_wind_(block_length, 0.) {}
 
 void BlockSeparator::process(std::span<const double> base_acceleration,
                              std::span<const double> base_moment, std::span<double> wind_moment) {
@@ -31,17 +32,24 @@ void BlockSeparator::process(std::span<const double> base_acceleration,
   std::size_t done = 0;
   while (done < wind_moment.size()) {
     const std::size_t n = std::min(length - filled_, wind_moment.size() - done);
-    std::ranges::copy(base_acceleration.subspan(done, n), acceleration_.begin() + filled_);
-    std::ranges::copy(base_moment.subspan(done, n), moment_.begin() + filled_);
-    const bool full = filled_ + n == length;
-    const std::size_t n_old = full ? n - 1 : n;
-    std::copy_n(wind_.begin() + static_cast<std::ptrdiff_t>(filled_) + 1, n_old,
-                wind_moment.begin() + static_cast<std::ptrdiff_t>(done));
+    auto acceleration = base_acceleration.subspan(done, n);
+    auto moment = base_moment.subspan(done, n);
+    const auto late = std::span(wind_).subspan(filled_ + 1);
+    if (n < length) {
+      std::ranges::copy(acceleration, acceleration_.begin() + filled_);
+      std::ranges::copy(moment, moment_.begin() + filled_);
+      acceleration = acceleration_;
+      moment = moment_;
+    }
     filled_ += n;
+    // The inputs are read before anything is given out: wind_moment may be one of them.
+    const bool full = filled_ == length;
+    if (full) process_block(acceleration, moment, next_wind_);
+    std::ranges::copy(late.first(full ? n - 1 : n), wind_moment.subspan(done).begin());
     done += n;
     if (!full) continue;
-    process_block(acceleration_, moment_, wind_);
-    wind_moment[done - 1] = wind_[0];
+    wind_moment[done - 1] = next_wind_[0];
+    std::swap(wind_, next_wind_);
     filled_ = 0;
   }
 }

@@ -26,7 +26,7 @@ class BlockSeparator : public Separator {
                              std::span<double> wind_moment) = 0;
   virtual void reset_blocks() = 0;
 
-  std::vector<double> acceleration_, moment_, wind_;
+  std::vector<double> acceleration_, moment_, wind_, next_wind_;
   std::size_t filled_ = 0;
 };
 

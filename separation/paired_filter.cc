@@ -12,6 +12,17 @@ Eigen::Index count_pairs(std::size_t n_partitions) {
   return static_cast<Eigen::Index>((n_partitions + 1) / 2);
 }
 
+// Does the work for rows 0 .. n - 1, some at a time: what is summed over many columns then stays in
+// registers. work takes a view: chunk(column) is the rows in turn.
+template <typename Work>
+void in_chunks(Eigen::Index n, Work work) {
+  constexpr int size = 8;
+  Eigen::Index first = 0;
+  for (; first + size <= n; first += size)
+    work([first](auto&& column) { return column.template segment<size>(first); });
+  if (first < n) work([first, n](auto&& column) { return column.segment(first, n - first); });
+}
+
 // The place before one in a ring.
 Eigen::Index step_back(Eigen::Index place, Eigen::Index n_places) {
   return (place + n_places - 1) % n_places;
@@ -31,6 +42,7 @@ PairedFilter::PairedFilter(std::size_t block_length, std::size_t n_partitions,
       last_block_(static_cast<Eigen::Index>(block_length)),
       spectra_(static_cast<Eigen::Index>(block_length) + 1, input_.cols() + 1),
       powers_(spectra_.rows(), static_cast<Eigen::Index>(n_partitions)),
+      round_power_(powers_.rows()),
       power_(powers_.rows()) {
   clear();
 }
@@ -42,7 +54,8 @@ void PairedFilter::clear() {
   spectra_.setZero();
   powers_.setZero();
   power_.setZero();
-  newest_ = newest_spectrum_ = newest_power_ = 0;
+  round_power_.setZero();
+  newest_ = newest_spectrum_ = next_power_ = 0;
 }
 
 void PairedFilter::clear_taps() {
@@ -63,7 +76,7 @@ void PairedFilter::push(std::span<const double> block) {
   newest_spectrum_ = step_back(newest_spectrum_, spectra_.cols());
   spectra_.col(newest_spectrum_) = Eigen::Map<const Spectrum>(real_fft_.spectrum().data(), n + 1);
   pair_newest();
-  if (n_partitions() % 2 == 1) separate_last();
+  if (has_odd_end() && constraint_ != Constraint::constrained) separate_last();
   take_power();
 }
 
@@ -77,7 +90,8 @@ void PairedFilter::pair_newest() {
   pair.tail(n - 1) = (first + j * second).segment(1, n - 1).reverse().conjugate();
 }
 
-// An odd number of partitions leaves the last without a partner.
+// An odd number of partitions leaves the last without a partner. Where every update is constrained
+// it may hear one, as the imaginary taps that would answer to it stay zero.
 void PairedFilter::separate_last() {
   const Eigen::Index n = spectra_.rows() - 1;
   const auto alone = spectrum_back(n_pairs() - 1);
@@ -86,34 +100,43 @@ void PairedFilter::separate_last() {
   pair.tail(n - 1) = alone.segment(1, n - 1).reverse().conjugate();
 }
 
+// Sums of what the ring holds, each of non-negative terms that are in it: a sum from which the
+// oldest is subtracted would keep its rounding. Places from next_power_ on hold sums to the last
+// place, of the round before.
 void PairedFilter::take_power() {
-  newest_power_ = step_back(newest_power_, powers_.cols());
-  powers_.col(newest_power_) = spectrum_back(0).abs2();
-  // Summed anew each time: a running sum would keep the rounding of what has left it.
-  power_ = powers_.col(0);
-  for (Eigen::Index p = 1; p < powers_.cols(); ++p) power_ += powers_.col(p);
+  powers_.col(next_power_) = spectrum_back(0).abs2();
+  round_power_ += powers_.col(next_power_);
+  if (++next_power_ < powers_.cols()) {
+    power_ = round_power_ + powers_.col(next_power_);
+    return;
+  }
+  power_ = round_power_;
+  for (Eigen::Index p = powers_.cols() - 1; p > 0; --p) powers_.col(p - 1) += powers_.col(p);
+  round_power_.setZero();
+  next_power_ = 0;
 }
 
 void PairedFilter::apply(std::span<double> output) {
-  auto sum = spectrum();
-  sum = input_.col(place(0)) * weights_.col(0);
-  Eigen::Index q = 1;
-  for (; q + 1 < n_pairs(); q += 2)
-    sum += input_.col(place(q)) * weights_.col(q) + input_.col(place(q + 1)) * weights_.col(q + 1);
-  if (q < n_pairs()) sum += input_.col(place(q)) * weights_.col(q);
-  // The real part in time is what a bin has in common with its mirror image.
+  auto products = spectrum();
+  in_chunks(length(), [this, &products](auto chunk) {
+    auto sum = (chunk(input_.col(place(0))) * chunk(weights_.col(0))).eval();
+    for (Eigen::Index q = 1; q < n_pairs(); ++q)
+      sum += chunk(input_.col(place(q))) * chunk(weights_.col(q));
+    chunk(products) = sum;
+  });
+  fft_.inverse();
   const auto n = static_cast<Eigen::Index>(block_length_);
-  Eigen::Map<Spectrum> real_spectrum(real_fft_.spectrum().data(), n + 1);
-  real_spectrum[0] = sum[0].real();
-  real_spectrum.tail(n) = 0.5 * (sum.segment(1, n) + sum.tail(n).reverse().conjugate());
-  real_fft_.inverse();
-  std::ranges::copy(real_fft_.time().last(block_length_), output.begin());
+  Eigen::Map<Eigen::ArrayXd>(output.data(), n) =
+      time().tail(n).real() / static_cast<double>(length());
 }
 
-// The spectrum's samples lose their second half.
-void PairedFilter::constrain() {
+// The spectrum's samples lose their second half and, where they belong to one partition alone,
+// their imaginary part.
+void PairedFilter::constrain(bool alone) {
   fft_.inverse();
-  time().tail(static_cast<Eigen::Index>(block_length_)).setZero();
+  const auto n = static_cast<Eigen::Index>(block_length_);
+  if (alone) time().head(n) = time().head(n).real().cast<std::complex<double>>();
+  time().tail(n).setZero();
   fft_.forward();
 }
 
@@ -126,7 +149,7 @@ void PairedFilter::adapt(const Spectrum& scaled_error) {
   for (Eigen::Index q = 0; q < n_pairs(); ++q) {
     if (constrained) {
       spectrum() = input_.col(place(q)).conjugate() * error_;
-      constrain();
+      constrain(has_odd_end() && q + 1 == n_pairs());
       weights_.col(q) += spectrum();
     } else {
       weights_.col(q) += input_.col(place(q)).conjugate() * error_;
@@ -134,7 +157,7 @@ void PairedFilter::adapt(const Spectrum& scaled_error) {
   }
   if (constraint_ != Constraint::alternating) return;
   spectrum() = weights_.col(next_constrained_) * scale;
-  constrain();
+  constrain(false);
   weights_.col(next_constrained_) = spectrum();
   next_constrained_ = (next_constrained_ + 1) % n_pairs();
 }

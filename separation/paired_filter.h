@@ -53,6 +53,7 @@ class PairedFilter {
  private:
   Eigen::Index length() const { return weights_.rows(); }
   Eigen::Index n_pairs() const { return weights_.cols(); }
+  bool has_odd_end() const { return n_partitions() % 2 == 1; }
   Eigen::Index place(Eigen::Index pair) const { return (newest_ + pair) % n_pairs(); }
   using Buffer = Eigen::Map<Spectrum, Eigen::Aligned64>;  // as signals::ComplexFft has them
   Buffer time() { return {fft_.time().data(), length()}; }
@@ -63,7 +64,7 @@ class PairedFilter {
   void pair_newest();
   void take_power();
   void separate_last();
-  void constrain();
+  void constrain(bool alone);
 
   std::size_t block_length_;
   Constraint constraint_;
@@ -73,9 +74,9 @@ class PairedFilter {
   Spectrum error_;                    // over the whole circle
   Eigen::ArrayXd last_block_;
   Eigen::ArrayXXcd spectra_;  // X of the last blocks: [bin][place]
-  Eigen::ArrayXXd powers_;    // |X_p|^2: [bin][place]
-  Eigen::ArrayXd power_;
-  Eigen::Index newest_ = 0, newest_spectrum_ = 0, newest_power_ = 0, next_constrained_ = 0;
+  Eigen::ArrayXXd powers_;    // |X_p|^2 and their sums: [bin][place]
+  Eigen::ArrayXd round_power_, power_;
+  Eigen::Index newest_ = 0, newest_spectrum_ = 0, next_power_ = 0, next_constrained_ = 0;
 };
 
 }  // namespace vibrissa::separation

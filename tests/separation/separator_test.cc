@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "separation/block_separator.h"
+#include "separation/stream_methods.h"
 #include "signals/error.h"
 #include "test_signals.h"
 
@@ -55,6 +56,28 @@ TEST(BlockSeparator, GivesResultsLateByABlockLessOneWhateverTheChunks) {
 
 TEST(BlockSeparator, NeedsABlock) {
   EXPECT_THAT([] { Difference separator(0); }, ThrowsMessage<UserError>(HasSubstr("block_length")));
+}
+
+Signal separated(const StreamMethod& method, const Signal& a, const Signal& m, Signal& wind,
+                 std::size_t chunk) {
+  const auto separator = method.make({});
+  for (std::size_t i = 0; i < wind.size(); i += chunk) {
+    const std::size_t n = std::min(chunk, wind.size() - i);
+    separator->process(std::span(a).subspan(i, n), std::span(m).subspan(i, n),
+                       std::span(wind).subspan(i, n));
+  }
+  return wind;
+}
+
+TEST(StreamMethods, MayWriteOverAnInput) {
+  const Signal a = test::white_noise(1000, 1., 1), m = test::white_noise(1000, 1., 2);
+  for (const StreamMethod& method : stream_methods())
+    for (const std::size_t chunk : {7u, 20u, 1000u}) {
+      Signal wind(1000), over_a = a, over_m = m;
+      const Signal apart = separated(method, a, m, wind, chunk);
+      EXPECT_EQ(separated(method, over_a, m, over_a, chunk), apart) << method.name << ' ' << chunk;
+      EXPECT_EQ(separated(method, a, over_m, over_m, chunk), apart) << method.name << ' ' << chunk;
+    }
 }
 
 Record record_of(const Signal& a, const Signal& m) {
