@@ -45,9 +45,9 @@ std::vector<report::Figure> figures_of(const Reproduction& result) {
           steady_responses(result.sensors),
           base_responses(result.sensors),
           estimates(result.simulation, "figure_10_simulation",
-                    "Simulation: wind moment, true and separated"),
+                    "Simulation: wind and vibration, true and separated"),
           estimates(result.experiment, "figure_11_experiment",
-                    "Simulated experiment: wind moment, true and separated"),
+                    "Simulated experiment: wind and vibration, true and separated"),
           experiment_spectra(result.experiment)};
 }
 

@@ -1,6 +1,7 @@
 #include "apps/run_figures.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "signals/frequency_response.h"
 
@@ -48,12 +49,36 @@ bool shown(const SeparatedSignal& signal) {
   return signal.name != "nothing removed" && signal.name != "true response";
 }
 
-report::Panel separation_panel(const RigRecords& records,
+// A share of the measured moment: as it is, and as a method gives it.
+struct Share {
+  std::string label;
+  const std::vector<double>& truth_n_m;
+  std::function<std::vector<double>(const SeparatedSignal&)> estimate;
+};
+
+Share wind_share(const RigRecords& records) {
+  return {.label = "Wind moment [mN m]",
+          .truth_n_m = records.true_wind_moment_n_m,
+          .estimate = [](const SeparatedSignal& signal) { return signal.wind_moment_n_m; }};
+}
+
+Share vibration_share(const RigRecords& records) {
+  return {.label = "Vibration moment [mN m]",
+          .truth_n_m = records.true_vibration_moment_n_m,
+          .estimate = [&records](const SeparatedSignal& signal) {
+            const auto measured = records.both.channel(signals::channel::base_moment);
+            std::vector<double> rest(measured.size());
+            std::ranges::transform(measured, signal.wind_moment_n_m, rest.begin(), std::minus());
+            return rest;
+          }};
+}
+
+report::Panel separation_panel(const RigRecords& records, const Share& share,
                                const std::vector<SeparatedSignal>& signals, const std::size_t first,
                                const std::size_t count) {
   report::Panel panel;
   panel.x_label = "Time [s]";
-  panel.y_label = "Wind moment [mN m]";
+  panel.y_label = share.label;
   const auto part = [&](const std::vector<double>& values) {
     return scaled(std::span(values).subspan(first, count), milli);
   };
@@ -61,10 +86,10 @@ report::Panel separation_panel(const RigRecords& records,
   std::size_t colour = 1;
   for (const auto& signal : signals) {
     if (shown(signal)) {
-      panel.curves.push_back(trace(signal.name, t, part(signal.wind_moment_n_m), colour++));
+      panel.curves.push_back(trace(signal.name, t, part(share.estimate(signal)), colour++));
     }
   }
-  panel.curves.push_back(trace("true", t, part(records.true_wind_moment_n_m), 0));
+  panel.curves.push_back(trace("true", t, part(share.truth_n_m), 0));
   panel.curves.back().style = report::CurveStyle::dashed;
   return panel;
 }
@@ -91,12 +116,15 @@ report::Figure separation_figure(const RigRecords& records,
   const std::size_t count = std::min(n, second);
   report::Figure figure;
   figure.name = "separation";
-  figure.title = "Wind moment: true and separated";
-  figure.caption = "Whole record, and one second from its middle.";
-  figure.panels = {separation_panel(records, signals, 0, n),
-                   separation_panel(records, signals, (n - count) / 2, count)};
+  figure.title = "Wind and vibration moment: true and separated";
+  figure.caption = "The wind's in the whole record, and both in one second from its middle.";
+  const std::size_t first = (n - count) / 2;
+  figure.panels = {separation_panel(records, wind_share(records), signals, 0, n),
+                   separation_panel(records, wind_share(records), signals, first, count),
+                   separation_panel(records, vibration_share(records), signals, first, count)};
   figure.panels[0].title = "Whole record";
   figure.panels[1].title = "One second from its middle";
+  figure.panels[2].title = "The same second, what is due to the base";
   return figure;
 }
 

@@ -11,7 +11,8 @@ namespace vibrissa::apps {
 /// Base acceleration, wind, and the measured moment of the record with both.
 report::Figure records_figure(const RigRecords& records);
 
-/// True wind moment beside each method's estimate: the whole record above, its middle second below.
+/// True moments of wind and vibration beside each method's estimates: the wind's in the whole
+/// record, and both in its middle second.
 report::Figure separation_figure(const RigRecords& records,
                                  const std::vector<SeparatedSignal>& signals);
 
