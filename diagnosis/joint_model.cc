@@ -80,7 +80,9 @@ JointIntegrator::AtBase JointIntegrator::accept(const Lanes& torque, const Lanes
     return transition_(i, 0) * theta + transition_(i, 1) * speed + transition_(i, 2) * y +
            torque_old_(i) * torque + external_old_(i) * external;
   };
-  free_ = {next(0), next(1), next(2), {}};
+  free_.theta = next(0);
+  free_.speed = next(1);
+  free_.y = next(2);
   free_.rate = rate_factor_ * ((free_.theta - share_ * free_.y) * rest_ - spring_ * free_.y);
   return {(theta - share_ * y) * rest_, y};
 }
