@@ -1,183 +1,36 @@
-// Are the probabilities of answers as often right as they say? score_calibration SIMULATION N SEED:
-// N sensors with effects of the nominal model's own catalogue move as the simulation's records
-// do, are measured with noise and diagnosed. Prints every trial, how often answers of a probability
-// were right, and the temperature that would make them as often right as they say.
+// Are the probabilities and intervals of answers as often right as they say? score_calibration
+// SIMULATION N SEED: N sensors with effects of the nominal model's own catalogue move as the
+// simulation's records do, are measured with noise and diagnosed. Prints every trial, how often
+// answers of a probability were right, the temperature that would make them as often right as they
+// say, and how often 95 % intervals hold the truth: of the parameters of right answers, and of the
+// gap closed, whose truth is that of many further records.
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstdio>
 #include <iostream>
+#include <map>
 #include <numbers>
 #include <random>
 #include <string>
 
+#include "benchmarks/drawn_sensor.h"
 #include "benchmarks/labelled_set.h"
-#include "diagnosis/chain_simulation.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/effect_size.h"
-#include "diagnosis/linear_response.h"
+#include "diagnosis/long_records.h"
 #include "diagnosis/nominal_identification.h"
-#include "diagnosis/planned_records.h"
 #include "diagnosis/spectrum.h"
+#include "signals/fft.h"
 
 namespace {
 
 using namespace vibrissa;
+using benchmarks::DrawnSensor;
 using diagnosis::Complex;
+using diagnosis::Experiment;
+using diagnosis::PreparedRecord;
+using signals::Split;
 namespace channel = signals::channel;
-
-/// One sensor, and what it is.
-class Sensor {
- public:
-  Sensor(const diagnosis::Experiment& experiment, unsigned seed) : random_(seed) {
-    model_.nominal = experiment.nominal;
-    draw_retunes(experiment);
-    draw_effects(experiment);
-  }
-
-  const std::string& name() const { return name_; }
-  double share() const { return share_; }
-  /// inputs: what moves it; clean: the same, prepared.
-  signals::Dataset measure(const signals::Dataset& inputs,
-                           const std::vector<diagnosis::PreparedRecord>& clean);
-
- private:
-  void draw_retunes(const diagnosis::Experiment& experiment);
-  void draw_effects(const diagnosis::Experiment& experiment);
-  std::vector<double> retuned(const diagnosis::Effect& effect);
-  double drawn(const diagnosis::Parameter& parameter);
-  void add_own_noise(const diagnosis::Chain& chain, const signals::DatasetRecord& entry,
-                     std::vector<double>& moment);
-  std::vector<double> with_noise(std::span<const double> x, double deviation);
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-
-  std::mt19937 random_;
-  diagnosis::MendedModel model_;
-  std::string name_;
-  double share_ = 0.;  // of the effects' first starts
-};
-
-/// Half of all sensors are as simulated but for what is named, the others a little off in all
-/// retunes.
-void Sensor::draw_retunes(const diagnosis::Experiment& experiment) {
-  if (uniform(0., 1.) < 0.5) return;
-  for (const std::string& id : diagnosis::nuisance_ids()) {
-    const diagnosis::Effect& effect = diagnosis::find_effect(id);
-    if (!diagnosis::shows(experiment, effect)) continue;
-    std::vector<double> values;
-    for (const diagnosis::Parameter& parameter : effect.parameters)
-      values.push_back(drawn(parameter));
-    model_.effects.push_back({id, values, experiment.scales});
-  }
-}
-
-/// What is named of a retune may lie anywhere in its range.
-std::vector<double> Sensor::retuned(const diagnosis::Effect& effect) {
-  std::vector<double> values;
-  for (const diagnosis::Parameter& parameter : effect.parameters)
-    values.push_back(values.empty()
-                         ? parameter.value(uniform(parameter.prior.low, parameter.prior.high))
-                         : drawn(parameter));
-  return values;
-}
-
-/// By its tolerance.
-double Sensor::drawn(const diagnosis::Parameter& parameter) {
-  const diagnosis::Prior& prior = parameter.prior;
-  const double step = prior.kind == diagnosis::Prior::Kind::normal
-                          ? std::normal_distribution<double>()(random_)
-                          : std::student_t_distribution<double>(6.)(random_);
-  return parameter.value(std::clamp(prior.centre + prior.scale * step, prior.low, prior.high));
-}
-
-void Sensor::draw_effects(const diagnosis::Experiment& experiment) {
-  std::vector<const diagnosis::Effect*> effects;
-  for (const diagnosis::Effect& effect : diagnosis::effect_catalogue())
-    if (diagnosis::shows(experiment, effect)) effects.push_back(&effect);
-  std::shuffle(effects.begin(), effects.end(), random_);
-  effects.resize(std::discrete_distribution<std::size_t>({0.25, 0.5, 0.25})(random_));
-  share_ = std::exp(uniform(std::log(0.1), 0.));
-  std::vector<std::string> ids;
-  for (const diagnosis::Effect* effect : effects) {
-    ids.push_back(effect->id);
-    std::erase_if(model_.effects, [&](const auto& known) { return known.id == effect->id; });
-    if (effect->retune) {
-      model_.effects.push_back({effect->id, retuned(*effect), experiment.scales});
-      continue;
-    }
-    const auto& starts = effect->starts;
-    const std::size_t start =
-        std::uniform_int_distribution<std::size_t>(0, starts.size() - 1)(random_);
-    const diagnosis::EffectFamily family(*effect, diagnosis::size_parameters(*effect),
-                                         starts[start]);
-    model_.effects.push_back(
-        {effect->id, family.values(std::min(share_, family.largest_share())), experiment.scales});
-  }
-  name_ = diagnosis::joined_name(ids);
-}
-
-std::vector<double> Sensor::with_noise(std::span<const double> x, const double deviation) {
-  std::normal_distribution<double> normal(0., deviation);
-  std::vector<double> out(x.begin(), x.end());
-  for (double& value : out) value += normal(random_);
-  return out;
-}
-
-/// Of the effects: a course by their spectrum, and the line of a random walk.
-void Sensor::add_own_noise(const diagnosis::Chain& chain, const signals::DatasetRecord& entry,
-                           std::vector<double>& moment) {
-  const std::size_t n = moment.size() - moment.size() % 2;
-  const double rate_hz = entry.record.sampling_rate_hz();
-  const diagnosis::LinearResponse response(chain);
-  const diagnosis::RecordView view{
-      .base = entry.excitation.base,
-      .wind = entry.excitation.wind,
-      .sampling_rate_hz = rate_hz,
-      .n_samples = n,
-      .wind_speed = entry.excitation.wind ? entry.record.channel(channel::wind_speed).first(n)
-                                          : std::span<const double>{},
-      .wind_response = [&](std::size_t k) {
-        const diagnosis::LinearPart part = response.at(
-            {0., 2. * std::numbers::pi * rate_hz * static_cast<double>(k) / static_cast<double>(n)},
-            entry.readout);
-        return part.wind * part.sensor;
-      }};
-  std::vector<double> variance(n / 2 - 1, 0.);
-  for (const diagnosis::NoiseSource& source : chain.noise) source(view, variance);
-  std::vector<Complex> spectrum(n / 2 + 1, 0.);
-  std::normal_distribution<double> normal;
-  for (std::size_t b = 0; b < variance.size(); ++b)
-    spectrum[b + 1] = std::sqrt(0.5 * variance[b]) * Complex(normal(random_), normal(random_));
-  const std::vector<double> course = diagnosis::samples_of(spectrum, n);
-  const double rise =
-      std::sqrt(chain.ramp_variance_rate * static_cast<double>(n) / rate_hz) * normal(random_);
-  for (std::size_t i = 0; i < n; ++i)
-    moment[i] += course[i] + rise * (static_cast<double>(i) / static_cast<double>(n) - 0.5);
-}
-
-signals::Dataset Sensor::measure(const signals::Dataset& inputs,
-                                 const std::vector<diagnosis::PreparedRecord>& clean) {
-  const diagnosis::ChannelNoise noise = diagnosis::usual_noise();
-  const diagnosis::Chain chain = model_.chain();
-  diagnosis::ChainSimulator simulator(chain);
-  const double a_noise = std::hypot(noise.acceleration_m_s2, std::sqrt(chain.reference_variance));
-  signals::Dataset out;
-  for (const signals::DatasetRecord& entry : inputs.records) {
-    std::vector<double> moment(entry.record.n_samples(), 0.);
-    for (const diagnosis::PreparedRecord& record : clean)
-      if (record.name == entry.name && !record.is_still()) moment = simulator.samples(record);
-    add_own_noise(chain, entry, moment);
-    signals::DatasetRecord measured = entry;
-    for (const std::string& name : {channel::base_acceleration, channel::cross_acceleration})
-      if (entry.record.has(name))
-        measured.record.set_channel(name, with_noise(entry.record.channel(name), a_noise));
-    measured.record.set_channel(channel::base_moment, with_noise(moment, noise.moment_n_m));
-    out.records.push_back(std::move(measured));
-  }
-  return out;
-}
 
 /// The simulation's records, and one at rest.
 signals::Dataset inputs_of(const signals::Dataset& simulation) {
@@ -237,37 +90,165 @@ void print_reliability(const std::vector<Trial>& trials) {
       best);
 }
 
+/// The same spectra with other phases: another record of the kind.
+std::vector<double> another_of_its_kind(std::span<const double> x, std::mt19937& random) {
+  std::vector<Complex> spectrum = signals::real_fft(x);
+  std::uniform_real_distribution<double> phase(0., 2. * std::numbers::pi);
+  for (std::size_t k = 1; k < spectrum.size(); ++k) spectrum[k] *= std::polar(1., phase(random));
+  signals::RealFft fft(x.size());
+  std::ranges::copy(spectrum, fft.spectrum().begin());
+  fft.inverse();
+  return {fft.time().begin(), fft.time().end()};
+}
+
+/// Many further records of the kinds that are held out.
+signals::Dataset further_inputs(const signals::Dataset& inputs) {
+  constexpr int n_copies = 12;
+  std::mt19937 random(1);
+  signals::Dataset out;
+  for (const signals::DatasetRecord& entry : inputs.records) {
+    if (entry.split != Split::held_out) continue;
+    for (int i = 0; i < n_copies; ++i) {
+      signals::DatasetRecord copy = entry;
+      copy.name += "_" + std::to_string(i);
+      for (const std::string& name : entry.record.channel_names())
+        if (name != channel::base_moment)
+          copy.record.set_channel(name, another_of_its_kind(entry.record.channel(name), random));
+      out.records.push_back(std::move(copy));
+    }
+  }
+  return out;
+}
+
+/// What moves the sensors, as datasets and prepared.
+struct Inputs {
+  signals::Dataset records;
+  std::vector<PreparedRecord> clean;
+};
+
+Inputs prepared(const diagnosis::NominalModel& nominal, signals::Dataset records) {
+  Inputs out{.records = std::move(records), .clean = {}};
+  for (const Split split : {Split::fit, Split::held_out}) {
+    if (std::ranges::none_of(out.records.records, [&](const auto& r) { return r.split == split; }))
+      continue;
+    const Experiment part = diagnosis::prepare_experiment(nominal, out.records, split,
+                                                          diagnosis::InputNoise::as_measured);
+    out.clean.insert(out.clean.end(), part.records.begin(), part.records.end());
+  }
+  return out;
+}
+
+/// How often something was so.
+struct Share {
+  int n = 0, yes = 0;
+  void count(bool is_so) {
+    ++n;
+    yes += is_so;
+  }
+  void print(const char* what) const {
+    std::printf("%s: %d of %d (%.3f)\n", what, yes, n, n == 0 ? 0. : static_cast<double>(yes) / n);
+  }
+};
+
+bool holds(const std::array<double, 2>& interval, double value) {
+  return interval[0] <= value && value <= interval[1];
+}
+
+struct Coverage {
+  Share parameters, gap_closed;
+  std::map<std::string, Share> by_parameter;
+};
+
+void count_parameters(Coverage& coverage, const DrawnSensor& sensor,
+                      const std::vector<diagnosis::ParameterEstimate>& estimates) {
+  for (const diagnosis::ParameterEstimate& estimate : estimates) {
+    const auto& described = diagnosis::find_effect(estimate.effect).parameters;
+    const auto place = std::ranges::find(described, estimate.name, &diagnosis::Parameter::name) -
+                       described.begin();
+    const double truth = sensor.values(estimate.effect)[static_cast<std::size_t>(place)];
+    coverage.parameters.count(holds(estimate.ci95, truth));
+    coverage.by_parameter[estimate.effect + " " + estimate.name].count(holds(estimate.ci95, truth));
+  }
+}
+
+/// Diagnoses one sensor and adds what its intervals hold.
+class Trials {
+ public:
+  Trials(const diagnosis::NominalModel& nominal, const signals::Dataset& simulation)
+      : nominal_(nominal),
+        bench_(prepared(nominal, inputs_of(simulation))),
+        further_(prepared(nominal, further_inputs(bench_.records))),
+        experiment_(diagnosis::prepare_experiment(nominal, bench_.records, Split::fit,
+                                                  diagnosis::InputNoise::as_measured)) {}
+
+  Trial run(unsigned seed) {
+    DrawnSensor sensor(experiment_, seed);
+    const signals::Dataset real =
+        diagnosis::in_pieces(sensor.measure(bench_.records, bench_.clean));
+    const Experiment fit_records =
+        diagnosis::prepare_experiment(nominal_, real, Split::fit, diagnosis::InputNoise::reduced);
+    const diagnosis::SearchResult result = diagnosis::search(fit_records);
+    Trial trial;
+    for (std::size_t k = 0; k < result.candidates.size(); ++k) {
+      trial.probability.push_back(result.candidates[k].probability);
+      if (result.candidates[k].name == sensor.name()) trial.truth = static_cast<std::ptrdiff_t>(k);
+    }
+    const diagnosis::Candidate& best = result.candidates.front();
+    const diagnosis::HypothesisFit& fit = result.fits[best.fit];
+    if (trial.truth == 0)
+      count_parameters(coverage_, sensor, diagnosis::parameter_estimates(fit, best.name));
+    count_gap_closed(sensor, fit_records, held_out(real), fit);
+    std::printf("%u %-6s %-40s at %.2f  %-44s %.3f\n", seed, trial.truth == 0 ? "right" : "wrong",
+                sensor.name().c_str(), sensor.share(), best.name.c_str(), best.probability);
+    std::fflush(stdout);
+    return trial;
+  }
+
+  void print_coverage() const {
+    coverage_.parameters.print("95 % intervals of the parameters of right answers hold the truth");
+    for (const auto& [name, share] : coverage_.by_parameter)
+      if (share.yes < share.n) share.print(("  " + name).c_str());
+    coverage_.gap_closed.print("95 % intervals of the gap closed hold that of further records");
+  }
+
+ private:
+  Experiment held_out(const signals::Dataset& real) const {
+    return diagnosis::prepare_experiment(nominal_, real, Split::held_out,
+                                         diagnosis::InputNoise::as_measured);
+  }
+
+  void count_gap_closed(DrawnSensor& sensor, const Experiment& fitted_on,
+                        const Experiment& scored_on, const diagnosis::HypothesisFit& fit) {
+    const auto stated = diagnosis::score_held_out(fitted_on, scored_on, fit).overall;
+    const auto truth = diagnosis::score_held_out(
+                           fitted_on, held_out(sensor.measure(further_.records, further_.clean)),
+                           fit, {.n_resamples = 0})
+                           .overall;
+    // Where there is hardly a gap, the share of it that closes says nothing.
+    if (!stated.gap_closed_ci95 || !truth.gap_closed ||
+        truth.nrmse_before < 1.1 * truth.noise_floor)
+      return;
+    coverage_.gap_closed.count(holds(*stated.gap_closed_ci95, *truth.gap_closed));
+  }
+
+  diagnosis::NominalModel nominal_;
+  Inputs bench_, further_;
+  Experiment experiment_;
+  Coverage coverage_;
+};
+
 int run(int argc, char** argv) {
   if (argc != 4) {
     std::cerr << "usage: score_calibration SIMULATION N SEED\n";
     return 2;
   }
   const signals::Dataset simulation = signals::read_dataset(argv[1]);
-  const diagnosis::NominalModel nominal = diagnosis::identify_nominal(simulation);
-  const signals::Dataset inputs = inputs_of(simulation);
-  const diagnosis::Experiment experiment = diagnosis::prepare_experiment(
-      nominal, inputs, signals::Split::fit, diagnosis::InputNoise::as_measured);
-  std::vector<diagnosis::PreparedRecord> clean = experiment.records;
-  const diagnosis::Experiment held_out = diagnosis::prepare_experiment(
-      nominal, inputs, signals::Split::held_out, diagnosis::InputNoise::as_measured);
-  clean.insert(clean.end(), held_out.records.begin(), held_out.records.end());
-  std::vector<Trial> trials;
+  Trials sensors(diagnosis::identify_nominal(simulation), simulation);
   const auto first = static_cast<unsigned>(std::stoul(argv[3]));
-  for (unsigned i = 0; i < std::stoul(argv[2]); ++i) {
-    Sensor sensor(experiment, first + i);
-    const diagnosis::Diagnosis answer = diagnosis::diagnose(nominal, sensor.measure(inputs, clean));
-    Trial trial;
-    for (std::size_t k = 0; k < answer.ranking.size(); ++k) {
-      trial.probability.push_back(answer.ranking[k].probability);
-      if (answer.ranking[k].name == sensor.name()) trial.truth = static_cast<std::ptrdiff_t>(k);
-    }
-    std::printf("%u %-6s %-40s at %.2f  %-44s %.3f\n", first + i,
-                trial.truth == 0 ? "right" : "wrong", sensor.name().c_str(), sensor.share(),
-                answer.verdict.c_str(), trial.probability.front());
-    std::fflush(stdout);
-    trials.push_back(std::move(trial));
-  }
+  std::vector<Trial> trials;
+  for (unsigned i = 0; i < std::stoul(argv[2]); ++i) trials.push_back(sensors.run(first + i));
   print_reliability(trials);
+  sensors.print_coverage();
   return 0;
 }
 

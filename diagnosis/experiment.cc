@@ -397,7 +397,7 @@ Experiment prepare_experiment(const MendedModel& simulation, const signals::Data
   experiment.moment_noise = noise.moment_n_m;
   experiment.acceleration_noise = noise.acceleration_m_s2;
   const ExcitedHarmonics excited = excited_harmonics(dataset, split, noise.acceleration_m_s2);
-  const ChannelColours colours = channel_colours(dataset);
+  const ChannelColours colours = channel_colours(dataset, nominal.narrowest_mode_hz());
   for (std::size_t i = 0; i < dataset.records.size(); ++i) {
     const DatasetRecord& entry = dataset.records[i];
     if (entry.split != split || !is_comparable(nominal, entry)) continue;

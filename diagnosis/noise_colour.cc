@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "diagnosis/spectrum.h"
+#include "signals/local_polynomial.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -60,6 +61,8 @@ double best_walk(const std::vector<NoiseLine>& lines) {
 }  // namespace
 
 double NoiseColour::density(const double frequency_hz) const {
+  if (!bands.empty())
+    return bands[std::min(static_cast<std::size_t>(frequency_hz / band_hz), bands.size() - 1)];
   const double ratio = frequency_hz / corner_hz;
   return 1. + excess / (1. + ratio * ratio);
 }
@@ -100,9 +103,56 @@ void add_lines(std::vector<NoiseLine>& out, const signals::Record& record, const
   }
 }
 
+/// Mean power of what the response leaves, by band; empty where the record cannot tell.
+std::vector<double> powers_beside_response(const signals::Record& record,
+                                           const double narrowest_mode_hz) {
+  // Lines that the response must be smooth over, and enough of them for each band.
+  constexpr double n_smooth = 20.;
+  constexpr std::size_t n_bands = 128, fewest_lines = 400;
+  if (narrowest_mode_hz * record.duration_s() < n_smooth) return {};
+  const auto local = signals::local_polynomial_response(
+      record.channel(signals::channel::base_acceleration),
+      record.channel(signals::channel::base_moment), record.sampling_rate_hz());
+  const std::size_t n_lines = local.noise_variance.size();
+  const std::size_t n = std::min(n_bands, n_lines / fewest_lines);
+  if (n == 0) return {};
+  std::vector<double> sums(n, 0.), counts(n, 0.);
+  for (std::size_t k = 0; k < n_lines; ++k) {
+    if (!std::isfinite(local.noise_variance[k])) continue;
+    sums[k * n / n_lines] += local.noise_variance[k];
+    counts[k * n / n_lines] += 1.;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (counts[i] == 0. || sums[i] <= 0.) return {};
+    sums[i] /= counts[i];
+  }
+  return sums;
+}
+
 }  // namespace
 
-ChannelColours channel_colours(const signals::Dataset& dataset) {
+NoiseColour colour_beside_response(const signals::Dataset& dataset,
+                                   const double narrowest_mode_hz) {
+  NoiseColour colour;
+  double longest_s = 0.;
+  for (const signals::DatasetRecord& entry : dataset.records) {
+    const signals::Record& record = entry.record;
+    if (entry.split != signals::Split::fit || !entry.excitation.base || entry.excitation.wind ||
+        !record.has(signals::channel::base_acceleration) || record.duration_s() <= longest_s)
+      continue;
+    std::vector<double> powers = powers_beside_response(record, narrowest_mode_hz);
+    if (powers.empty()) continue;
+    longest_s = record.duration_s();
+    colour.band_hz = 0.5 * record.sampling_rate_hz() / static_cast<double>(powers.size());
+    colour.bands = std::move(powers);
+  }
+  if (colour.bands.empty()) return colour;
+  const double least = *std::ranges::min_element(colour.bands);
+  for (double& density : colour.bands) density /= least;
+  return colour;
+}
+
+ChannelColours channel_colours(const signals::Dataset& dataset, const double narrowest_mode_hz) {
   std::vector<NoiseLine> moment, acceleration;
   double rate_hz = 0.;
   for (const signals::DatasetRecord& entry : dataset.records) {
@@ -120,7 +170,9 @@ ChannelColours channel_colours(const signals::Dataset& dataset) {
     if (!entry.excitation.base)
       add_lines(acceleration, record, signals::channel::base_acceleration, 1);
   }
-  return {noise_colour(moment), noise_colour(acceleration)};
+  return {
+      moment.empty() ? colour_beside_response(dataset, narrowest_mode_hz) : noise_colour(moment),
+      noise_colour(acceleration)};
 }
 
 }  // namespace vibrissa::diagnosis

@@ -8,10 +8,13 @@
 namespace vibrissa::diagnosis {
 
 /// How much more noise a channel has at low frequencies than at high ones: density over that of the
-/// upper half of the spectrum, 1 + excess / (1 + (f / corner)^2).
+/// upper half of the spectrum, 1 + excess / (1 + (f / corner)^2); or any course, in bands of equal
+/// width from zero on, over that of the quietest.
 struct NoiseColour {
   double excess = 0.;
   double corner_hz = 1.;
+  std::vector<double> bands{};  // none: as excess and corner say
+  double band_hz = 1.;
   double density(double frequency_hz) const;
 };
 
@@ -27,11 +30,18 @@ struct NoiseLine {
 /// 20, excess up to 20. Proven by tests/diagnosis/noise_colour_test.cc.
 NoiseColour noise_colour(std::span<const NoiseLine> lines);
 
+/// Of the moment in bands, from fit records that are moved by the base alone: what no response that
+/// is smooth over a few lines makes of the acceleration (signals::local_polynomial_response). White
+/// where no such record is so long that modes of this bandwidth are smooth. Proven by
+/// tests/diagnosis/noise_colour_test.cc.
+NoiseColour colour_beside_response(const signals::Dataset& dataset, double narrowest_mode_hz);
+
 /// Of both channels, from fit records at rest (for the acceleration: with a still base); for the
-/// moment also from what periods of a drive do not share, well below the first mode.
+/// moment also from what periods of a drive do not share, well below the first mode, and where
+/// there is neither, colour_beside_response.
 struct ChannelColours {
   NoiseColour moment, acceleration;
 };
-ChannelColours channel_colours(const signals::Dataset& dataset);
+ChannelColours channel_colours(const signals::Dataset& dataset, double narrowest_mode_hz);
 
 }  // namespace vibrissa::diagnosis

@@ -99,6 +99,8 @@ struct NominalModel {
 
   /// Samples that so many time constants of the first mode last; 0 without a mode.
   std::size_t decay_samples(double n_time_constants, double sampling_rate_hz) const;
+  /// Least half-power bandwidth of a mode, 2 zeta f [Hz]; infinite without a mode.
+  double narrowest_mode_hz() const;
 };
 
 }  // namespace vibrissa::diagnosis

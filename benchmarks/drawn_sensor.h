@@ -1,0 +1,47 @@
+#pragma once
+
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnosis/experiment.h"
+#include "diagnosis/mended_model.h"
+#include "signals/dataset.h"
+
+namespace vibrissa::benchmarks {
+
+/// A sensor drawn by the priors of the nominal model's own catalogue: half of all are as simulated
+/// but for what is named, the others a little off in all retunes; a quarter have no effect, half
+/// have one, a quarter two, from a tenth of their first start up to it.
+class DrawnSensor {
+ public:
+  DrawnSensor(const diagnosis::Experiment& experiment, unsigned seed);
+
+  const std::string& name() const { return name_; }
+  double share() const { return share_; }
+  /// Of an effect that it has.
+  const std::vector<double>& values(const std::string& effect) const;
+  /// inputs: what moves it; clean: the same, prepared.
+  signals::Dataset measure(const signals::Dataset& inputs,
+                           const std::vector<diagnosis::PreparedRecord>& clean);
+
+ private:
+  void draw_retunes(const diagnosis::Experiment& experiment);
+  void draw_effects(const diagnosis::Experiment& experiment);
+  std::vector<double> retuned(const diagnosis::Effect& effect);
+  double drawn(const diagnosis::Parameter& parameter);
+  void add_own_noise(const diagnosis::Chain& chain, const signals::DatasetRecord& entry,
+                     std::vector<double>& moment);
+  std::vector<double> with_noise(std::span<const double> x, double deviation);
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+
+  std::mt19937 random_;
+  diagnosis::MendedModel model_;
+  std::string name_;
+  double share_ = 0.;  // of the effects' first starts
+};
+
+}  // namespace vibrissa::benchmarks
