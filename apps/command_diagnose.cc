@@ -26,7 +26,7 @@ struct DiagnoseCommand {
   RecordOptions record;  // of the real sensor
   std::optional<std::string> real;
   std::optional<std::filesystem::path> folder;
-  std::size_t max_effects = 3;
+  std::size_t max_effects = diagnosis::SearchOptions{}.max_effects;
   std::vector<std::string> possible_experiments;
 };
 

@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "diagnosis/search.h"
+
 namespace vibrissa::apps {
 
 struct TrialRunOptions {
-  std::size_t max_effects = 3;
+  std::size_t max_effects = diagnosis::SearchOptions{}.max_effects;
   std::size_t n_threads = 2;  // of each rank
   /// Where more than one answer is left, the recommended experiment is done, and one by chance.
   bool further = false;

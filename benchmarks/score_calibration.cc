@@ -166,8 +166,12 @@ void count_parameters(Coverage& coverage, const DrawnSensor& sensor,
     const auto place = std::ranges::find(described, estimate.name, &diagnosis::Parameter::name) -
                        described.begin();
     const double truth = sensor.values(estimate.effect)[static_cast<std::size_t>(place)];
-    coverage.parameters.count(holds(estimate.ci95, truth));
-    coverage.by_parameter[estimate.effect + " " + estimate.name].count(holds(estimate.ci95, truth));
+    const bool held = holds(estimate.ci95, truth);
+    coverage.parameters.count(held);
+    coverage.by_parameter[estimate.effect + " " + estimate.name].count(held);
+    if (!held)
+      std::printf("      %s %s %.4g (%.4g .. %.4g), truth %.4g\n", estimate.effect.c_str(),
+                  estimate.name.c_str(), estimate.value, estimate.ci95[0], estimate.ci95[1], truth);
   }
 }
 
@@ -185,8 +189,10 @@ class Trials {
     DrawnSensor sensor(experiment_, seed);
     const signals::Dataset real =
         diagnosis::in_pieces(sensor.measure(bench_.records, bench_.clean));
-    const Experiment fit_records =
+    Experiment fit_records =
         diagnosis::prepare_experiment(nominal_, real, Split::fit, diagnosis::InputNoise::reduced);
+    // Parameters that are relative to the sensor's own amplitudes then mean the same in both.
+    fit_records.scales = experiment_.scales;
     const diagnosis::SearchResult result = diagnosis::search(fit_records);
     Trial trial;
     for (std::size_t k = 0; k < result.candidates.size(); ++k) {
