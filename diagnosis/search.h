@@ -25,7 +25,7 @@ struct SearchResult {
 };
 
 struct SearchOptions {
-  std::size_t max_effects = 4;
+  std::size_t max_effects = 3;
   std::size_t n_threads = 2;
   std::vector<std::string> left_out = {};  // effects that are not tried
   std::function<void()> on_fit = {};       // after each fit, one at a time

@@ -97,7 +97,7 @@ def separate(record, *, model=None, methods=("fdaf",), block=64, taps=512, step=
     return _core.separate(record, model, list(methods), block, taps, step, hold)
 
 
-def diagnose(real, *, simulation, max_effects=4, possible_experiments=()):
+def diagnose(real, *, simulation, max_effects=3, possible_experiments=()):
     """Why the records `real` differ from `simulation`, and how far the gap closes.
 
     Either may be a path; `simulation` may be a Dataset (anybody's simulated records), a Model, a
