@@ -111,7 +111,7 @@ void CaseOptions::add_to(CLI::App& command) {
 }
 
 void CaseOptions::add_folder_to(CLI::App& command) {
-  command.add_option("-o,--output", output_folder, "Results folder; must not exist yet");
+  command.add_option("-o,--output,--out", output_folder, "Results folder; must not exist yet");
 }
 
 bool CaseOptions::is_plain() const {

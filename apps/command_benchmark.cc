@@ -102,7 +102,7 @@ void add_benchmark_command(CLI::App& app) {
                       "Record file that becomes a scenario of its own (may be repeated)");
   command->add_option("--truth-column", options->truth_column,
                       "Column of the datasets that holds the true wind moment [N m]");
-  command->add_option("-o,--output", options->folder,
+  command->add_option("-o,--output,--out", options->folder,
                       "Results folder; must be new or empty (default: runs/benchmark_separation)");
   options->record.add_to(*command);
   add_common_options(*command, options->common);

@@ -122,7 +122,7 @@ void add_bode_command(CLI::App& app) {
                    "Case file (.prm), reduced model (.json) or record (.csv)")
       ->required();
   options->chosen.add_settings_to(*command);
-  command->add_option("-o,--output", options->folder,
+  command->add_option("-o,--output,--out", options->folder,
                       "New folder for figure, picture and response.csv");
   command->add_option("--response", options->response_file,
                       "Also write the response for other programs: .uff, .unv, .uf58 (Universal "

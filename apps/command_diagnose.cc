@@ -97,7 +97,7 @@ void add_diagnose_command(CLI::App& app) {
   options->record.add_to(*command);
   options->figures.add_to(*command);
   command->add_option(
-      "-o,--out", options->folder,
+      "-o,--out,--output", options->folder,
       "New folder for report.html, diagnosis.json, mended_model.json, ranking.csv and pictures");
   command
       ->add_option("--max-effects", options->max_effects,

@@ -239,7 +239,7 @@ void add_excite_command(CLI::App& app) {
   command->add_option("--levels", design.levels, "Multiples of the peak, e.g. 0.25,0.5,1")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("-o,--output", options->folder,
+  command->add_option("-o,--output,--out", options->folder,
                       "New folder for the drives (CSV, WAV) and excitation.json");
   command->add_flag("--wav", options->wav, "Sound files as well, scaled to full scale");
   command->add_option("--wav-format", options->wav_format, "float32 or pcm24")

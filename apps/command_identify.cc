@@ -182,7 +182,7 @@ void add_identify_command(CLI::App& app) {
       "--response-as", options->response_as,
       "--frequency-response: NAME[unit]*FACTOR[unit] of its values, as 'H[mN mm/g]' "
       "or '[uT/g]*0.18[N m/T]'; of several in a Universal File its number");
-  command->add_option("-o,--output", options->model_file, "Model written as JSON");
+  command->add_option("-o,--output,--out", options->model_file, "Model written as JSON");
   command->add_option("--c-header", options->c_header_file,
                       "Model written as C header for a microcontroller, at the record's rate");
   options->record.add_to(*command);

@@ -99,7 +99,7 @@ void add_options(CLI::App& command, PlanCommand& options) {
                   "Noise of the accelerometer, standard deviation of a sample [m/s^2]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command.add_option("-o,--out", options.folder,
+  command.add_option("-o,--out,--output", options.folder,
                      "New folder for plan.json, detection_limits.csv and the picture");
 }
 

@@ -97,7 +97,7 @@ void add_reproduce_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--whisker-case", options->whisker_case, "Case of the whisker sensor")
       ->capture_default_str();
-  command->add_option("-o,--output", options->folder,
+  command->add_option("-o,--output,--out", options->folder,
                       "Results folder; must be new or empty (default: runs/reproduce)");
   add_common_options(*command, options->common);
   command->footer(

@@ -202,7 +202,7 @@ void add_separate_command(CLI::App& app) {
   command->add_option("--dtw-path", options->dtw_path_file,
                       "CSV written: which time of each estimate the DTW score lays beside which "
                       "of the truth");
-  command->add_option("-o,--output", options->output_file,
+  command->add_option("-o,--output,--out", options->output_file,
                       "CSV record written, with a wind moment for each method");
   command
       ->add_option("--block", options->fdaf.block_length, "Block of the adaptive filter [samples]")

@@ -85,7 +85,7 @@ void add_simulate_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "simulate", "Base-moment record of a sensor that is shaken and blown at, with noise");
   options->chosen.add_to(*command);
-  command->add_option("-o,--output,--record", options->record_file, "Record written")
+  command->add_option("-o,--output,--out,--record", options->record_file, "Record written")
       ->capture_default_str();
   command->add_option("--model", options->model_file, "Also write the reduced model (JSON)");
   command->add_option("--inputs", options->input_file,

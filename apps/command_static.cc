@@ -129,7 +129,7 @@ void add_static_command(CLI::App& app) {
       ->required();
   add_levels(*command, "wind", "wind speed", "[m/s]", options->wind_m_s);
   add_levels(*command, "acceleration", "base acceleration", "[g]", options->base_g);
-  command->add_option("-o,--output", options->folder,
+  command->add_option("-o,--output,--out", options->folder,
                       "Results folder; must be new or empty (default: runs/static)");
   add_common_options(*command, options->common);
   command->footer(

@@ -91,7 +91,7 @@ void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   command->add_option("--cases", options->n_cases, "How many")->check(CLI::PositiveNumber);
   command->add_option("--first", options->first, "Number of the first, to go on with a seed");
   command->add_option("--seed", options->seed, "All sensors follow from it");
-  command->add_option("-o,--out", options->folder, "New folder")->required();
+  command->add_option("-o,--out,--output", options->folder, "New folder")->required();
   add_common_options(*command, options->common);
   command->callback([options] { make(*options); });
 }
@@ -116,7 +116,7 @@ void add_score(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   auto* command = trial.add_subcommand("score", "Open the labels and compare");
   command->add_option("folder", options->folder, "The trial")->required();
   command->add_option("--key", options->key, "Key of the labels; else FOLDER.key");
-  command->add_option("-o,--out", options->out,
+  command->add_option("-o,--out,--output", options->out,
                       "New folder for tables and pictures; else FOLDER/score");
   add_common_options(*command, options->common);
   command->callback([options] { score(*options); });

@@ -88,21 +88,25 @@ std::size_t judged_length(std::size_t n, std::optional<std::size_t> period) {
 }
 
 /// Wiener's share P / (P + noise) of each of the chosen lines: P from the line itself where it
-/// stands out, else from the mean power of the chosen lines around it that do not.
+/// stands out, else from the mean power of the chosen lines around it: of those that do not, or of
+/// all where most do, for a continuous spectrum has weak lines, too.
 std::vector<double> signal_share(const std::vector<Complex>& spectrum, double noise_power,
                                  const std::vector<std::size_t>& lines) {
   std::vector<double> share(spectrum.size(), 0.);
   constexpr std::size_t reach = 10;
-  const auto is_tone = [&](std::size_t i) { return stands_out(spectrum[lines[i]], noise_power); };
+  std::vector<bool> is_tone(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    is_tone[i] = stands_out(spectrum[lines[i]], noise_power);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    double power = 0., count = 0.;
     const std::size_t low = i < reach ? 0 : i - reach, high = std::min(lines.size(), i + reach + 1);
-    for (std::size_t j = low; j < high; ++j)
-      if (j == i || (!is_tone(j) && !is_tone(i))) {
-        power += std::norm(spectrum[lines[j]]);
-        count += 1.;
-      }
-    power /= count;
+    double tones = 0., others = 0., n_tones = 0., n_others = 0.;
+    for (std::size_t j = low; j < high; ++j) {
+      (is_tone[j] ? tones : others) += std::norm(spectrum[lines[j]]);
+      (is_tone[j] ? n_tones : n_others) += 1.;
+    }
+    const double power = is_tone[i]           ? std::norm(spectrum[lines[i]])
+                         : n_tones > n_others ? (tones + others) / (n_tones + n_others)
+                                              : others / n_others;
     if (power > noise_power) share[lines[i]] = 1. - noise_power / power;
   }
   return share;

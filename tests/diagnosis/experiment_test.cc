@@ -2,6 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
 #include "one_mode_rig.h"
 
 namespace vibrissa::diagnosis {
@@ -9,8 +16,8 @@ namespace {
 
 using signals::Split;
 
-/// A record without a stated period, driven by the given lines.
-PreparedRecord prepared(const std::vector<double>& lines_hz) {
+/// A record without a stated period, driven like this.
+PreparedRecord prepared(const test::OneModeRig::Signal& acceleration) {
   test::OneModeRig rig = test::noisy_rig();
   signals::Dataset dataset;
   dataset.records.push_back({"quiet",
@@ -19,16 +26,35 @@ PreparedRecord prepared(const std::vector<double>& lines_hz) {
                              0,
                              Split::fit,
                              signals::Readout::moment});
-  dataset.records.push_back(
-      {"tones",
-       rig.record(5000, 0., test::sines(lines_hz, 2., 5), test::no_signal, 4, false),
-       {true, false},
-       0,
-       Split::fit,
-       signals::Readout::moment});
+  dataset.records.push_back({"driven",
+                             rig.record(5000, 0., acceleration, test::no_signal, 4, false),
+                             {true, false},
+                             0,
+                             Split::fit,
+                             signals::Readout::moment});
   return prepare_experiment(test::nominal_of(test::OneModeRig{}, false), dataset, Split::fit,
                             InputNoise::reduced)
       .records.back();
+}
+
+PreparedRecord prepared(const std::vector<double>& lines_hz) {
+  return prepared(test::sines(lines_hz, 2., 5));
+}
+
+/// Noise of a band, in which a line has the given power over the accelerometer's noise.
+test::OneModeRig::Signal band(double low_hz, double high_hz, double power_over_noise) {
+  const double amplitude =
+      test::noisy_rig().acceleration_noise * std::sqrt(2. * power_over_noise / 5000.);
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal(0., amplitude);
+  std::vector<std::array<double, 3>> lines;
+  for (double f = low_hz; f < high_hz; f += 0.1)
+    lines.push_back({2. * std::numbers::pi * f, normal(random), normal(random)});
+  return [lines](double t) {
+    double a = 0.;
+    for (const auto& [w, c, s] : lines) a += c * std::cos(w * t) + s * std::sin(w * t);
+    return a;
+  };
 }
 
 TEST(PrepareExperiment, JudgesWholePeriodsOfTonesThatShareOne) {
@@ -52,6 +78,17 @@ TEST(PrepareExperiment, LeavesToNoiseWhatNoDriveStandsBehind) {
   // Ten to either side that are noise alone exceed its mean by chance alone.
   EXPECT_LT(kept / count, 0.15);
   EXPECT_NEAR(record.noise_share[120], 1., 1e-2);
+}
+
+TEST(PrepareExperiment, AWeakLineAmongStrongOnesKeepsItsNoise) {
+  const PreparedRecord record = prepared(band(20., 40., 100.));
+  double least = 1., sum = 0., count = 0.;
+  for (std::size_t k = 210; k < 390; ++k, count += 1.) {
+    least = std::min(least, record.noise_share[k]);
+    sum += record.noise_share[k];
+  }
+  EXPECT_GT(least, 0.9);
+  EXPECT_GT(sum / count, 0.97);
 }
 
 /// One record without period, and nothing at rest.
