@@ -11,6 +11,7 @@
 
 #include "diagnosis/repeated_samples.h"
 #include "diagnosis/spectrum.h"
+#include "diagnosis/uneven_ages.h"
 #include "signals/error.h"
 
 namespace vibrissa::diagnosis {
@@ -153,8 +154,14 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
                           const std::span<const double> reading, const double noise,
                           const ExcitedHarmonics& excited, const InputNoise treatment) {
   out.acceleration = spectrum_of(reading);
-  if (entry.excitation.base && is_polled(reading))
+  std::vector<Complex> noisy = out.acceleration;
+  if (entry.excitation.base && is_polled(reading)) {
     out.renewed = spectrum_of(renewed_series(reading));
+  } else if (const auto even = entry.excitation.base ? evened_series(reading, out.sampling_rate_hz)
+                                                     : std::nullopt) {
+    out.renewed = spectrum_of(*even);
+    noisy = out.renewed;  // images are none
+  }
   const double n = static_cast<double>(out.n_samples);
   if (treatment == InputNoise::as_measured) {
     out.noise_share.assign(out.acceleration.size(), 1.);
@@ -172,7 +179,7 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
     const std::size_t n_periods = out.n_samples / entry.period_samples;
     for (std::size_t k = 1; k + 1 < out.acceleration.size(); ++k)
       if (k % n_periods != 0) {
-        out.acceleration_noise_power += std::norm(out.acceleration[k]);
+        out.acceleration_noise_power += std::norm(noisy[k]);
         ++out.n_acceleration_noise;
       }
     average_periods(out.acceleration, n_periods);
@@ -346,6 +353,14 @@ double quietest_power(const std::vector<Complex>& spectrum) {
   return least;
 }
 
+/// Samples of a channel; what uneven ages of the accelerometer's make of a motion is no noise.
+std::vector<double> without_images(const DatasetRecord& entry, const std::string& name) {
+  const auto x = entry.record.channel(name);
+  if (entry.excitation.base && name == channel::base_acceleration)
+    if (auto even = evened_series(x, entry.record.sampling_rate_hz())) return *std::move(even);
+  return {x.begin(), x.end()};
+}
+
 /// Of all fit records the least.
 double quietest_deviation(const signals::Dataset& dataset, const std::string& name) {
   double least = std::numeric_limits<double>::infinity();
@@ -366,7 +381,7 @@ ChannelNoise channel_noise(const signals::Dataset& dataset) {
     const double n = static_cast<double>(entry.record.n_samples());
     const auto add = [&](const std::string& name, double& sum, double& count, bool still) {
       if (!entry.record.has(name)) return;
-      const std::vector<Complex> x = spectrum_of(entry.record.channel(name));
+      const std::vector<Complex> x = spectrum_of(without_images(entry, name));
       const std::size_t period = entry.period_samples;
       const std::size_t n_periods = period > 0 && entry.record.n_samples() % period == 0
                                         ? entry.record.n_samples() / period

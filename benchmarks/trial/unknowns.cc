@@ -234,10 +234,11 @@ const std::vector<Unknown>& named_unknowns() {
 const std::vector<Unknown>& nameless_unknowns() {
   static const std::vector<Unknown> all{
       {.id = "stop_on_one_side",
-       .unit = "of a usual peak",
-       .start = 0.1,
+       .unit = "of four usual peaks",
+       .start = 0.3,
        .largest = 0.9,
-       .apply = [](World& w, double s, double) { w.joint.stop = (1. - s) * w.joint.scale; }},
+       // Out of reach at first.
+       .apply = [](World& w, double s, double) { w.joint.stop = 4. * (1. - s) * w.joint.scale; }},
       {.id = "loose_contact",
        .unit = "of the gain",
        .start = 0.02,
