@@ -17,9 +17,12 @@ Bins without_ends(const Bins& lines) {
   return {lines.begin() + 1, lines.end() - 1};
 }
 
-/// What may be followed, in the judged bins.
-std::vector<Bins> regressors(const PreparedRecord& record, const FittedRecord& fitted) {
-  std::vector<Bins> out{fitted.mean};
+/// What may be followed, in the judged bins; noise_free: the foretold moment holds no noise of a
+/// channel that its error holds, too.
+std::vector<Bins> regressors(const PreparedRecord& record, const FittedRecord& fitted,
+                             const bool noise_free) {
+  std::vector<Bins> out;
+  if (noise_free) out.push_back(fitted.mean);
   const auto judged = [&](std::span<const double> samples) {
     return without_ends(spectrum_of(samples.subspan(record.first, record.n_judged)));
   };
@@ -29,17 +32,24 @@ std::vector<Bins> regressors(const PreparedRecord& record, const FittedRecord& f
   return out;
 }
 
-/// Power of each bin's error that is no noise: bounds of form errors as far as the fit uses them.
-std::vector<double> systematic_power(const Experiment& experiment, const HypothesisFit& fit,
-                                     std::size_t r) {
+/// Power of each bin's error that is no noise: what the fit's variance holds of it, and what the
+/// bounds of form errors allow.
+struct Systematic {
+  std::vector<double> in_variance, allowed;
+};
+
+Systematic systematic_power(const Experiment& experiment, const HypothesisFit& fit, std::size_t r) {
   const FittedRecord& fitted = fit.records[r];
   const bool has_form = !fit.hypothesis.effects().empty() && !fit.hypothesis.is_discrepancy();
   const double share = has_form ? fit.x(fit.x.size() - 1) : 0.;
   const double misfit = nominal_misfit(experiment.nominal, experiment.records[r]);
-  std::vector<double> out = neighbour_mean(powers(fitted.mean), form_reach);
-  for (std::size_t b = 0; b < out.size(); ++b)
-    out[b] = misfit * misfit * out[b] +
-             share * (fitted.form_errors.linear[b] + fitted.form_errors.nonlinear[b]);
+  const std::vector<double> power = neighbour_mean(powers(fitted.mean), form_reach);
+  Systematic out;
+  for (std::size_t b = 0; b < power.size(); ++b) {
+    const double form = fitted.form_errors.linear[b] + fitted.form_errors.nonlinear[b];
+    out.in_variance.push_back(misfit * misfit * power[b] + share * form);
+    out.allowed.push_back(misfit * misfit * power[b] + form);
+  }
   return out;
 }
 
@@ -65,8 +75,7 @@ struct Followed {
 };
 
 void add_block(const std::vector<Bins>& inputs, const WhitenedRecord& residual,
-               const std::vector<double>& systematic, const std::vector<std::size_t>& bins,
-               Followed& out) {
+               const Systematic& systematic, const std::vector<std::size_t>& bins, Followed& out) {
   constexpr double least_noise = 0.05;  // of the variance: what the bounds widened it by is a bound
   const auto n = static_cast<Eigen::Index>(bins.size()),
              p = static_cast<Eigen::Index>(inputs.size());
@@ -76,9 +85,9 @@ void add_block(const std::vector<Bins>& inputs, const WhitenedRecord& residual,
   for (Eigen::Index i = 0; i < n; ++i) {
     const std::size_t b = bins[static_cast<std::size_t>(i)];
     const double variance = residual.deviation[b] * residual.deviation[b];
-    const double noise = std::max(variance - systematic[b], least_noise * variance);
+    const double noise = std::max(variance - systematic.in_variance[b], least_noise * variance);
     error(i) = residual.error[b] * std::sqrt(variance / noise);
-    form += systematic[b] / noise;
+    form += systematic.allowed[b] / noise;
     for (Eigen::Index j = 0; j < p; ++j)
       columns(i, j) = inputs[static_cast<std::size_t>(j)][b] / std::sqrt(noise);
   }
@@ -113,12 +122,16 @@ std::vector<std::vector<std::size_t>> driven_blocks(const Experiment& experiment
 
 double input_following(const Experiment& experiment, const HypothesisFit& fit) {
   const std::vector<WhitenedRecord> residual = whitened_residual(experiment, fit);
+  const Chain chain = fit.chain(experiment);
+  // Noise of the axial acceleration is reduced to what its error does not follow (Wiener's share).
+  const bool noise_free = chain.cross.empty() && chain.renewed_share == 0.;
   Followed sum;
   for (std::size_t r = 0; r < experiment.records.size(); ++r) {
     const PreparedRecord& record = experiment.records[r];
     if (!record.excitation.base && !record.excitation.wind) continue;
-    const std::vector<Bins> inputs = regressors(record, fit.records[r]);
-    const std::vector<double> systematic = systematic_power(experiment, fit, r);
+    const std::vector<Bins> inputs = regressors(record, fit.records[r], noise_free);
+    if (inputs.empty()) continue;
+    const Systematic systematic = systematic_power(experiment, fit, r);
     for (const std::vector<std::size_t>& bins : driven_blocks(experiment, record, inputs))
       add_block(inputs, residual[r], systematic, bins, sum);
   }

@@ -55,7 +55,7 @@ TEST(InputFollowing, IsLargeWhereAnInputIsMissed) {
 
 TEST(InputFollowing, RefusesTheAnswersThatItContradicts) {
   const SearchResult result =
-      search(experiment_of(picking_up(channel::wind_speed, 1e-6, 1)), {.max_effects = 2});
+      search(experiment_of(picking_up(channel::wind_speed, 3e-7, 1)), {.max_effects = 2});
   EXPECT_EQ(result.candidates.front().name, outside_catalogue);
   EXPECT_FALSE(result.refuted.empty());
 }
