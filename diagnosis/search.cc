@@ -85,8 +85,7 @@ bool tells_noise(const Effect& effect) {
 /// An answer, none among them, whose residual stands out of the noise, the bounds of its form
 /// errors included, names the wrong cause or not all: something unknown is there. So does one that
 /// leaves much in places while its bounds are far too wide in others, and one whose own noise has
-/// the wrong spectrum: it has taken up what it is not. So does one whose residual still follows
-/// what moves the sensor.
+/// the wrong spectrum: it has taken up what it is not.
 bool leaves_too_much(const HypothesisFit& fit) {
   constexpr double most_excess = 0.05, most_misshape_nats = 100., most_surplus = 0.3;
   const GoodnessOfFit& goodness = fit.goodness;
