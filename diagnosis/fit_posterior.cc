@@ -11,6 +11,14 @@
 namespace vibrissa::diagnosis {
 namespace {
 
+/// Misfit of the nominal form that is always allowed for.
+constexpr double least_misfit = 1e-4;
+
+double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
+  const double misfit = record.excitation.wind ? nominal.wind_misfit : nominal.base_misfit;
+  return std::max(misfit, least_misfit);
+}
+
 /// Minus the log likelihood of what the accelerometer read where nothing moved.
 double accelerometer_term(const PreparedRecord& record, double variance) {
   if (record.n_acceleration_noise == 0) return 0.;
@@ -19,12 +27,6 @@ double accelerometer_term(const PreparedRecord& record, double variance) {
 }
 
 }  // namespace
-
-double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
-  constexpr double always_allowed = 1e-4;
-  const double misfit = record.excitation.wind ? nominal.wind_misfit : nominal.base_misfit;
-  return std::max(misfit, always_allowed);
-}
 
 std::vector<double> form_error_power(const Effect& effect, std::span<const Complex> change) {
   std::vector<double> out = neighbour_mean(powers(change), form_reach);

@@ -30,9 +30,6 @@ inline constexpr std::size_t form_reach = 10;
 /// Power that the form error of an effect may have around each bin, given what it changes.
 std::vector<double> form_error_power(const Effect& effect, std::span<const Complex> change);
 
-/// Misfit of the nominal form that is allowed for in a record, a share of the foretold moment.
-double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record);
-
 /// Log posterior of a fit's figures by Whittle's likelihood (see fit_hypothesis()). What the
 /// variance takes from the mean, misfit of the nominal form and form errors, is held fixed between
 /// renewals. experiment and figures must outlive it.

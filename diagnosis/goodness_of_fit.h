@@ -26,8 +26,6 @@ struct GoodnessOfFit {
   double misshape_nats = 0.;
   /// The same over all blocks, a bin.
   double surplus_nats_per_bin = 0.;
-  /// input_following() of the fit.
-  double following_deviations = 0.;
 };
 
 /// records: residual of the experiment's records under a fit. Proven by

@@ -7,7 +7,6 @@
 
 #include "diagnosis/climb.h"
 #include "diagnosis/fit_posterior.h"
-#include "diagnosis/input_following.h"
 #include "diagnosis/ramp_share.h"
 #include "diagnosis/retune_choices.h"
 #include "diagnosis/spectrum.h"
@@ -217,7 +216,6 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   fit.choices = retune_choices(experiment.nominal, fit);
   fit.records = fitted_records(experiment, posterior, fit, climb.predictions, actions);
   fit.goodness = goodness_of_fit(experiment, whitened_residual(experiment, fit));
-  fit.goodness.following_deviations = input_following(experiment, fit);
   return fit;
 }
 

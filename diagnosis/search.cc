@@ -94,12 +94,6 @@ bool leaves_too_much(const HypothesisFit& fit) {
           goodness.surplus_nats_per_bin > most_surplus);
 }
 
-/// Does the residual still follow what moves the sensor?
-bool misses_an_input(const HypothesisFit& fit) {
-  constexpr double most_deviations = 5.;
-  return !fit.hypothesis.is_discrepancy() && fit.goodness.following_deviations > most_deviations;
-}
-
 class Searcher {
  public:
   Searcher(const Experiment& experiment, const SearchOptions& options)
@@ -251,27 +245,13 @@ class Searcher {
     return chosen;
   }
 
-  /// Where the best answer misses an input, none that explains far less is the cause.
-  double least_credible() const {
-    constexpr double far_less = 20.;
-    double best = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < fits_.size(); ++i)
-      if (misses_an_input(fits_[i]) && !leaves_too_much(fits_[i]))
-        best = std::max(best, best_posterior(i) - far_less);
-    return best;
-  }
-
   enum class Kept { possible, refuted };
 
   std::vector<Candidate> candidates(const Kept kept) const {
     std::map<std::string, Candidate> by_name;
-    const double least = least_credible();
     // As a part of a combination what leaves too much may be right all the same.
-    for (std::size_t i = 0; i < fits_.size(); ++i) {
-      const bool refuted = leaves_too_much(fits_[i]) || misses_an_input(fits_[i]) ||
-                           (!fits_[i].hypothesis.is_discrepancy() && best_posterior(i) < least);
-      if (refuted == (kept == Kept::refuted)) add_choices(by_name, i);
-    }
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      if (leaves_too_much(fits_[i]) == (kept == Kept::refuted)) add_choices(by_name, i);
     std::vector<Candidate> out;
     for (auto& [name, candidate] : by_name) out.push_back(candidate);
     std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
