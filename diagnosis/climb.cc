@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/effect_size.h"
-
 namespace vibrissa::diagnosis {
 namespace {
 
@@ -36,24 +34,6 @@ Eigen::VectorXd damped_step(const std::vector<FreeFigure>& figures, const Eigen:
     step(i) = std::clamp(step(i), -most, most);
   }
   return step;
-}
-
-/// The effect at a multiple of the size that it has at x.
-Eigen::VectorXd resized(const std::vector<FreeFigure>& figures, Eigen::VectorXd x,
-                        const Effect& effect, const double factor) {
-  std::vector<double> values(effect.parameters.size());
-  const auto each = [&](auto&& visit) {
-    for (std::size_t i = 0; i < figures.size(); ++i)
-      if (figures[i].effect == &effect && !figures[i].nuisance)
-        visit(figures[i], x(static_cast<Eigen::Index>(i)));
-  };
-  each([&](const FreeFigure& f, double at) { values[f.parameter] = f.description.value(at); });
-  const EffectFamily family(effect, size_parameters(effect), values);
-  values = family.values(std::min(factor, family.largest_share()));
-  each(
-      [&](const FreeFigure& f, double& at) { at = f.description.coordinate(values[f.parameter]); });
-  clamp(figures, x);
-  return x;
 }
 
 Climb begin_climb(FitPosterior& posterior, const Eigen::VectorXd& x) {
@@ -109,31 +89,16 @@ void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, C
 }
 
 Climb best_start(FitPosterior& posterior, const std::vector<FreeFigure>& figures,
-                 const std::vector<Eigen::VectorXd>& starts, const Effect* started,
-                 const FitOptions& options) {
+                 const std::vector<Eigen::VectorXd>& starts, const FitOptions& options) {
   constexpr std::size_t n_promising = 2;
   constexpr int n_first_iterations = 3;
-  const bool by_shape =
-      started != nullptr && starts.size() > n_promising && !is_nonlinear(*started);
   std::vector<Climb> climbs;
-  std::size_t alike = 0;
-  BestMultiple best;
-  for (const Eigen::VectorXd& x : starts) {
-    climbs.push_back(begin_climb(posterior, x));
-    if (!by_shape) continue;
-    const BestMultiple multiple = posterior.best_multiple(x, climbs.back().predictions, *started);
-    if (multiple.gain <= best.gain) continue;
-    best = multiple;
-    alike = climbs.size() - 1;
-  }
+  for (const Eigen::VectorXd& x : starts) climbs.push_back(begin_climb(posterior, x));
   const auto better = [](const Climb& a, const Climb& b) {
     return a.log_posterior > b.log_posterior;
   };
   std::sort(climbs.begin(), climbs.end(), better);
   climbs.resize(std::min(climbs.size(), n_promising));
-  if (best.gain > 0.)
-    climbs.push_back(
-        begin_climb(posterior, resized(figures, starts[alike], *started, best.factor)));
   for (Climb& climb : climbs) climb_on(posterior, figures, climb, n_first_iterations, options);
   std::sort(climbs.begin(), climbs.end(), better);
   return std::move(climbs.front());

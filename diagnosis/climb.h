@@ -35,12 +35,8 @@ struct Climb {
 void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, Climb& climb,
               int n_iterations, const FitOptions& options);
 
-/// A few iterations from the most promising starts tell which basin is the best. Promising are the
-/// most probable ones and, where they are starts of one linear effect, the one whose shape the
-/// records resemble most, at the size that suits them: a weak effect looks like nothing from a
-/// start that is too strong.
+/// A few iterations from the most promising starts tell which basin is the best.
 Climb best_start(FitPosterior& posterior, const std::vector<FreeFigure>& figures,
-                 const std::vector<Eigen::VectorXd>& starts, const Effect* started,
-                 const FitOptions& options);
+                 const std::vector<Eigen::VectorXd>& starts, const FitOptions& options);
 
 }  // namespace vibrissa::diagnosis

@@ -86,9 +86,6 @@ struct Effect {
   std::function<void(Chain&, std::span<const double> values, const Scales&)> extend{};
 };
 
-/// low, low ratio, low ratio^2 ... up to high: where resonances may be sought.
-std::vector<double> geometric_series(double low, double high, double ratio);
-
 /// The effect at its first start, on a chain that is empty otherwise but for its structure.
 Chain probe(const Effect& effect, const NominalModel& structure = {.modes = {{}}});
 /// Is what the effect does out of proportion to what moves the sensor?

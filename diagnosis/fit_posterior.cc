@@ -129,26 +129,6 @@ double FitPosterior::log_prior(const Eigen::VectorXd& x) const {
   return sum;
 }
 
-BestMultiple FitPosterior::best_multiple(const Eigen::VectorXd& x,
-                                         const std::vector<Prediction>& at,
-                                         const Effect& effect) const {
-  const Chain chain = make_chain(experiment_, figures_, x, &effect);
-  const std::vector<Prediction> without = ChainSimulator(chain).predict(experiment_.records);
-  const double a_variance = acceleration_variance(x, chain);
-  double cross = 0., own = 0.;
-  for (std::size_t r = 0; r < at.size(); ++r) {
-    const std::vector<double> s = variance(x, without[r], r, a_variance);
-    for (std::size_t b = 0; b < s.size(); ++b) {
-      const Complex change = at[r].mean[b] - without[r].mean[b];
-      const Complex error = experiment_.records[r].moment[b] - without[r].mean[b];
-      cross += (std::conj(change) * error).real() / s[b];
-      own += std::norm(change) / s[b];
-    }
-  }
-  if (own == 0. || cross <= 0.) return {};
-  return {cross / own, 2. * cross * cross / own};
-}
-
 std::vector<EffectAction> FitPosterior::actions(const Eigen::VectorXd& x,
                                                 const std::vector<Prediction>& at) const {
   std::vector<EffectAction> actions;

@@ -18,12 +18,6 @@ struct EffectAction {
   std::vector<std::vector<Complex>> change{};  // of the mean [record][bin], N m
 };
 
-/// The multiple of a change of the mean that suits the records best.
-struct BestMultiple {
-  double factor = 0.;
-  double gain = 0.;  // twice the log likelihood that it gains over none of the change
-};
-
 /// What is wrong with a form is wrong beside its lines, too: up to this many bins away.
 inline constexpr std::size_t form_reach = 10;
 
@@ -54,9 +48,6 @@ class FitPosterior {
   void linearise(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                  Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
 
-  /// Of what the effect does at x, to first order: the shape may be right where the size is not.
-  BestMultiple best_multiple(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                             const Effect& effect) const;
   /// In the order of the figures.
   std::vector<EffectAction> actions(const Eigen::VectorXd& x,
                                     const std::vector<Prediction>& at) const;

@@ -72,17 +72,6 @@ std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
   return starts;
 }
 
-/// The one effect that the given start does not hold; nothing where there are several.
-const Effect* started_effect(const Hypothesis& hypothesis, const HypothesisFit* start) {
-  const Effect* started = nullptr;
-  for (const Effect* effect : hypothesis.effects()) {
-    if (start != nullptr && start->hypothesis.contains(effect->id)) continue;
-    if (started != nullptr) return nullptr;
-    started = effect;
-  }
-  return started;
-}
-
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix, double& log_determinant) {
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
@@ -143,7 +132,7 @@ Climb climb_before_nuisances(FitPosterior& posterior, const std::vector<FreeFigu
       Prior& prior = figure.description.prior;
       prior.low = prior.high = prior.centre;
     }
-  Climb climb = best_start(posterior, held, nominal_starts, nullptr, {});
+  Climb climb = best_start(posterior, held, nominal_starts, {});
   climb_on(posterior, held, climb, n_alone, {});
   climb.ended = false;
   climb_on(posterior, figures, climb, n_alone, {});
@@ -182,7 +171,7 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   const auto climb_from = [&](bool nominal_nuisances) {
     return best_start(posterior, fit.figures,
                       start_vectors(experiment, fit.figures, hypothesis, start, nominal_nuisances),
-                      started_effect(hypothesis, start), options);
+                      options);
   };
   Climb climb = climb_from(true);
   if (start != nullptr) {

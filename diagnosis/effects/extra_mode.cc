@@ -1,21 +1,7 @@
 #include <numbers>
-#include <vector>
-
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
-namespace {
-
-/// No resonance of usual damping lies between two of them.
-std::vector<std::vector<double>> starts_of_extra_mode() {
-  constexpr double damping_ratio = 0.02, residue = 0.005;
-  std::vector<std::vector<double>> out;
-  for (const double hz : geometric_series(48., 235., 1. + 2. * damping_ratio))
-    for (const double sign : {1., -1.}) out.push_back({hz, damping_ratio, sign * residue});
-  return out;
-}
-
-}  // namespace
 
 Effect extra_mode() {
   return Effect{.id = "extra_mode",
@@ -28,7 +14,16 @@ Effect extra_mode() {
                 .parameters = {log_uniform("frequency", "Hz", 45., 240., 100.),
                                log_uniform("damping_ratio", "1", 0.004, 0.15, 0.02),
                                uniform("residue", "1", -0.15, 0.15, 0.)},
-                .starts = starts_of_extra_mode(),
+                .starts = {{60., 0.02, 0.005},
+                           {60., 0.02, -0.005},
+                           {80., 0.02, 0.005},
+                           {80., 0.02, -0.005},
+                           {105., 0.02, 0.005},
+                           {105., 0.02, -0.005},
+                           {140., 0.02, 0.005},
+                           {140., 0.02, -0.005},
+                           {185., 0.02, 0.005},
+                           {185., 0.02, -0.005}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
                   const double w = 2. * std::numbers::pi * v[0];
                   chain.parallel.push_back([w, z = v[1], g = v[2] * scales.static_gain](Complex s) {

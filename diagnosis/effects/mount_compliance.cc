@@ -1,18 +1,7 @@
 #include <numbers>
-#include <vector>
-
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
-namespace {
-
-std::vector<std::vector<double>> starts_of_mount() {
-  std::vector<std::vector<double>> out;
-  for (const double hz : geometric_series(50., 400., 1.12)) out.push_back({hz, 0.025, 0.05});
-  return out;
-}
-
-}  // namespace
 
 Effect mount_compliance() {
   return Effect{.id = "mount_compliance",
@@ -27,7 +16,13 @@ Effect mount_compliance() {
                 .parameters = {log_uniform("frequency", "Hz", 45., 1500., 1e9),
                                log_uniform("damping_ratio", "1", 0.005, 0.12, 0.02),
                                uniform("mass_ratio", "1", 0., 0.4, 0.)},
-                .starts = starts_of_mount(),
+                .starts = {{60., 0.025, 0.05},
+                           {80., 0.025, 0.05},
+                           {105., 0.025, 0.05},
+                           {140., 0.025, 0.05},
+                           {185., 0.025, 0.05},
+                           {260., 0.025, 0.05},
+                           {350., 0.025, 0.05}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
                   const double w = 2. * std::numbers::pi * v[0];
                   if (chain.structure.modes.empty()) return;
