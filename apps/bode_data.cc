@@ -20,7 +20,9 @@ std::vector<double> bode_frequencies(const double low_hz, const double high_hz,
     }
   }
   std::sort(f.begin(), f.end());
-  f.erase(std::unique(f.begin(), f.end()), f.end());
+  // Modes come in pairs that only rounding tells apart.
+  const auto alike = [](const double a, const double b) { return b - a < 1e-9 * b; };
+  f.erase(std::unique(f.begin(), f.end(), alike), f.end());
   return f;
 }
 

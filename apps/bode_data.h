@@ -10,7 +10,8 @@
 
 namespace vibrissa::apps {
 
-/// Frequencies of a smooth Bode diagram: logarithmic, with more points about each resonance.
+/// Frequencies of a smooth Bode diagram: logarithmic, with more points about each resonance; as
+/// many for resonances that differ by rounding. Test: BodeFrequencies.
 std::vector<double> bode_frequencies(double low_hz, double high_hz,
                                      const std::vector<double>& resonance_hz);
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 
+#include "apps/bode_data.h"
 #include "signals/record_io.h"
 #include "tests/apps/program.h"
 
@@ -149,6 +150,14 @@ TEST(Bode, LeavesDeviationAndDistortionAsColumns) {
   ASSERT_EQ(written.status, 0) << written.errors;
   EXPECT_EQ(content(folder.file("b/response.csv")), printed.output);
   EXPECT_THAT(content(folder.file("b/detection.csv")), HasSubstr("even detection"));
+}
+
+// Two processes share one computation to rounding only; a transverse pair is one resonance twice.
+TEST(BodeFrequencies, AreAsManyWhateverRoundingMakesOfAPair) {
+  const double pair = 37.371;
+  const auto exact = bode_frequencies(1., 250., {pair, pair});
+  for (const double rounding : {1e-15, -3e-14, 2e-12})
+    EXPECT_EQ(bode_frequencies(1., 250., {pair, pair * (1. + rounding)}).size(), exact.size());
 }
 
 TEST(Bode, RefusesWhatAMethodCannotTake) {
