@@ -41,6 +41,12 @@ std::vector<Complex> judged_bins(const PreparedRecord& record, std::vector<Compl
   return {part.begin() + 1, part.end() - 1};
 }
 
+void paint(std::span<double> variance, const NoiseColour& colour, const PreparedRecord& record) {
+  if (colour.is_white()) return;
+  for (std::size_t b = 0; b < variance.size(); ++b)
+    variance[b] *= colour.density(record.bin_hz() * static_cast<double>(b + 1));
+}
+
 }  // namespace
 
 /// The linear part before the sensor, without what the transverse axis adds.
@@ -135,34 +141,40 @@ std::vector<Prediction> ChainSimulator::predict(std::span<const PreparedRecord> 
   return out;
 }
 
+/// Of a unit of variance a sample of the accelerometer, if it were white.
+void ChainSimulator::add_acceleration_noise(const PreparedRecord& record,
+                                            std::span<double> variance) {
+  // Both axes of an accelerometer are as noisy.
+  const bool base = !record.acceleration.empty(), cross = !record.cross_acceleration.empty();
+  const double n = static_cast<double>(record.n_judged);
+  const std::vector<LinearPart>& lines = response_.lines(record);
+  // The whisker's own velocity in the wind stems from the same noisy acceleration.
+  const double drag = base && chain_.relative_wind.on ? drag_per_velocity(chain_, record) : 0.;
+  for (std::size_t b = 0; b < variance.size(); ++b) {
+    const std::size_t k = record.whole_line(b);
+    const LinearPart& line = lines[k];
+    Complex felt = 0.;
+    if (drag != 0.) {
+      const Complex s = record.line_s(k);
+      if (gives_velocity(s)) felt = drag * line.wind / s;
+    }
+    if (base)
+      variance[b] += n * std::norm((line.base - felt) * line.sensor) * record.noise_share[k];
+    if (cross) variance[b] += n * std::norm(line.cross * line.sensor);
+  }
+}
+
 Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<Complex> mean) {
   Prediction prediction;
   prediction.mean = std::move(mean);
   const std::size_t n_bins = record.n_bins();
   const double n = static_cast<double>(record.n_judged);
-  prediction.moment_noise.resize(n_bins);
-  for (std::size_t b = 0; b < n_bins; ++b)
-    prediction.moment_noise[b] =
-        n * record.colours.moment.density(record.bin_hz() * static_cast<double>(b + 1));
+  prediction.moment_noise.assign(n_bins, n);
+  paint(prediction.moment_noise, record.colours.moment, record);
   prediction.acceleration_noise.assign(n_bins, 0.);
   if (!record.is_still()) {
-    // Both axes of an accelerometer are as noisy.
-    const bool base = !record.acceleration.empty(), cross = !record.cross_acceleration.empty();
-    const std::vector<LinearPart>& lines = response_.lines(record);
-    // The whisker's own velocity in the wind stems from the same noisy acceleration.
-    const double drag = base && chain_.relative_wind.on ? drag_per_velocity(chain_, record) : 0.;
-    for (std::size_t b = 0; b < n_bins; ++b) {
-      const std::size_t k = record.whole_line(b);
-      const LinearPart& line = lines[k];
-      const Complex s = record.line_s(k);
-      const Complex felt = gives_velocity(s) ? drag * line.wind / s : 0.;
-      if (base)
-        prediction.acceleration_noise[b] +=
-            n * std::norm((line.base - felt) * line.sensor) * record.noise_share[k];
-      if (cross) prediction.acceleration_noise[b] += n * std::norm(line.cross * line.sensor);
-      prediction.acceleration_noise[b] *=
-          record.colours.acceleration.density(record.bin_hz() * static_cast<double>(b + 1));
-    }
+    add_acceleration_noise(record, prediction.acceleration_noise);
+    paint(prediction.acceleration_noise, record.colours.acceleration, record);
   }
   prediction.own_noise.assign(n_bins, 0.);
   prediction.ramp_variance = chain_.ramp_variance_rate * n / record.sampling_rate_hz;

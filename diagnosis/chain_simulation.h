@@ -38,6 +38,7 @@ class ChainSimulator {
   Spectra linear_moments(std::span<const PreparedRecord> records);
   Spectra added_moments(std::span<const PreparedRecord> records, const Spectra& linear);
   std::vector<Complex> reading(const PreparedRecord& record, std::vector<Complex> moment);
+  void add_acceleration_noise(const PreparedRecord& record, std::span<double> variance);
   Prediction with_noise(const PreparedRecord& record, std::vector<Complex> mean);
 
   const Chain& chain_;

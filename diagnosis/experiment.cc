@@ -325,6 +325,7 @@ bool shows(const Experiment& experiment, const Effect& effect) {
 }
 
 std::size_t PreparedRecord::whole_line(const std::size_t b) const {
+  if (n_samples == n_judged) return b + 1;
   const double ratio = static_cast<double>(n_samples) / static_cast<double>(n_judged);
   return std::min(n_samples / 2,
                   static_cast<std::size_t>(std::lround(static_cast<double>(b + 1) * ratio)));

@@ -25,13 +25,8 @@ struct JointModel {
   JointModel(const StructuralMode& mode, double joint_share, double viscous_ratio,
              const JointChange& change = {});
 
-  /// Joint's share of the compliance at s, of the static whole.
-  Complex compliance(Complex s) const { return share / stiffness_ratio(s); }
-  /// Joint and whisker in series, of the static whole; a joint K(s) (1 + D) in place of K(s).
-  Complex total_compliance(Complex s, Complex d = 0.) const {
-    return compliance(s) / (1. + d) + 1. - share;
-  }
-  /// Moment of inertia over w^2 theta. The poles are where its product with the compliance is -1.
+  /// Moment of inertia over w^2 theta. The poles are where its product with the compliance of joint
+  /// and whisker in series, share / stiffness_ratio + 1 - share, is -1.
   Complex inertia(Complex s) const {
     const Complex x = s / frequency_rad_s;
     return x * x + 2. * damping * x;
@@ -41,10 +36,9 @@ struct JointModel {
     const Complex x = s / frequency_rad_s;
     return change.inertia * (x * x + 2. * change.rest_damping * damping * x);
   }
-  /// D of the factors of spring and damper.
-  Complex stiffness_change(Complex s) const {
-    const Complex nominal = stiffness_ratio(s);
-    return (change.spring + change.damper * (nominal - 1.)) / nominal - 1.;
+  /// With the factors of spring and damper, over the nominal elastic moment.
+  Complex changed_stiffness_ratio(Complex s) const {
+    return change.spring + change.damper * (loss * s / frequency_rad_s);
   }
   /// Viscous and elastic moment of the joint over its elastic one, 1 + rho s / w.
   Complex stiffness_ratio(Complex s) const { return 1. + loss * s / frequency_rad_s; }

@@ -18,7 +18,7 @@ Complex sum(const std::vector<Filter>& filters, Complex s) {
 }  // namespace
 
 LinearResponse::LinearResponse(const Chain& chain) : chain_(chain), joint_(joint_of(chain)) {
-  if (chain.structure.has_base) static_response_ = chain.structure.base_response(0.);
+  if (chain.structure.has_base) per_static_response_ = 1. / chain.structure.base_response(0.);
 }
 
 LinearPart LinearResponse::at(const Complex s, const signals::Readout readout,
@@ -33,23 +33,25 @@ LinearPart LinearResponse::at(const Complex s, const signals::Readout readout,
   // From what the simulation reads to the base moment, and from there to what this sensor reads.
   Complex to_moment = 1., to_reading = 1., elastic = 1., change = 1.;
   if (joint_) {
-    const Complex ratio = joint_->stiffness_ratio(s);
+    const JointModel& joint = *joint_;
+    const Complex ratio = joint.stiffness_ratio(s);
     if (chain_.structure.readout == signals::Readout::rotation) to_moment = ratio;
-    const Complex own = sum(chain_.relaxation, s) + joint_->stiffness_change(s),
-                  d = own + sum(chain_.support, s);
-    elastic = 1. / (ratio * (1. + d));
-    if (readout == signals::Readout::rotation)
-      to_reading = 1. / (chain_.joint_stiffness * ratio * (1. + own));
-    // P of the joint model; what the modes above the first do to H they do to 1 / (1 + K G), too: B
-    // is that of the load.
+    // The changed joint over its static spring, K(s) (1 + D(s)) / k: divisions are what costs here.
+    const Complex own = joint.changed_stiffness_ratio(s) + ratio * sum(chain_.relaxation, s),
+                  joined = own + ratio * sum(chain_.support, s);
+    elastic = 1. / joined;
+    if (readout == signals::Readout::rotation) to_reading = 1. / (chain_.joint_stiffness * own);
+    // 1 - P of the joint model times K(s) / k; what the modes above the first do to H they do to
+    // 1 / (1 + K G), too: B is that of the load.
     const Complex rest =
-        joint_->compliance(s) * joint_->inertia(s) * base * to_moment / static_response_;
-    change = (1. + d) / (1. + d * (1. - rest));
-    if (chain_.joint_change.any()) {
-      const Complex compliance = joint_->total_compliance(s, d);
-      change *=
-          (1. + joint_->inertia(s) * compliance) / (1. + joint_->changed_inertia(s) * compliance);
+        ratio - joint.share * joint.inertia(s) * base * to_moment * per_static_response_;
+    Complex above = joined * ratio, below = ratio * ratio + (joined - ratio) * rest;
+    if (joint.change.any()) {
+      const Complex flexibility = joint.share + (1. - joint.share) * joined;
+      above *= joined + joint.inertia(s) * flexibility;
+      below *= joined + joint.changed_inertia(s) * flexibility;
     }
+    change = above / below;
   }
   const Complex whole = to_moment * to_reading;
   return {.base = (base * change + sum(chain_.parallel, s)) * whole * input + feedthrough,

@@ -40,7 +40,7 @@ class LinearResponse {
  private:
   const Chain& chain_;
   std::optional<JointModel> joint_;
-  Complex static_response_ = 1.;
+  Complex per_static_response_ = 1.;
   /// By length, rate, readout and magnet.
   using Kind = std::tuple<std::size_t, double, signals::Readout, bool>;
   std::map<Kind, std::vector<LinearPart>> lines_;

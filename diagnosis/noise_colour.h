@@ -16,6 +16,7 @@ struct NoiseColour {
   std::vector<double> bands{};  // none: as excess and corner say
   double band_hz = 1.;
   double density(double frequency_hz) const;
+  bool is_white() const { return excess == 0. && bands.empty(); }
 };
 
 /// One line of a spectrum that holds noise alone.

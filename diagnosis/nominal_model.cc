@@ -28,7 +28,7 @@ Complex StructuralMode::wind_response(const Complex s) const {
 NominalModel::Responses NominalModel::responses(const Complex s) const {
   Responses sum{.base = base_direct, .wind = wind_direct};
   for (const StructuralMode& mode : modes) {
-    const Complex x = s / mode.frequency_rad_s, c = compliance(mode, x);
+    const Complex x = s * (1. / mode.frequency_rad_s), c = compliance(mode, x);
     sum.base += (mode.base_gain + mode.base_rate * x) * c;
     sum.wind += (mode.wind_gain + mode.wind_rate * x) * c;
   }

@@ -4,17 +4,24 @@
 namespace vibrissa::diagnosis::effects {
 namespace {
 
-/// Adds the power of stride samples of an oscillation at ratio u, level u^2, to the lines around
-/// it.
-void deposit(std::span<double> power, double u, double ratio, double spread, double line_hz,
-             double stride) {
-  const double centre = ratio * u / line_hz, width = std::max(0.5, spread * centre);
+/// Adds the power of stride samples of an oscillation at strouhal_over_diameter u, level u^2, to
+/// the lines around it.
+void deposit(std::span<double> power, double u, double strouhal_over_diameter, double spread,
+             double line_hz, double stride) {
+  const double centre = strouhal_over_diameter * u / line_hz,
+               width = std::max(0.5, spread * centre);
   const double total = stride * u * u * u * u / 4.;
   const double low = std::max(1., centre - 2. * width);
   const double high = std::min(static_cast<double>(power.size()), centre + 2. * width);
-  for (double k = std::ceil(low); k <= high; k += 1.) {
-    const double z = (k - centre) / width;
-    power[static_cast<std::size_t>(k) - 1] += total * std::exp(-0.5 * z * z) / (2.5066 * width);
+  // A bell curve from one line to the next: its ratio falls by a constant factor.
+  const double first = std::ceil(low), z = (first - centre) / width, step = 1. / width;
+  double value = total * std::exp(-0.5 * z * z) / (2.5066 * width);
+  double ratio = std::exp(-step * (z + 0.5 * step));
+  const double fall = std::exp(-step * step);
+  for (auto k = static_cast<std::size_t>(first); static_cast<double>(k) <= high; ++k) {
+    power[k - 1] += value;
+    value *= ratio;
+    ratio *= fall;
   }
 }
 

@@ -20,12 +20,12 @@ constexpr double viscous_ratio = 0.09;
 /// What the joint model is under its factors, with a moment T added in the joint: the moment at the
 /// base for one of T.
 Complex added_moment(const JointModel& model, Complex s) {
-  const Complex d = model.stiffness_change(s);
-  const Complex inertia = model.changed_inertia(s) * model.total_compliance(s, d);
+  const Complex joint = model.share / model.changed_stiffness_ratio(s);
+  const Complex inertia = model.changed_inertia(s) * (joint + 1. - model.share);
   const Complex x = s / model.frequency_rad_s;
   const Complex z =
       model.change.inertia * (x * x + 2. * model.change.rest_damping * model.damping * x);
-  return z * model.compliance(s) / (1. + d) / (1. + inertia);
+  return z * joint / (1. + inertia);
 }
 
 TEST(JointModel, HasThePoleOfItsMode) {
@@ -34,7 +34,8 @@ TEST(JointModel, HasThePoleOfItsMode) {
   const double z = given.damping_ratio, w = given.frequency_rad_s;
   const Complex pole = w * Complex(-z, std::sqrt(1. - z * z));
   // Springs and damper in series damp as the mode does to first order in their loss.
-  EXPECT_LT(std::abs(model.inertia(pole) * model.total_compliance(pole) + 1.), 0.02);
+  const Complex compliance = model.share / model.stiffness_ratio(pole) + 1. - model.share;
+  EXPECT_LT(std::abs(model.inertia(pole) * compliance + 1.), 0.02);
 }
 
 TEST(JointModel, AStaticMomentInTheJointDoesNotReachTheBase) {
