@@ -29,10 +29,36 @@ const std::vector<double>& DrawnSensor::values(const std::string& effect) const 
       ->values;
 }
 
+std::string DrawnSensor::shown_name(const diagnosis::NominalPoint& point) const {
+  constexpr double deviations_to_detect = 2.576;  // normal quantile of 0.995
+  std::vector<std::string> shown;
+  for (const std::string& id : diagnosis::effect_ids(name_)) {
+    const Eigen::VectorXd change = point.change(point.x(), diagnosis::find_effect(id), values(id));
+    const double nats = change.squaredNorm() + point.changes().beyond_square(change);
+    if (2. * nats >= deviations_to_detect * deviations_to_detect) shown.push_back(id);
+  }
+  return diagnosis::joined_name(shown);
+}
+
+bool DrawnSensor::is_answered_by(const std::string& answer,
+                                 const diagnosis::NominalPoint& point) const {
+  const std::vector<std::string> expected = diagnosis::effect_ids(shown_name(point)),
+                                 told = diagnosis::effect_ids(answer);
+  const auto holds = [](const std::vector<std::string>& list, const std::string& id) {
+    return std::ranges::find(list, id) != list.end();
+  };
+  const std::vector<std::string>& retunes = diagnosis::nuisance_ids();
+  return std::ranges::all_of(expected, [&](const auto& id) { return holds(told, id); }) &&
+         std::ranges::all_of(told, [&](const auto& id) {
+           return holds(expected, id) || (as_built_ && holds(retunes, id));
+         });
+}
+
 /// Half of all sensors are as simulated but for what is named, the others a little off in all
 /// retunes.
 void DrawnSensor::draw_retunes(const diagnosis::Experiment& experiment) {
-  if (uniform(0., 1.) < 0.5) return;
+  as_built_ = uniform(0., 1.) >= 0.5;
+  if (!as_built_) return;
   for (const std::string& id : diagnosis::nuisance_ids()) {
     const diagnosis::Effect& effect = diagnosis::find_effect(id);
     if (!diagnosis::shows(experiment, effect)) continue;

@@ -1,9 +1,9 @@
 // Are the probabilities and intervals of answers as often right as they say? score_calibration
 // SIMULATION N SEED: N sensors with effects of the nominal model's own catalogue move as the
 // simulation's records do, are measured with noise and diagnosed. Prints every trial, how often
-// answers of a probability were right, the temperature that would make them as often right as they
-// say, and how often 95 % intervals hold the truth: of the parameters of right answers, and of the
-// gap closed, whose truth is that of many further records.
+// answers of a probability were right, the confidence in the fits that would make them as often
+// right as they say (diagnosis/calibration.h), and how often 95 % intervals hold the truth: of the
+// parameters of right answers, and of the gap closed, whose truth is that of many further records.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -16,9 +16,11 @@
 
 #include "benchmarks/drawn_sensor.h"
 #include "benchmarks/labelled_set.h"
+#include "diagnosis/calibration.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/long_records.h"
 #include "diagnosis/nominal_identification.h"
+#include "diagnosis/planned_records.h"
 #include "diagnosis/spectrum.h"
 #include "signals/fft.h"
 
@@ -43,51 +45,51 @@ signals::Dataset inputs_of(const signals::Dataset& simulation) {
 }
 
 struct Trial {
-  std::vector<double> probability;  // of all answers, the best first
-  std::ptrdiff_t truth = -1;        // place of the true one, -1: not among them
+  double odds_against = 0.;  // of the best answer, as the fits say
+  bool right = false;
+  double probability(double confidence) const {
+    return 1. / (1. + diagnosis::calibrated_odds(odds_against, confidence));
+  }
 };
 
-/// - log probability of the truth at a temperature; what is not among the answers had one in 10^4.
-double surprise(const std::vector<Trial>& trials, const double temperature) {
-  constexpr double unlisted = 1e-4;
+double surprise(const std::vector<Trial>& trials, const double confidence) {
   double sum = 0.;
   for (const Trial& trial : trials) {
-    double total = std::pow(unlisted, 1. / temperature);
-    const double unlisted_power = total;
-    for (const double p : trial.probability) total += std::pow(p, 1. / temperature);
-    const double truth =
-        trial.truth < 0
-            ? unlisted_power
-            : std::pow(trial.probability[static_cast<std::size_t>(trial.truth)], 1. / temperature);
-    sum -= std::log(std::max(truth / total, 1e-12));
+    const double p = trial.probability(confidence);
+    sum -= std::log(std::max(trial.right ? p : 1. - p, 1e-12));
   }
   return sum / static_cast<double>(trials.size());
 }
 
-void print_reliability(const std::vector<Trial>& trials) {
+void print_reliability(const std::vector<Trial>& trials, const double confidence) {
   constexpr double edges[] = {0., 0.5, 0.8, 0.95, 0.99, 1.};
   double error = 0.;
+  std::printf("confidence %.2f\n", confidence);
   for (std::size_t i = 0; i + 1 < std::size(edges); ++i) {
     double n = 0., right = 0., said = 0.;
     for (const Trial& trial : trials) {
-      const double p = trial.probability.front();
+      const double p = trial.probability(confidence);
       if (p <= edges[i] || p > edges[i + 1]) continue;
       n += 1.;
-      right += trial.truth == 0;
+      right += trial.right;
       said += p;
     }
     if (n == 0.) continue;
     error += std::abs(said - right);
-    std::printf("said %.2f..%.2f: %3.0f answers, mean %.3f, right %.3f\n", edges[i], edges[i + 1],
+    std::printf("  said %.2f..%.2f: %3.0f answers, mean %.3f, right %.3f\n", edges[i], edges[i + 1],
                 n, said / n, right / n);
   }
+  std::printf("  expected calibration error %.3f, surprise %.3f nats\n",
+              error / static_cast<double>(trials.size()), surprise(trials, confidence));
+}
+
+/// As the fits say, as the diagnosis says, and as these trials would have it.
+void print_calibration(const std::vector<Trial>& trials) {
   double best = 1.;
-  for (double t = 0.3; t < 6.; t *= 1.05)
-    if (surprise(trials, t) < surprise(trials, best)) best = t;
-  std::printf(
-      "expected calibration error %.3f; surprise %.3f nats, at best %.3f at temperature %.2f\n",
-      error / static_cast<double>(trials.size()), surprise(trials, 1.), surprise(trials, best),
-      best);
+  for (double confidence = 0.05; confidence < 3.; confidence *= 1.02)
+    if (surprise(trials, confidence) < surprise(trials, best)) best = confidence;
+  for (const double confidence : {1., diagnosis::confidence_in_fits, best})
+    print_reliability(trials, confidence);
 }
 
 /// The same spectra with other phases: another record of the kind.
@@ -183,7 +185,8 @@ class Trials {
         bench_(prepared(nominal, inputs_of(simulation))),
         further_(prepared(nominal, further_inputs(bench_.records))),
         experiment_(diagnosis::prepare_experiment(nominal, bench_.records, Split::fit,
-                                                  diagnosis::InputNoise::as_measured)) {}
+                                                  diagnosis::InputNoise::as_measured)),
+        point_(experiment_, diagnosis::usual_noise()) {}
 
   Trial run(unsigned seed) {
     DrawnSensor sensor(experiment_, seed);
@@ -194,18 +197,17 @@ class Trials {
     // Parameters that are relative to the sensor's own amplitudes then mean the same in both.
     fit_records.scales = experiment_.scales;
     const diagnosis::SearchResult result = diagnosis::search(fit_records);
-    Trial trial;
-    for (std::size_t k = 0; k < result.candidates.size(); ++k) {
-      trial.probability.push_back(result.candidates[k].probability);
-      if (result.candidates[k].name == sensor.name()) trial.truth = static_cast<std::ptrdiff_t>(k);
-    }
     const diagnosis::Candidate& best = result.candidates.front();
+    const Trial trial{.odds_against = result.odds_against_best,
+                      .right = sensor.is_answered_by(best.name, point_)};
     const diagnosis::HypothesisFit& fit = result.fits[best.fit];
-    if (trial.truth == 0)
+    if (best.name == sensor.name())
       count_parameters(coverage_, sensor, diagnosis::parameter_estimates(fit, best.name));
     count_gap_closed(sensor, fit_records, held_out(real), fit);
-    std::printf("%u %-6s %-40s at %.2f  %-44s %.3f\n", seed, trial.truth == 0 ? "right" : "wrong",
-                sensor.name().c_str(), sensor.share(), best.name.c_str(), best.probability);
+    std::printf("%u %-6s %-40s at %.2f, shown %-40s  %-44s %.4f -> %.3f\n", seed,
+                trial.right ? "right" : "wrong", sensor.name().c_str(), sensor.share(),
+                sensor.shown_name(point_).c_str(), best.name.c_str(), trial.probability(1.),
+                best.probability);
     std::fflush(stdout);
     return trial;
   }
@@ -240,6 +242,7 @@ class Trials {
   diagnosis::NominalModel nominal_;
   Inputs bench_, further_;
   Experiment experiment_;
+  diagnosis::NominalPoint point_;
   Coverage coverage_;
 };
 
@@ -253,7 +256,7 @@ int run(int argc, char** argv) {
   const auto first = static_cast<unsigned>(std::stoul(argv[3]));
   std::vector<Trial> trials;
   for (unsigned i = 0; i < std::stoul(argv[2]); ++i) trials.push_back(sensors.run(first + i));
-  print_reliability(trials);
+  print_calibration(trials);
   sensors.print_coverage();
   return 0;
 }

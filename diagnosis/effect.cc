@@ -133,6 +133,12 @@ Parameter normal(std::string name, std::string unit, const double centre, const 
           .step = 1e-3 * scale};
 }
 
+std::vector<double> geometric_series(const double low, const double high, const double ratio) {
+  std::vector<double> out;
+  for (double value = low; value <= high; value *= ratio) out.push_back(value);
+  return out;
+}
+
 Chain probe(const Effect& effect, const NominalModel& structure) {
   Chain chain{.structure = structure};
   effect.extend(chain, effect.starts.front(), {});

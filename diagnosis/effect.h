@@ -82,9 +82,16 @@ struct Effect {
   std::vector<Parameter> parameters{};
   /// Values (not x) to start from, one list a start, aim: some start lies in the basin of the best.
   std::vector<std::vector<double>> starts{};
+  /// Further values, however many, whose shape alone is compared with what a fit leaves: from the
+  /// most alike, at the size that suits, a fit begins as well. For basins too narrow for starts,
+  /// and for effects so weak that any start is too strong.
+  std::vector<std::vector<double>> scanned{};
   /// Extends a chain; values as the parameters', not x.
   std::function<void(Chain&, std::span<const double> values, const Scales&)> extend{};
 };
+
+/// low, low ratio, low ratio^2 ... up to high: where resonances may be sought.
+std::vector<double> geometric_series(double low, double high, double ratio);
 
 /// The effect at its first start, on a chain that is empty otherwise but for its structure.
 Chain probe(const Effect& effect, const NominalModel& structure = {.modes = {{}}});

@@ -72,6 +72,16 @@ std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
   return starts;
 }
 
+Eigen::VectorXd further_start(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+                              const FurtherStart& further) {
+  Eigen::VectorXd x = start_vector(experiment, figures, further.without, false);
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    if (figures[i].effect == further.effect)
+      x(static_cast<Eigen::Index>(i)) =
+          figures[i].description.coordinate(further.values[figures[i].parameter]);
+  return x;
+}
+
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix, double& log_determinant) {
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
@@ -162,7 +172,8 @@ Chain HypothesisFit::chain(const Experiment& experiment) const {
 }
 
 HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hypothesis,
-                             const HypothesisFit* start, const FitOptions& options) {
+                             const HypothesisFit* start, const FitOptions& options,
+                             const std::optional<FurtherStart>& further) {
   HypothesisFit fit;
   fit.hypothesis = hypothesis;
   fit.figures = make_figures(experiment, hypothesis);
@@ -184,6 +195,11 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   if (effects.size() == 1 && effects.front()->retune) {
     Climb other = climb_before_nuisances(
         posterior, fit.figures, start_vectors(experiment, fit.figures, hypothesis, start, true));
+    if (other.log_posterior > climb.log_posterior) climb = std::move(other);
+  }
+  if (further) {
+    Climb other = best_start(posterior, fit.figures,
+                             {further_start(experiment, fit.figures, *further)}, options);
     if (other.log_posterior > climb.log_posterior) climb = std::move(other);
   }
   climb_on(posterior, fit.figures, climb, options.max_iterations, options);

@@ -60,14 +60,23 @@ struct HypothesisFit {
   Chain chain(const Experiment& experiment) const;
 };
 
+/// An effect at values that the residual of a fit without it resembles.
+struct FurtherStart {
+  const HypothesisFit* without = nullptr;
+  const Effect* effect = nullptr;
+  std::vector<double> values{};
+};
+
 /// Maximum posterior fit to all records of the experiment by Fisher scoring: DFT bins are
 /// independent complex Gaussians of the chain's mean and variance (Whittle 1953),
 ///   log p = - sum |M - mean|^2 / S + log S,
 ///   S = n sigma_M^2 + n |G|^2 w sigma_a^2 + own noise + (misfit of the nominal form) + (form error
 ///   of the effects),
-/// evidence by Laplace. start: coordinates to begin with beside the effects' own starts.
+/// evidence by Laplace. start: coordinates to begin with beside the effects' own starts; further:
+/// to begin with as well.
 HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hypothesis,
-                             const HypothesisFit* start = nullptr, const FitOptions& options = {});
+                             const HypothesisFit* start = nullptr, const FitOptions& options = {},
+                             const std::optional<FurtherStart>& further = std::nullopt);
 
 /// All records in turn, without the most probable line of a drift.
 std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,

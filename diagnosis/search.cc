@@ -7,15 +7,19 @@
 #include <mutex>
 #include <set>
 
+#include "diagnosis/calibration.h"
 #include "diagnosis/chain_simulation.h"
 #include "diagnosis/form_errors.h"
 #include "diagnosis/parallel.h"
+#include "diagnosis/resemblance.h"
 
 namespace vibrissa::diagnosis {
 namespace {
 
 /// How many of each size are extended, and by how many partners.
 constexpr std::size_t n_extended = 4, n_partners = 5;
+/// Twice the log likelihood that a shape gains to first order where it is worth a fit.
+constexpr double least_resemblance = 6.;
 
 bool testable(const Experiment& experiment, const Effect& effect, const SearchOptions& options) {
   const auto& out = options.left_out;
@@ -40,41 +44,18 @@ double choice_posterior(const HypothesisFit& fit, const RetuneChoice& choice,
   return choice.log_evidence + log_prior(fit.hypothesis, choice.named.size(), n_testable);
 }
 
-/// How much of the whitened residual one effect's own shape explains, over all its starts: twice
-/// the log likelihood that the best multiple of it gains, to first order.
-double resemblance(const Experiment& experiment, const HypothesisFit& fit,
-                   const std::vector<WhitenedRecord>& residual, const Effect& effect) {
-  double best = 0.;
-  for (const std::vector<double>& values : effect.starts) {
-    Chain chain = fit.chain(experiment);
-    effect.extend(chain, values, experiment.scales);
-    const std::vector<Prediction> moved = ChainSimulator(chain).predict(experiment.records);
-    double cross = 0., own = 0., excess = 0., square = 0.;
-    const double reference = chain.reference_variance;
-    for (std::size_t r = 0; r < experiment.records.size(); ++r) {
-      const Prediction& there = moved[r];
-      for (std::size_t b = 0; b < there.mean.size(); ++b) {
-        const Complex d = (there.mean[b] - fit.records[r].mean[b]) / residual[r].deviation[b];
-        cross += (std::conj(d) * residual[r].error[b]).real();
-        own += std::norm(d);
-        const double v = (there.own_noise[b] + reference * there.acceleration_noise[b]) /
-                         (residual[r].deviation[b] * residual[r].deviation[b]);
-        const double w = v / (1. + v);
-        excess += w * (std::norm(residual[r].error[b]) - 1.);
-        square += w * w;
-      }
-    }
-    if (own > 0.) best = std::max(best, 2. * cross * cross / own);
-    if (square > 0. && excess > 0.) best = std::max(best, excess * excess / square);
-  }
-  return best;
-}
-
 /// Log prior that an odd noise of the accelerometer costs a fit.
 double noise_strain(const HypothesisFit& fit) {
   const Prior& prior = fit.figures[place_acceleration_noise].description.prior;
   return prior.log_density(prior.centre) -
          prior.log_density(fit.x(static_cast<Eigen::Index>(place_acceleration_noise)));
+}
+
+Hypothesis without_retunes(Hypothesis hypothesis) {
+  const std::vector<const Effect*> effects = hypothesis.effects();
+  for (const Effect* effect : effects)
+    if (effect->retune) hypothesis = hypothesis.without(*effect);
+  return hypothesis;
 }
 
 /// Does the effect say more of the accelerometer's noise?
@@ -106,21 +87,34 @@ class Searcher {
     fit_all({{Hypothesis{}, std::nullopt}});
     fit_all({{Hypothesis::discrepancy(), std::size_t{0}}});
     std::vector<Task> tasks;
-    for (const Effect* effect : testable_) tasks.push_back({Hypothesis({effect}), std::nullopt});
+    const std::vector<WhitenedRecord> left = whitened_residual(experiment_, fits_.front());
+    for (const Effect* effect : testable_)
+      tasks.push_back({Hypothesis({effect}), std::nullopt, further(0, left, *effect)});
     fit_all(tasks);
     for (std::size_t size = 2; size <= options_.max_effects; ++size) {
       if (!worth_extending(size)) break;
       fit_all(extensions(size));
       refine_parts(size);
     }
-    std::vector<Candidate> ranked = candidates(Kept::possible), out = candidates(Kept::refuted);
-    return {std::move(fits_), std::move(ranked), std::move(out)};
+    SearchResult result;
+    result.candidates = candidates(Kept::possible);
+    result.refuted = candidates(Kept::refuted);
+    set_probabilities(result);
+    result.fits = std::move(fits_);
+    return result;
   }
 
  private:
+  /// Values of one effect more that the residual of a fit resembles.
+  struct Further {
+    std::size_t without = 0;  // number of that fit
+    const Effect* effect = nullptr;
+    Resemblance resemblance{};
+  };
   struct Task {
     Hypothesis hypothesis;
     std::optional<std::size_t> start;  // number of a fit
+    std::optional<Further> further{};
   };
 
   void fit_all(const std::vector<Task>& tasks) {
@@ -130,7 +124,10 @@ class Searcher {
     const FitOptions fit_options{.to_beat = best_log_posterior_};
     for_each_parallel(tasks.size(), options_.n_threads, [&](std::size_t i) {
       const HypothesisFit* start = tasks[i].start ? &fits_[*tasks[i].start] : nullptr;
-      fits_[first + i] = fit_hypothesis(experiment_, tasks[i].hypothesis, start, fit_options);
+      std::optional<FurtherStart> also;
+      if (const auto& further = tasks[i].further)
+        also = {&fits_[further->without], further->effect, further->resemblance.values};
+      fits_[first + i] = fit_hypothesis(experiment_, tasks[i].hypothesis, start, fit_options, also);
       const std::lock_guard lock(mutex_);
       if (options_.on_fit) options_.on_fit();
     });
@@ -139,6 +136,14 @@ class Searcher {
       best_log_posterior_ = std::max(best_log_posterior_, fits_[first + i].log_posterior);
     }
     weigh_hidden_gains();
+  }
+
+  std::optional<Further> further(std::size_t without, const std::vector<WhitenedRecord>& residual,
+                                 const Effect& effect) const {
+    if (effect.scanned.empty()) return std::nullopt;
+    Resemblance best = resemblance(experiment_, fits_[without], residual, effect, effect.scanned);
+    if (best.gain <= least_resemblance || best.values.empty()) return std::nullopt;
+    return Further{without, &effect, std::move(best)};
   }
 
   /// The best combinations may stand in a better basin than their parts did: these start again from
@@ -176,15 +181,32 @@ class Searcher {
     return order;
   }
 
+  /// Fits that hold this one effect less. Retunes are free in all fits: one that they alone tell
+  /// apart has as much to gain as another.
+  std::vector<std::size_t> fits_without(const Hypothesis& hypothesis, const Effect& effect) const {
+    const Hypothesis fewer = hypothesis.without(effect);
+    std::vector<std::size_t> out;
+    if (effect.retune) {
+      const auto found = known_.find(fewer.name());
+      if (found != known_.end()) out.push_back(found->second);
+      return out;
+    }
+    const std::string wanted = without_retunes(fewer).name();
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      if (!fits_[i].hypothesis.is_discrepancy() &&
+          without_retunes(fits_[i].hypothesis).name() == wanted)
+        out.push_back(i);
+    return out;
+  }
+
   /// A fit with one effect more may gain what the form errors of the smaller one explain as well:
   /// the smaller one is given it.
   void weigh_hidden_gains() {
     std::vector<std::pair<std::size_t, std::size_t>> steps;  // (fewer, more)
     for (std::size_t i = 0; i < fits_.size(); ++i)
-      for (const Effect* effect : fits_[i].hypothesis.effects()) {
-        const auto found = known_.find(fits_[i].hypothesis.without(*effect).name());
-        if (found != known_.end()) steps.emplace_back(found->second, i);
-      }
+      for (const Effect* effect : fits_[i].hypothesis.effects())
+        for (const std::size_t fewer : fits_without(fits_[i].hypothesis, *effect))
+          steps.emplace_back(fewer, i);
     std::vector<double> gains(steps.size());
     for_each_parallel(steps.size(), options_.n_threads, [&](std::size_t i) {
       gains[i] = hidden_gain(experiment_, fits_[steps[i].second], fits_[steps[i].first]);
@@ -219,30 +241,39 @@ class Searcher {
     std::vector<Task> tasks;
     std::set<std::string> names;
     for (const std::size_t base : bases)
-      for (const Effect* partner : partners(base)) {
-        const Hypothesis joint = fits_[base].hypothesis.with(*partner);
+      for (Partner& partner : partners(base)) {
+        const Hypothesis joint = fits_[base].hypothesis.with(*partner.effect);
         if (known_.count(joint.name()) != 0 || !names.insert(joint.name()).second) continue;
-        tasks.push_back({joint, base});
+        tasks.push_back({joint, base, std::move(partner.further)});
       }
     return tasks;
   }
 
-  std::vector<const Effect*> partners(std::size_t base) {
+  struct Partner {
+    double gain = -1.;
+    const Effect* effect = nullptr;
+    std::optional<Further> further{};
+  };
+
+  std::vector<Partner> partners(std::size_t base) {
     const HypothesisFit& fit = fits_[base];
     const std::vector<WhitenedRecord> residual = whitened_residual(experiment_, fit);
-    std::vector<std::pair<double, const Effect*>> scored(testable_.size());
+    std::vector<Partner> scored(testable_.size());
     for_each_parallel(testable_.size(), options_.n_threads, [&](std::size_t i) {
       const Effect* effect = testable_[i];
-      const bool there = fit.hypothesis.contains(effect->id);
-      scored[i] = {there ? -1. : resemblance(experiment_, fit, residual, *effect), effect};
-      if (!there && tells_noise(*effect)) scored[i].first += 2. * noise_strain(fit);
+      scored[i].effect = effect;
+      if (fit.hypothesis.contains(effect->id)) return;
+      scored[i].gain = resemblance(experiment_, fit, residual, *effect, effect->starts).gain;
+      scored[i].further = further(base, residual, *effect);
+      if (scored[i].further)
+        scored[i].gain = std::max(scored[i].gain, scored[i].further->resemblance.gain);
+      if (tells_noise(*effect)) scored[i].gain += 2. * noise_strain(fit);
     });
     std::sort(scored.begin(), scored.end(),
-              [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<const Effect*> chosen;
-    for (std::size_t i = 0; i < scored.size() && i < n_partners; ++i)
-      if (scored[i].first > 6.) chosen.push_back(scored[i].second);
-    return chosen;
+              [](const Partner& a, const Partner& b) { return a.gain > b.gain; });
+    scored.resize(std::min(scored.size(), n_partners));
+    std::erase_if(scored, [](const Partner& p) { return p.gain <= least_resemblance; });
+    return scored;
   }
 
   enum class Kept { possible, refuted };
@@ -257,12 +288,20 @@ class Searcher {
     std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
       return a.log_posterior > b.log_posterior;
     });
-    if (kept == Kept::refuted) return out;
-    double total = 0.;
-    for (const Candidate& c : out) total += std::exp(c.log_posterior - out.front().log_posterior);
-    for (Candidate& c : out)
-      c.probability = std::exp(c.log_posterior - out.front().log_posterior) / total;
     return out;
+  }
+
+  static void set_probabilities(SearchResult& result) {
+    std::vector<Candidate>& list = result.candidates;
+    for (Candidate& c : list)
+      c.probability = std::exp(c.log_posterior - list.front().log_posterior);
+    double others = 0.;
+    for (std::size_t i = 1; i < list.size(); ++i) others += list[i].probability;
+    result.odds_against_best = others;
+    const double best = 1. / (1. + calibrated_odds(others));
+    list.front().probability = best;
+    if (others > 0.)
+      for (std::size_t i = 1; i < list.size(); ++i) list[i].probability *= (1. - best) / others;
   }
 
   void add_choices(std::map<std::string, Candidate>& by_name, std::size_t i) const {

@@ -19,7 +19,8 @@ struct Candidate {
 
 struct SearchResult {
   std::vector<HypothesisFit> fits;
-  std::vector<Candidate> candidates;  // most probable first
+  std::vector<Candidate> candidates;  // most probable first; probabilities are calibrated
+  double odds_against_best = 0.;      // by the fits
   /// Answers that leave too much to be the cause, or all of it: what comes nearest first.
   std::vector<Candidate> refuted;
 };

@@ -1,7 +1,21 @@
 #include <numbers>
+#include <vector>
+
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
+namespace {
+
+/// No resonance of usual damping lies between two of them.
+std::vector<std::vector<double>> scanned_modes() {
+  constexpr double damping_ratio = 0.02;
+  std::vector<std::vector<double>> out;
+  for (const double hz : geometric_series(46., 238., 1. + 2. * damping_ratio))
+    out.push_back({hz, damping_ratio, 0.005});
+  return out;
+}
+
+}  // namespace
 
 Effect extra_mode() {
   return Effect{.id = "extra_mode",
@@ -10,7 +24,7 @@ Effect extra_mode() {
                 .source = "effects.md",
                 .confused_with = "mount_compliance",
                 .form_error = 0.03,
-                .needs = {.base = true},
+                .needs = {.base = true, .moved_s = 3.},
                 .parameters = {log_uniform("frequency", "Hz", 45., 240., 100.),
                                log_uniform("damping_ratio", "1", 0.004, 0.15, 0.02),
                                uniform("residue", "1", -0.15, 0.15, 0.)},
@@ -24,6 +38,7 @@ Effect extra_mode() {
                            {140., 0.02, -0.005},
                            {185., 0.02, 0.005},
                            {185., 0.02, -0.005}},
+                .scanned = scanned_modes(),
                 .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
                   const double w = 2. * std::numbers::pi * v[0];
                   chain.parallel.push_back([w, z = v[1], g = v[2] * scales.static_gain](Complex s) {

@@ -18,7 +18,8 @@ namespace vibrissa::diagnosis::test {
 ///   x'' + c0 loss x' + k0 (stiffness x + cubic x^3) = -a + drag u |u|,   M = moment_mass (k x + c
 ///   x')
 /// with the clock of the moment's channel behind by delay_s. Under the readout rotation
-/// moment_mass k0 x is read; a turned rig sees the cosine of what moves it.
+/// moment_mass k0 x is read; a turned rig sees the cosine of what moves it. A second mode that the
+/// base moves adds extra_residue moment_mass y,  y'' + 2 0.02 w y' + w^2 y = w^2 a.
 struct OneModeRig {
   double frequency_hz = 35., damping_ratio = 0.05;
   double moment_mass = 6e-5;  // kg m: M / a at rest is -this
@@ -28,12 +29,24 @@ struct OneModeRig {
   double delay_s = 0.;  // whole steps of integration
   double moment_noise = 0., acceleration_noise = 0.;
   double hum = 0., hum_hz = 50.1;  // N m
+  double extra_hz = 70., extra_residue = 0.;
   double rate_hz = 500.;
   signals::Readout readout = signals::Readout::moment;
   double rotation_deg = 0.;
   static constexpr std::size_t n_steps = 16;
 
   using Signal = std::function<double(double t_s)>;
+
+  /// Runge's and Kutta's, of x'' = slope(t, x, x').
+  template <typename Slope>
+  static void step(const Slope& slope, double t, double dt, double& x, double& v) {
+    const double k1 = slope(t, x, v), v2 = v + 0.5 * dt * k1;
+    const double k2 = slope(t + 0.5 * dt, x + 0.5 * dt * v, v2), v3 = v + 0.5 * dt * k2;
+    const double k3 = slope(t + 0.5 * dt, x + 0.5 * dt * v2, v3), v4 = v + dt * k3;
+    const double k4 = slope(t + dt, x + dt * v3, v4);
+    x += dt / 6. * (v + 2. * v2 + 2. * v3 + v4);
+    v += dt / 6. * (k1 + 2. * k2 + 2. * k3 + k4);
+  }
 
   signals::Record record(std::size_t n, double warm_up_s, const Signal& a, const Signal& u,
                          unsigned seed, bool with_wind) const {
@@ -46,6 +59,10 @@ struct OneModeRig {
       const double wind = u(t);
       return -elastic(x) - c0 * v + in_plane * (drag * wind * std::abs(wind) - a(t));
     };
+    const double w2 = 2. * std::numbers::pi * extra_hz;
+    const auto extra_slope = [&](double t, double y, double v) {
+      return w2 * (w2 * (a(t) - y) - 0.04 * v);
+    };
     const auto reading = [&](double x, double v) {
       return readout == signals::Readout::rotation ? k0 * x : elastic(x) + c0 * v;
     };
@@ -54,12 +71,12 @@ struct OneModeRig {
     const auto lag = static_cast<std::size_t>(std::lround(delay_s / dt));
     std::deque<double> moments(lag + 1, 0.);
     std::vector<double> acceleration(n), moment(n), wind(n);
-    double x = 0., v = 0.;
+    double x = 0., v = 0., y = 0., y_rate = 0.;
     const auto warm = static_cast<long>(std::lround(warm_up_s / dt));
     const double phase = 6.28 * std::uniform_real_distribution<double>()(random);
     for (long i = -warm; i < static_cast<long>(n * n_steps); ++i) {
       const double t = static_cast<double>(i) * dt;
-      moments.push_back(moment_mass * reading(x, v));
+      moments.push_back(moment_mass * (reading(x, v) + extra_residue * y));
       moments.pop_front();
       if (i >= 0 && i % static_cast<long>(n_steps) == 0) {
         const auto j = static_cast<std::size_t>(i) / n_steps;
@@ -68,12 +85,8 @@ struct OneModeRig {
                     hum * std::sin(2. * std::numbers::pi * hum_hz * t + phase);
         wind[j] = u(t);
       }
-      const double k1 = slope(t, x, v), v2 = v + 0.5 * dt * k1;
-      const double k2 = slope(t + 0.5 * dt, x + 0.5 * dt * v, v2), v3 = v + 0.5 * dt * k2;
-      const double k3 = slope(t + 0.5 * dt, x + 0.5 * dt * v2, v3), v4 = v + dt * k3;
-      const double k4 = slope(t + dt, x + dt * v3, v4);
-      x += dt / 6. * (v + 2. * v2 + 2. * v3 + v4);
-      v += dt / 6. * (k1 + 2. * k2 + 2. * k3 + k4);
+      step(slope, t, dt, x, v);
+      if (extra_residue != 0.) step(extra_slope, t, dt, y, y_rate);
     }
     signals::Record out(rate_hz, n);
     out.set_channel(signals::channel::base_acceleration, std::move(acceleration));

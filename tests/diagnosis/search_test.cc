@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "one_mode_rig.h"
 
 namespace vibrissa::diagnosis {
@@ -39,6 +41,21 @@ TEST(Search, NamesARetuneThatIsFarOff) {
   test::OneModeRig rig = test::noisy_rig();
   rig.drag *= 1.5;
   EXPECT_EQ(search(experiment_of(rig, {.wind = true})).candidates.front().name, "drag_error");
+}
+
+TEST(Search, FindsAWeakNarrowModeWhereverItLies) {
+  // A thirtieth as strong as any start of a fit, at ten times its detection limit all the same.
+  for (const double hz : {57., 71.5, 96.}) {
+    test::OneModeRig rig = test::noisy_rig();
+    rig.extra_hz = hz;
+    rig.extra_residue = 1.5e-3;
+    const SearchResult result = search(experiment_of(rig), {.max_effects = 1});
+    EXPECT_EQ(result.candidates.front().name, "extra_mode") << hz;
+    const HypothesisFit& fit = result.fits[result.candidates.front().fit];
+    const auto place = fit.place("extra_mode", 0);
+    ASSERT_TRUE(place.has_value()) << hz;
+    EXPECT_NEAR(std::exp(fit.x(static_cast<Eigen::Index>(*place))), hz, 0.01 * hz);
+  }
 }
 
 TEST(Search, AnAnswerThatLeavesMoreThanNoiseIsNone) {
