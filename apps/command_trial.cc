@@ -11,6 +11,7 @@
 #include "report/pictures.h"
 #include "report/run_folder.h"
 #include "signals/error.h"
+#include "signals/progress.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -26,16 +27,30 @@ struct TrialCommand {
   std::optional<fs::path> key, out;
 };
 
+/// Sensors that the generator has begun, in the folder that it will rename when it is done.
+std::size_t n_begun(const fs::path& folder) {
+  std::error_code none_yet;
+  std::size_t n = 0;
+  for (const auto& entry : fs::directory_iterator(folder.string() + ".making", none_yet))
+    n += entry.path().filename().string().starts_with("case") ? 1 : 0;
+  return n;
+}
+
 /// The generator is a program of its own, beside this one: it shares no code with the diagnosis.
 void make(const TrialCommand& options) {
   const fs::path generator = fs::read_symlink("/proc/self/exe").parent_path() / "generate_trial";
   if (!fs::exists(generator))
     throw signals::UserError(generator.string() + " is missing: build the target generate_trial");
   constexpr double a_day_s = 86400.;
+  signals::Progress progress("sensors", options.n_cases, options.common.is_talkative());
+  std::size_t n_shown = 0;
   const report::ChildResult child = report::run_child(
       {generator.string(), std::to_string(options.seed), std::to_string(options.first),
        std::to_string(options.n_cases), options.folder.string()},
-      a_day_s);
+      a_day_s, [&] {
+        for (const std::size_t n = n_begun(options.folder); n_shown + 1 < n; ++n_shown)
+          progress.advance();
+      });
   if (!child.succeeded())
     throw signals::UserError("the generator " + child.what_happened() + ": " + child.output);
   const TrialIndex trial = read_trial(options.folder);

@@ -76,8 +76,10 @@ class Child {
   }
 
   /// Whether the child ended before the deadline.
-  bool wait_until(const Clock::time_point deadline) {
+  bool wait_until(const Clock::time_point deadline,
+                  const std::function<void()>& while_waiting = {}) {
     while (!has_ended()) {
+      if (while_waiting) while_waiting();
       const auto left = std::chrono::duration_cast<milliseconds>(deadline - Clock::now());
       if (left <= milliseconds(0)) return false;
       wait_for_output(std::min(left, milliseconds(20)));
@@ -147,7 +149,8 @@ std::string ChildResult::what_happened() const {
   return "";
 }
 
-ChildResult run_child(const std::vector<std::string>& command, const double time_limit_s) {
+ChildResult run_child(const std::vector<std::string>& command, const double time_limit_s,
+                      const std::function<void()>& while_waiting) {
   assert(!command.empty() && time_limit_s > 0.);
   ChildResult result;
   Pipe pipe;
@@ -158,7 +161,7 @@ ChildResult run_child(const std::vector<std::string>& command, const double time
   Child child(pid, pipe.read_end());
   const auto limit =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_limit_s));
-  const bool in_time = child.wait_until(Clock::now() + limit);
+  const bool in_time = child.wait_until(Clock::now() + limit, while_waiting);
   if (!in_time) {
     child.ask_to_end();
     child.wait_until(Clock::now() + std::chrono::seconds(2));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,10 @@ struct ChildResult {
 
 /// Runs command[0], a path, with the rest as its arguments, without a shell, with nothing to read,
 /// in a process group of its own. When it ends, or after time_limit_s, this group, and nothing
-/// else, is ended. Proven by tests/report/child_process_test.cc.
-ChildResult run_child(const std::vector<std::string>& command, double time_limit_s);
+/// else, is ended. while_waiting: called many times a second until then. Proven by
+/// tests/report/child_process_test.cc.
+ChildResult run_child(const std::vector<std::string>& command, double time_limit_s,
+                      const std::function<void()>& while_waiting = {});
 
 /// Path of a program in the folders of PATH; empty when none of them has it.
 std::string find_program(const std::string& name);

@@ -10,7 +10,6 @@
 #include "fem/solver_session.h"
 #include "signals/error.h"
 #include "signals/output_file.h"
-#include "signals/progress.h"
 #include "signals/record_io.h"
 #include "signals/sealed_file.h"
 
@@ -61,7 +60,6 @@ void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs
   json labels = json::object(), cases = json::array(), further = json::array();
   for (const trial::FurtherExperiment& experiment : trial::further_experiments())
     further.push_back(experiment.name);
-  signals::Progress progress("sensors", count, true);
   for (std::size_t i = first; i < first + count; ++i) {
     const trial::TrialCase trial_case = trial::draw_case(seed, i);
     const std::string name = case_name(i);
@@ -70,7 +68,6 @@ void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs
       write_dataset(making / name / "further" / experiment, records);
     cases.push_back({{"name", name}, {"left_out", trial_case.left_out}});
     labels[name] = label_of(trial_case);
-    progress.advance();
   }
   const signals::Seal seal = signals::seal(labels.dump(1));
   write_json(making / "trial.json", {{"schema", "vibrissa-trial-1"},

@@ -73,6 +73,13 @@ TEST(RunChild, GivesTheChildNothingToRead) {
   EXPECT_TRUE(result.succeeded()) << result.what_happened();
 }
 
+TEST(RunChild, CallsBackWhileItWaits) {
+  int n_calls = 0;
+  const ChildResult result = run_child({"/bin/sh", "-c", "sleep 0.3"}, 60., [&] { ++n_calls; });
+  EXPECT_TRUE(result.succeeded());
+  EXPECT_GT(n_calls, 3);
+}
+
 TEST(RunChild, TellsTheSignalThatEndedTheChild) {
   const ChildResult result = run_shell("kill -ABRT $$");
   EXPECT_EQ(result.end, End::killed);
