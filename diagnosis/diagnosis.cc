@@ -6,6 +6,7 @@
 #include "diagnosis/indistinguishable.h"
 #include "diagnosis/long_records.h"
 #include "diagnosis/material_estimates.h"
+#include "diagnosis/retune_choices.h"
 #include "signals/error.h"
 #include "signals/student.h"
 
@@ -130,15 +131,24 @@ void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nomina
 
 std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
                                                    const std::string& name) {
+  const std::vector<std::string> ids = effect_ids(name);
+  std::vector<Eigen::Index> named;
+  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
+    const FreeFigure& figure = fit.figures[i];
+    if (figure.nuisance && figure.parameter == 0 &&
+        std::find(ids.begin(), ids.end(), figure.effect->id) != ids.end())
+      named.push_back(static_cast<Eigen::Index>(i));
+  }
+  const RetunedPosterior posterior = retuned_posterior(fit, named);
   std::vector<ParameterEstimate> out;
-  for (const std::string& id : effect_ids(name))
+  for (const std::string& id : ids)
     for (std::size_t i = 0; i < fit.figures.size(); ++i) {
       const FreeFigure& figure = fit.figures[i];
       if (figure.effect == nullptr || figure.effect->id != id) continue;
       const auto place = static_cast<Eigen::Index>(i);
       const Parameter& parameter = figure.description;
-      const double x = fit.x(place),
-                   half = signals::normal_quantile_975 * std::sqrt(fit.covariance(place, place));
+      const double x = posterior.x(place), variance = posterior.covariance(place, place),
+                   half = signals::normal_quantile_975 * std::sqrt(variance);
       const auto value = [&](double at) {
         return parameter.value(std::clamp(at, parameter.prior.low, parameter.prior.high));
       };

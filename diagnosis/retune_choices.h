@@ -7,6 +7,19 @@
 
 namespace vibrissa::diagnosis {
 
+/// A fit's figures when what is named of its retunes may lie anywhere in its range, in place of its
+/// tolerance. Where retunes do the same, as gains do, tolerances share between them what one of
+/// them did; once it is named it does all of it.
+struct RetunedPosterior {
+  Eigen::VectorXd x;
+  Eigen::MatrixXd covariance;
+  double log_evidence = 0.;
+};
+/// In Gaussian approximation, ranges as normal distributions of the same spread. named: places of
+/// ratios among the figures.
+RetunedPosterior retuned_posterior(const HypothesisFit& fit,
+                                   const std::vector<Eigen::Index>& named);
+
 /// Evidence of every set of nuisances that may differ from nominal, the others nominal, best first:
 /// by Savage's and Dickey's ratio from the posterior with all of them free. A shift within what the
 /// nominal form misses of the simulation, or within what form errors of the effects may bring,
