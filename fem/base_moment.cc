@@ -5,53 +5,56 @@
 namespace vibrissa::fem {
 
 BaseMoment::BaseMoment(const SolidSpace& space, const SolidOperators& operators)
-    : space_(space), operators_(operators) {}
-
-Vector BaseMoment::inertia_force(const SolidState& state, const SolidLoad& load) const {
-  Vector absolute(state.acceleration);
+    : space_(space), operators_(operators) {
   for (unsigned int d = 0; d < 3; ++d) {
-    absolute.add(load.base_acceleration[d], space_.translation(d));
+    clamp_rotation_[d] = space_.make_vector();
+    for (const auto i : space_.clamped()) clamp_rotation_[d][i] = space_.rotation(d)[i];
+    clamp_rotation_[d].compress(dealii::VectorOperation::insert);
+    clamp_stiffness_[d] = clamp_momentum_[d] = momentum_[d] = space_.make_vector();
+    operators_.internal_force->add(1., clamp_rotation_[d], clamp_stiffness_[d]);
+    operators_.mass->vmult(clamp_momentum_[d], clamp_rotation_[d]);
+    operators_.mass->vmult(momentum_[d], space_.rotation(d));
   }
-  Vector force = space_.make_vector();
-  operators_.mass->vmult(force, absolute);
-  return force;
+}
+
+Vector BaseMoment::absolute_acceleration(const SolidState& state, const SolidLoad& load) const {
+  Vector absolute(state.acceleration);
+  for (unsigned int d = 0; d < 3; ++d)
+    absolute.add(load.base_acceleration[d], space_.translation(d));
+  return absolute;
+}
+
+std::array<double, 3> BaseMoment::of_the_clamp(const SolidState& state,
+                                               const SolidLoad& load) const {
+  const Vector absolute = absolute_acceleration(state, load);
+  Vector force(load.external_force);
+  force -= load.damping_force;
+  std::array<double, 3> moment{};
+  for (unsigned int d = 0; d < 3; ++d)
+    moment[d] = force * clamp_rotation_[d] - absolute * clamp_momentum_[d];
+  return moment;
 }
 
 std::array<double, 3> BaseMoment::by_reactions(const SolidState& state,
                                                const SolidLoad& load) const {
-  Vector elastic_force = space_.make_vector();
-  operators_.internal_force->add(1., state.displacement, elastic_force);
-  return by_reactions(state, load, elastic_force);
+  std::array<double, 3> moment = of_the_clamp(state, load);
+  for (unsigned int d = 0; d < 3; ++d) moment[d] -= state.displacement * clamp_stiffness_[d];
+  return moment;
 }
 
 std::array<double, 3> BaseMoment::by_reactions(const SolidState& state, const SolidLoad& load,
                                                const Vector& elastic_force) const {
-  Vector support = inertia_force(state, load);
-  support += elastic_force;
-  support += load.damping_force;
-  support -= load.external_force;
-  std::array<double, 3> moment{};
-  for (const auto i : space_.clamped()) {
-    for (unsigned int d = 0; d < 3; ++d) {
-      moment[d] -= support[i] * space_.rotation(d)[i];
-    }
-  }
-  for (double& value : moment) {
-    value = dealii::Utilities::MPI::sum(value, space_.dofs().get_communicator());
-  }
+  std::array<double, 3> moment = of_the_clamp(state, load);
+  for (unsigned int d = 0; d < 3; ++d) moment[d] -= elastic_force * clamp_rotation_[d];
   return moment;
-}
-
-Vector BaseMoment::force_from_outside(const SolidState& state, const SolidLoad& load) const {
-  Vector force(load.external_force);
-  force -= inertia_force(state, load);
-  force -= load.damping_force;
-  return force;
 }
 
 std::array<double, 3> BaseMoment::by_balance_when_deformed(const SolidState& state,
                                                            const SolidLoad& load) const {
-  const Vector force = force_from_outside(state, load);
+  Vector force = space_.make_vector();
+  operators_.mass->vmult(force, absolute_acceleration(state, load));
+  force.sadd(-1., 1., load.external_force);
+  force -= load.damping_force;
   const Vector& u = state.displacement;
   std::array<double, 3> moment{};
   const auto [first, end] = u.local_range();
@@ -69,9 +72,12 @@ std::array<double, 3> BaseMoment::by_balance_when_deformed(const SolidState& sta
 }
 
 std::array<double, 3> BaseMoment::by_balance(const SolidState& state, const SolidLoad& load) const {
-  const Vector force = force_from_outside(state, load);
+  const Vector absolute = absolute_acceleration(state, load);
+  Vector force(load.external_force);
+  force -= load.damping_force;
   std::array<double, 3> moment{};
-  for (unsigned int d = 0; d < 3; ++d) moment[d] = force * space_.rotation(d);
+  for (unsigned int d = 0; d < 3; ++d)
+    moment[d] = force * space_.rotation(d) - absolute * momentum_[d];
   return moment;
 }
 

@@ -39,11 +39,13 @@ class BaseMoment {
   std::array<double, 3> by_balance(const SolidState& state, const SolidLoad& load) const;
 
  private:
-  Vector inertia_force(const SolidState& state, const SolidLoad& load) const;
-  Vector force_from_outside(const SolidState& state, const SolidLoad& load) const;
+  std::array<double, 3> of_the_clamp(const SolidState& state, const SolidLoad& load) const;
+  Vector absolute_acceleration(const SolidState& state, const SolidLoad& load) const;
 
   const SolidSpace& space_;
   const SolidOperators& operators_;
+  // Rotation of the clamped nodes alone, K and M times it, and M times that of all.
+  std::array<Vector, 3> clamp_rotation_, clamp_stiffness_, clamp_momentum_, momentum_;
 };
 
 }  // namespace vibrissa::fem

@@ -65,6 +65,27 @@ TEST_F(BadCase, BulkModulusBelowTenShearModuliIsRefusedWithTheNumbers) {
          AllOf(HasSubstr("bulk modulus"), HasSubstr("6")));
 }
 
+TEST_F(BadCase, BulkModulusOfZeroIsRefused) {
+  refuse("subsection Materials\n  subsection Silicone\n    set Bulk modulus = 0\n  end\nend\n",
+         AllOf(HasSubstr("bad.prm"), HasSubstr("Bulk modulus")));
+}
+
+TEST_F(BadCase, MeshWithAnInvertedCellIsRefusedWithItsPlace) {
+  // A cube of 1 mm whose corner 7 is pushed through the opposite one.
+  const std::string mesh = folder.write(
+      "inverted.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+      "$PhysicalNames\n3\n3 1 \"silicone\"\n2 1 \"clamp\"\n2 2 "
+      "\"wire_surface\"\n$EndPhysicalNames\n"
+      "$Nodes\n8\n1 0 0 0\n2 1e-3 0 0\n3 1e-3 1e-3 0\n4 0 1e-3 0\n5 0 0 1e-3\n6 1e-3 0 1e-3\n"
+      "7 -1e-3 -1e-3 -1e-3\n8 0 1e-3 1e-3\n$EndNodes\n"
+      "$Elements\n7\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 3 2 1 1 1 2 3 4\n3 3 2 2 2 5 6 7 8\n"
+      "4 3 2 2 2 1 2 6 5\n5 3 2 2 2 2 3 7 6\n6 3 2 2 2 3 4 8 7\n7 3 2 2 2 4 1 5 8\n"
+      "$EndElements\n");
+  refuse(case_with("Model", "Mesh file = " + mesh),
+         AllOf(HasSubstr("turned inside out or flat"), HasSubstr("z = ")));
+}
+
 TEST_F(BadCase, LineAtOrAboveHalfTheSamplingRateIsRefused) {
   refuse(case_with("Base motion", "Lines = 20, 250"),
          AllOf(HasSubstr("Lines"), HasSubstr("250"), HasSubstr("line 2")));

@@ -150,6 +150,35 @@ TEST(Transient, RefusesToGoOnWithWhatIsNoRunOrDoneOrAnotherCase) {
                              HasSubstr("0.9"), HasSubstr("0.8")));
 }
 
+TEST(Transient, ALoadThatDivergesEndsItWithTheResidualsAndLeavesNoRecord) {
+  const Folder folder;
+  const std::string run = folder.file("run");
+  const auto result =
+      vibrissa(swinging + " --set 'Base motion/Peak=1e6' --quiet -o " + quoted(run));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, testing::AllOf(HasSubstr("does not come to balance in step"),
+                                            HasSubstr("out-of-balance force over force: "),
+                                            HasSubstr("Take more substeps or weaker inputs")));
+  EXPECT_FALSE(fs::exists(run + "/record.csv"));
+  EXPECT_FALSE(fs::exists(run + "/summary.json"));
+}
+
+TEST(Transient, WhereNothingMayBeWrittenItIsRefusedAndWhatIsThereStays) {
+  const Folder folder;
+  const std::string disk = folder.file("disk");
+  fs::create_directory(disk);
+  if (std::system(
+          ("mount -t tmpfs -o size=300k tmpfs " + quoted(disk) + " 2> /dev/null").c_str()) != 0)
+    GTEST_SKIP() << "no right to mount a small disk";
+  std::ofstream(disk + "/kept.txt") << "kept";
+  ASSERT_EQ(std::system(("mount -o remount,ro " + quoted(disk)).c_str()), 0);
+  const auto result = vibrissa(swinging + " --quiet -o '" + disk + "/run'");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, testing::AllOf(HasSubstr("disk/run"), HasSubstr("Read-only")));
+  EXPECT_EQ(content(disk + "/kept.txt"), "kept");
+  ASSERT_EQ(std::system(("umount " + quoted(disk)).c_str()), 0);
+}
+
 TEST(Transient, AFullDiskEndsItWithTheReasonAndKeepsWhatWasThere) {
   const Folder folder;
   const std::string disk = folder.file("disk");
