@@ -30,6 +30,21 @@ int kind_of(const PreparedRecord& record) {
   return (record.excitation.base ? 1 : 0) + (record.excitation.wind ? 2 : 0);
 }
 
+// The lowest bins hold what wanders, which is no tone.
+double loudest_tone(const Experiment& experiment, const std::span<const WhitenedRecord> records) {
+  double loudest = 0., count = 0.;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const signals::Excitation& excitation = experiment.records[r].excitation;
+    if (excitation.base || excitation.wind) continue;
+    constexpr std::size_t first = 8;
+    for (std::size_t b = first; b < records[r].error.size(); ++b) {
+      loudest = std::max(loudest, std::norm(records[r].error[b]));
+      count += 1.;
+    }
+  }
+  return count == 0. ? 0. : loudest - std::log(count);
+}
+
 }  // namespace
 
 GoodnessOfFit goodness_of_fit(const Experiment& experiment,
@@ -52,6 +67,8 @@ GoodnessOfFit goodness_of_fit(const Experiment& experiment,
     out.surplus_nats_per_bin += block.gain();
   }
   if (count == 0.) return out;
+  out.tone_nats = loudest_tone(experiment, records);
+  out.foretold = foretold_noise(experiment, records);
   out.excess = power / count - 1.;
   out.surplus_nats_per_bin /= count;
   return out;

@@ -1,18 +1,11 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
-#include "diagnosis/experiment.h"
+#include "diagnosis/foretold_noise.h"
+#include "diagnosis/whitened_record.h"
 
 namespace vibrissa::diagnosis {
-
-/// A record under a fit: whitened bins.
-struct WhitenedRecord {
-  std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
-  std::vector<double> deviation;  // sqrt(variance) [N m]
-  std::vector<double> own_share;  // of the variance, of the effects' own noise
-};
 
 /// How well a fit's variance describes its residual.
 struct GoodnessOfFit {
@@ -26,6 +19,10 @@ struct GoodnessOfFit {
   double misshape_nats = 0.;
   /// The same over all blocks, a bin.
   double surplus_nats_per_bin = 0.;
+  /// Largest |error|^2 of a line of the records at rest, but the lowest, less ln(their lines): what
+  /// the loudest tone that the fit lacks stands out of chance.
+  double tone_nats = 0.;
+  ForetoldNoise foretold;
 };
 
 /// records: residual of the experiment's records under a fit. Proven by

@@ -63,16 +63,26 @@ bool tells_noise(const Effect& effect) {
   return probe(effect).reference_variance > 0.;
 }
 
+/// What it calls the noise of an effect follows the wind: something else answers to the wind.
+bool foretells_its_noise(const HypothesisFit& fit) {
+  constexpr double most_nats = 30., most_share = 0.05;
+  const ForetoldNoise& foretold = fit.goodness.foretold;
+  return !fit.hypothesis.is_discrepancy() && foretold.nats > most_nats &&
+         foretold.share > most_share;
+}
+
 /// An answer, none among them, whose residual stands out of the noise, the bounds of its form
 /// errors included, names the wrong cause or not all: something unknown is there. So does one that
-/// leaves much in places while its bounds are far too wide in others, and one whose own noise has
-/// the wrong spectrum: it has taken up what it is not.
+/// leaves much in places while its bounds are far too wide in others, one whose own noise has the
+/// wrong spectrum or follows the wind, and one that leaves a tone: it has taken up what it is not.
 bool leaves_too_much(const HypothesisFit& fit) {
-  constexpr double most_excess = 0.05, most_misshape_nats = 100., most_surplus = 0.3;
+  constexpr double most_excess = 0.05, most_misshape_nats = 100., most_surplus = 0.3,
+                   most_tone_nats = 20.;
   const GoodnessOfFit& goodness = fit.goodness;
   return !fit.hypothesis.is_discrepancy() &&
          (goodness.excess > most_excess || goodness.misshape_nats > most_misshape_nats ||
-          goodness.surplus_nats_per_bin > most_surplus);
+          goodness.surplus_nats_per_bin > most_surplus || goodness.tone_nats > most_tone_nats ||
+          foretells_its_noise(fit));
 }
 
 class Searcher {
@@ -278,11 +288,26 @@ class Searcher {
 
   enum class Kept { possible, refuted };
 
+  /// Log posterior below which a fit leaves what another takes up as noise that follows the wind.
+  double least_posterior() const {
+    constexpr double least_lead = 12.;
+    double least = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      if (foretells_its_noise(fits_[i])) least = std::max(least, best_posterior(i) - least_lead);
+    return least;
+  }
+
+  bool is_refuted(std::size_t i, double least) const {
+    if (fits_[i].hypothesis.is_discrepancy()) return false;
+    return leaves_too_much(fits_[i]) || best_posterior(i) < least;
+  }
+
   std::vector<Candidate> candidates(const Kept kept) const {
     std::map<std::string, Candidate> by_name;
+    const double least = least_posterior();
     // As a part of a combination what leaves too much may be right all the same.
     for (std::size_t i = 0; i < fits_.size(); ++i)
-      if (leaves_too_much(fits_[i]) == (kept == Kept::refuted)) add_choices(by_name, i);
+      if (is_refuted(i, least) == (kept == Kept::refuted)) add_choices(by_name, i);
     std::vector<Candidate> out;
     for (auto& [name, candidate] : by_name) out.push_back(candidate);
     std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {

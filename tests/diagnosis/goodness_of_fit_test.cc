@@ -66,5 +66,19 @@ TEST_F(GoodnessOfFitTest, SeesTheRightPowerWithTheWrongSpectrum) {
   EXPECT_NEAR(found.surplus_nats_per_bin * n_bins, found.misshape_nats, 1e-9 * n_bins);
 }
 
+TEST_F(GoodnessOfFitTest, SeesATone) {
+  std::vector<WhitenedRecord> white = residuals(experiment_, 1, [](double) { return 1.; });
+  EXPECT_LT(goodness_of_fit(experiment_, white).tone_nats, 10.);
+  const auto with_a_tone_in = [&](std::size_t record, std::size_t bin) {
+    std::vector<WhitenedRecord> loud = white;
+    loud[record].error.at(bin) = Complex(0., 7.);
+    return goodness_of_fit(experiment_, loud).tone_nats;
+  };
+  ASSERT_FALSE(experiment_.records[0].excitation.base || experiment_.records[0].excitation.wind);
+  EXPECT_NEAR(with_a_tone_in(0, 100), 49. - std::log(white[0].error.size() - 8.), 1e-9);
+  EXPECT_LT(with_a_tone_in(0, 3), 10.) << "what wanders";
+  EXPECT_LT(with_a_tone_in(1, 100), 10.) << "the base moves";
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis

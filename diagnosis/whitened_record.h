@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/experiment.h"
+
+namespace vibrissa::diagnosis {
+
+/// A record under a fit: whitened bins.
+struct WhitenedRecord {
+  std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
+  std::vector<double> deviation;  // sqrt(variance) [N m]
+  std::vector<double> own_share;  // of the variance, of the effects' own noise
+};
+
+}  // namespace vibrissa::diagnosis
