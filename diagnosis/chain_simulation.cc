@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/joint_simulation.h"
+#include "diagnosis/judged_samples.h"
 #include "diagnosis/spectrum.h"
 
 namespace vibrissa::diagnosis {
@@ -33,12 +34,10 @@ Complex reading_of_source(const Chain& chain, const PreparedRecord& record, std:
   return polled + chain.renewed_share * (record.renewed[k] - polled);
 }
 
-std::vector<Complex> judged_bins(const PreparedRecord& record, std::vector<Complex> whole) {
+std::vector<Complex> bins_of_lines(const PreparedRecord& record,
+                                   const std::vector<Complex>& whole) {
   if (record.n_judged == record.n_samples) return {whole.begin() + 1, whole.end() - 1};
-  const std::vector<double> samples = samples_of(whole, record.n_samples);
-  const std::vector<Complex> part =
-      spectrum_of(std::span(samples).subspan(record.first, record.n_judged));
-  return {part.begin() + 1, part.end() - 1};
+  return judged_bins(record, samples_of(whole, record.n_samples));
 }
 
 void paint(std::span<double> variance, const NoiseColour& colour, const PreparedRecord& record) {
@@ -125,7 +124,7 @@ std::vector<std::vector<Complex>> ChainSimulator::means(std::span<const Prepared
   std::vector<std::vector<Complex>> out;
   for (std::size_t r = 0; r < records.size(); ++r)
     out.push_back(records[r].is_still() ? std::vector<Complex>(records[r].n_bins(), 0.)
-                                        : judged_bins(records[r], std::move(whole[r])));
+                                        : bins_of_lines(records[r], whole[r]));
   return out;
 }
 

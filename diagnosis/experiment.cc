@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "diagnosis/judged_samples.h"
 #include "diagnosis/repeated_samples.h"
 #include "diagnosis/spectrum.h"
 #include "diagnosis/uneven_ages.h"
@@ -233,9 +234,7 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   const auto is_zero = [](Complex a) { return a == Complex(0.); };
   out.has_zero_inputs = out.cross_acceleration.empty() &&
                         std::all_of(out.acceleration.begin(), out.acceleration.end(), is_zero);
-  const auto moment = entry.record.channel(channel::base_moment);
-  const std::vector<Complex> judged = spectrum_of(moment.subspan(out.first, out.n_judged));
-  out.moment.assign(judged.begin() + 1, judged.end() - 1);
+  out.moment = judged_bins(out, entry.record.channel(channel::base_moment));
   return out;
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "diagnosis/frequency_block.h"
-#include "diagnosis/spectrum.h"
+#include "diagnosis/judged_samples.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -18,23 +18,10 @@ constexpr Eigen::Index n_regressors = 2;
 
 /// The wind's speed and its square, in the judged bins.
 std::array<std::vector<Complex>, n_regressors> wind_bins(const PreparedRecord& record) {
-  std::vector<double> speed(
-      record.wind.begin() + static_cast<std::ptrdiff_t>(record.first),
-      record.wind.begin() + static_cast<std::ptrdiff_t>(record.first + record.n_judged));
-  const auto bins = [&] {
-    std::vector<Complex> lines = spectrum_of(speed);
-    lines.erase(lines.begin());
-    lines.resize(record.n_bins());
-    return lines;
-  };
-  std::array<std::vector<Complex>, n_regressors> out;
-  out[0] = bins();
-  for (double& value : speed) value *= value;
-  out[1] = bins();
-  return out;
+  std::vector<double> square = record.wind;
+  for (double& value : square) value *= value;
+  return {judged_bins(record, record.wind), judged_bins(record, square)};
 }
-
-constexpr double least_share = 0.1;
 
 /// Blocks of frequency in which effects' own noise is there without wind, too: a tone's skirts are
 /// smooth over the lines, as the wind's are, and would be foretold by it.
@@ -51,7 +38,7 @@ std::set<std::size_t> windless_blocks(const Experiment& experiment,
   }
   std::set<std::size_t> blocks;
   for (const auto& [block, share] : shares)
-    if (share.first >= least_share * share.second) blocks.insert(block);
+    if (share.first >= least_own_share * share.second) blocks.insert(block);
   return blocks;
 }
 
@@ -100,7 +87,7 @@ void add_record(const Experiment& experiment, const PreparedRecord& record,
       for (Eigen::Index j = 0; j < n_regressors; ++j)
         inputs(i, j) = wind[static_cast<std::size_t>(j)][b] / residual.deviation[b];
     }
-    if (own < least_share * static_cast<double>(n) || n <= n_regressors) continue;
+    if (own < least_own_share * static_cast<double>(n) || n <= n_regressors) continue;
     for (Eigen::Index j = 0; j < n_regressors; ++j)
       if (const double norm = inputs.col(j).norm(); norm > 0.) inputs.col(j) /= norm;
     sums.add(inputs, error);

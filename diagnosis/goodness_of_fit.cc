@@ -13,10 +13,7 @@ namespace {
 
 struct Block {
   double power = 0., count = 0., own_share = 0.;
-  bool holds_own_noise() const {
-    constexpr double least_share = 0.1;
-    return own_share >= least_share * count;
-  }
+  bool holds_own_noise() const { return own_share >= least_own_share * count; }
   double gain() const {
     constexpr double fewest = 10.;
     if (count < fewest) return 0.;

@@ -14,4 +14,9 @@ std::vector<double> judged_samples(const PreparedRecord& record, std::span<const
   return samples_of(whole, record.n_judged);
 }
 
+std::vector<Complex> judged_bins(const PreparedRecord& record, std::span<const double> samples) {
+  const std::vector<Complex> lines = spectrum_of(samples.subspan(record.first, record.n_judged));
+  return {lines.begin() + 1, lines.end() - 1};
+}
+
 }  // namespace vibrissa::diagnosis

@@ -11,4 +11,7 @@ namespace vibrissa::diagnosis {
 /// alike), without their mean and what is at half the rate.
 std::vector<double> judged_samples(const PreparedRecord& record, std::span<const Complex> bins);
 
+/// Bins of the judged part, as PreparedRecord::moment, of the samples of a whole record.
+std::vector<Complex> judged_bins(const PreparedRecord& record, std::span<const double> samples);
+
 }  // namespace vibrissa::diagnosis

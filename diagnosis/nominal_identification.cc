@@ -9,6 +9,7 @@
 
 #include "diagnosis/chain_simulation.h"
 #include "diagnosis/experiment.h"
+#include "diagnosis/judged_samples.h"
 #include "diagnosis/spectrum.h"
 #include "separation/identify_frequency.h"
 #include "signals/error.h"
@@ -152,9 +153,8 @@ Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& r
       }
       whole[k] = response * spectrum[k];
     }
-    const std::vector<double> samples = samples_of(whole, record.n_samples);
-    const auto part = spectrum_of(std::span(samples).subspan(record.first, record.n_judged));
-    for (Eigen::Index b = 0; b < n_bins; ++b) columns(b, c) = part[static_cast<std::size_t>(b) + 1];
+    const std::vector<Complex> bins = judged_bins(record, samples_of(whole, record.n_samples));
+    for (Eigen::Index b = 0; b < n_bins; ++b) columns(b, c) = bins[static_cast<std::size_t>(b)];
   }
   return columns;
 }

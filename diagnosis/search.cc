@@ -79,10 +79,9 @@ bool leaves_too_much(const HypothesisFit& fit) {
   constexpr double most_excess = 0.05, most_misshape_nats = 100., most_surplus = 0.3,
                    most_tone_nats = 20.;
   const GoodnessOfFit& goodness = fit.goodness;
-  return !fit.hypothesis.is_discrepancy() &&
-         (goodness.excess > most_excess || goodness.misshape_nats > most_misshape_nats ||
-          goodness.surplus_nats_per_bin > most_surplus || goodness.tone_nats > most_tone_nats ||
-          foretells_its_noise(fit));
+  return goodness.excess > most_excess || goodness.misshape_nats > most_misshape_nats ||
+         goodness.surplus_nats_per_bin > most_surplus || goodness.tone_nats > most_tone_nats ||
+         foretells_its_noise(fit);
 }
 
 class Searcher {

@@ -13,4 +13,7 @@ struct WhitenedRecord {
   std::vector<double> own_share;  // of the variance, of the effects' own noise
 };
 
+/// Share of the variance of a block of bins from which on effects' own noise is a part of it.
+inline constexpr double least_own_share = 0.1;
+
 }  // namespace vibrissa::diagnosis

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "diagnosis/spectrum.h"
+#include "diagnosis/judged_samples.h"
 #include "one_mode_rig.h"
 
 namespace vibrissa::diagnosis {
@@ -31,18 +31,15 @@ class ForetoldNoiseTest : public testing::Test {
     std::vector<WhitenedRecord> out;
     for (const PreparedRecord& record : experiment_.records) {
       const bool windy = record.excitation.wind;
-      std::vector<Complex> wind(record.n_bins() + 1);
-      if (windy)
-        wind = spectrum_of(std::vector<double>(
-            record.wind.begin() + static_cast<std::ptrdiff_t>(record.first),
-            record.wind.begin() + static_cast<std::ptrdiff_t>(record.first + record.n_judged)));
+      const std::vector<Complex> wind =
+          windy ? judged_bins(record, record.wind) : std::vector<Complex>(record.n_bins());
       double power = 0.;
-      for (std::size_t b = 1; b <= record.n_bins(); ++b) power += std::norm(wind[b]);
+      for (const Complex line : wind) power += std::norm(line);
       const double height = windy ? std::sqrt(static_cast<double>(record.n_bins()) / power) : 0.;
       const Complex gain = std::polar(leftover.of_the_wind * height, 1.);
       WhitenedRecord& one = out.emplace_back();
       for (std::size_t b = 0; b < record.n_bins(); ++b) {
-        one.error.push_back(gain * wind[b + 1] + Complex(normal(random), normal(random)));
+        one.error.push_back(gain * wind[b] + Complex(normal(random), normal(random)));
         one.deviation.push_back(1.);
         one.own_share.push_back(windy ? leftover.own_share : leftover.own_share_windless);
       }
