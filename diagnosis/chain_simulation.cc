@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/joint_simulation.h"
 #include "diagnosis/judged_samples.h"
 #include "diagnosis/spectrum.h"
 
@@ -40,6 +39,15 @@ std::vector<Complex> bins_of_lines(const PreparedRecord& record,
   return judged_bins(record, samples_of(whole, record.n_samples));
 }
 
+std::vector<std::vector<Complex>> judged_means(std::span<const PreparedRecord> records,
+                                               const std::vector<std::vector<Complex>>& readings) {
+  std::vector<std::vector<Complex>> out;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    out.push_back(records[r].is_still() ? std::vector<Complex>(records[r].n_bins(), 0.)
+                                        : bins_of_lines(records[r], readings[r]));
+  return out;
+}
+
 void paint(std::span<double> variance, const NoiseColour& colour, const PreparedRecord& record) {
   if (colour.is_white()) return;
   for (std::size_t b = 0; b < variance.size(); ++b)
@@ -65,23 +73,19 @@ ChainSimulator::Spectra ChainSimulator::linear_moments(std::span<const PreparedR
   return out;
 }
 
-/// What joint laws and relative wind add; empty where nothing does.
-ChainSimulator::Spectra ChainSimulator::added_moments(std::span<const PreparedRecord> records,
-                                                      const Spectra& linear) {
-  std::vector<ElasticMoment> elastic;
-  std::vector<std::size_t> place;
+ChainSimulator::Begun ChainSimulator::begin(std::span<const PreparedRecord> records) {
+  Begun out{.moments = linear_moments(records)};
+  if (!response_.joint()) return out;
+  out.task.chain = &chain_;
+  out.task.joint = &*response_.joint();
   for (std::size_t r = 0; r < records.size(); ++r) {
-    if (records[r].is_still() || !response_.joint() || !is_dynamic(chain_, records[r])) continue;
-    if (!records[r].magnet) continue;
+    if (records[r].is_still() || !records[r].magnet || !is_dynamic(chain_, records[r])) continue;
     const std::vector<LinearPart>& lines = response_.lines(records[r]);
-    place.push_back(r);
-    elastic.push_back({&records[r], linear[r]});
-    for (std::size_t k = 0; k < lines.size(); ++k) elastic.back().spectrum[k] *= lines[k].elastic;
+    out.places.push_back(r);
+    std::vector<Complex>& elastic =
+        out.task.elastic.emplace_back(&records[r], out.moments[r]).spectrum;
+    for (std::size_t k = 0; k < lines.size(); ++k) elastic[k] *= lines[k].elastic;
   }
-  Spectra out(records.size());
-  if (elastic.empty()) return out;
-  const std::vector<std::vector<double>> parts = dynamic_parts(chain_, *response_.joint(), elastic);
-  for (std::size_t i = 0; i < parts.size(); ++i) out[place[i]] = spectrum_of(parts[i]);
   return out;
 }
 
@@ -102,13 +106,17 @@ std::vector<Complex> ChainSimulator::reading(const PreparedRecord& record,
   return spectrum_of(resampled(moment, n, n, first, 1. + error));
 }
 
-ChainSimulator::Spectra ChainSimulator::readings(std::span<const PreparedRecord> records) {
-  Spectra moments = linear_moments(records);
-  const Spectra added = added_moments(records, moments);
+ChainSimulator::Spectra ChainSimulator::finish(std::span<const PreparedRecord> records, Begun begun,
+                                               const std::vector<std::vector<double>>& dynamic) {
+  Spectra moments = std::move(begun.moments);
+  for (std::size_t i = 0; i < begun.places.size(); ++i) {
+    const std::vector<Complex> added = spectrum_of(dynamic[i]);
+    std::vector<Complex>& moment = moments[begun.places[i]];
+    for (std::size_t k = 0; k < added.size(); ++k) moment[k] += added[k];
+  }
   for (std::size_t r = 0; r < records.size(); ++r) {
     const PreparedRecord& record = records[r];
     if (record.is_still()) continue;
-    for (std::size_t k = 0; k < added[r].size(); ++k) moments[r][k] += added[r][k];
     if (!record.cross_acceleration.empty()) {
       const std::vector<LinearPart>& lines = response_.lines(record);
       for (std::size_t k = 0; k < lines.size(); ++k)
@@ -119,25 +127,31 @@ ChainSimulator::Spectra ChainSimulator::readings(std::span<const PreparedRecord>
   return moments;
 }
 
+ChainSimulator::Spectra ChainSimulator::readings(std::span<const PreparedRecord> records) {
+  Begun begun = begin(records);
+  const auto dynamic = dynamic_parts({&begun.task, 1});
+  return finish(records, std::move(begun), dynamic.front());
+}
+
 std::vector<std::vector<Complex>> ChainSimulator::means(std::span<const PreparedRecord> records) {
-  Spectra whole = readings(records);
-  std::vector<std::vector<Complex>> out;
-  for (std::size_t r = 0; r < records.size(); ++r)
-    out.push_back(records[r].is_still() ? std::vector<Complex>(records[r].n_bins(), 0.)
-                                        : bins_of_lines(records[r], whole[r]));
-  return out;
+  return judged_means(records, readings(records));
 }
 
 std::vector<double> ChainSimulator::samples(const PreparedRecord& record) {
   return samples_of(readings({&record, 1}).front(), record.n_samples);
 }
 
-std::vector<Prediction> ChainSimulator::predict(std::span<const PreparedRecord> records) {
-  std::vector<std::vector<Complex>> mean = means(records);
+std::vector<Prediction> ChainSimulator::predictions(std::span<const PreparedRecord> records,
+                                                    const Spectra& readings) {
+  std::vector<std::vector<Complex>> mean = judged_means(records, readings);
   std::vector<Prediction> out;
   for (std::size_t r = 0; r < records.size(); ++r)
     out.push_back(with_noise(records[r], std::move(mean[r])));
   return out;
+}
+
+std::vector<Prediction> ChainSimulator::predict(std::span<const PreparedRecord> records) {
+  return predictions(records, readings(records));
 }
 
 /// Of a unit of variance a sample of the accelerometer, if it were white.
@@ -193,6 +207,23 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
     for (const NoiseSource& source : chain_.noise) source(view, prediction.own_noise);
   }
   return prediction;
+}
+
+std::vector<std::vector<Prediction>> predict_together(std::span<const Chain> chains,
+                                                      std::span<const PreparedRecord> records) {
+  std::vector<ChainSimulator> simulators(chains.begin(), chains.end());
+  std::vector<ChainSimulator::Begun> begun;
+  std::vector<DynamicTask> tasks;
+  for (ChainSimulator& simulator : simulators) {
+    begun.push_back(simulator.begin(records));
+    tasks.push_back(std::move(begun.back().task));
+  }
+  const auto dynamic = dynamic_parts(tasks);
+  std::vector<std::vector<Prediction>> out;
+  for (std::size_t i = 0; i < simulators.size(); ++i)
+    out.push_back(simulators[i].predictions(
+        records, simulators[i].finish(records, std::move(begun[i]), dynamic[i])));
+  return out;
 }
 
 Prediction simulate(const Chain& chain, const PreparedRecord& record) {

@@ -5,6 +5,7 @@
 
 #include "diagnosis/chain.h"
 #include "diagnosis/experiment.h"
+#include "diagnosis/joint_simulation.h"
 #include "diagnosis/linear_response.h"
 
 namespace vibrissa::diagnosis {
@@ -34,9 +35,22 @@ class ChainSimulator {
 
  private:
   using Spectra = std::vector<std::vector<Complex>>;  // of each record, at its whole lines
+  /// Linear parts, and what is to be integrated of the dynamic ones of some records.
+  struct Begun {
+    Spectra moments;
+    std::vector<std::size_t> places{};  // of the task's records
+    DynamicTask task{};
+  };
+  friend std::vector<std::vector<Prediction>> predict_together(
+      std::span<const Chain> chains, std::span<const PreparedRecord> records);
+
+  Begun begin(std::span<const PreparedRecord> records);
+  Spectra finish(std::span<const PreparedRecord> records, Begun begun,
+                 const std::vector<std::vector<double>>& dynamic);
   Spectra readings(std::span<const PreparedRecord> records);
+  std::vector<Prediction> predictions(std::span<const PreparedRecord> records,
+                                      const Spectra& readings);
   Spectra linear_moments(std::span<const PreparedRecord> records);
-  Spectra added_moments(std::span<const PreparedRecord> records, const Spectra& linear);
   std::vector<Complex> reading(const PreparedRecord& record, std::vector<Complex> moment);
   void add_acceleration_noise(const PreparedRecord& record, std::span<double> variance);
   Prediction with_noise(const PreparedRecord& record, std::vector<Complex> mean);
@@ -44,6 +58,10 @@ class ChainSimulator {
   const Chain& chain_;
   LinearResponse response_;
 };
+
+/// Of each chain, as ChainSimulator::predict, in less time.
+std::vector<std::vector<Prediction>> predict_together(std::span<const Chain> chains,
+                                                      std::span<const PreparedRecord> records);
 
 /// Of one record alone.
 Prediction simulate(const Chain& chain, const PreparedRecord& record);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/fit_figures.h"
@@ -15,6 +16,8 @@ struct FitOptions {
   double tolerance = 0.1;
   /// Log posterior that another hypothesis has reached: a climb that is hopelessly below gives up.
   double to_beat = -std::numeric_limits<double>::infinity();
+  /// Starts of which a few iterations tell the basin.
+  std::size_t n_promising = 2;
 };
 
 /// Sets coordinates that lie outside their prior's bounds to these.
@@ -27,11 +30,13 @@ struct Climb {
   double log_posterior = -std::numeric_limits<double>::infinity();
   double damping = 1e-3;
   bool ended = false;
-  int n_iterations = 0;
+  int n_iterations = 0;                      // with derivatives of their own
+  std::optional<Derivatives> derivatives{};  // while they hold
 };
 
-/// Fisher scoring with damping (Levenberg and Marquardt) from where the climb stands. Proven by
-/// tests/diagnosis/search_test.cc.
+/// Fisher scoring with damping (Levenberg and Marquardt) from where the climb stands. Derivatives,
+/// which cost a simulation for each figure, serve as long as they foretell the gains: n_iterations
+/// counts their renewals. Proven by tests/diagnosis/search_test.cc.
 void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, Climb& climb,
               int n_iterations, const FitOptions& options);
 

@@ -153,9 +153,18 @@ std::vector<EffectAction> FitPosterior::actions(const Eigen::VectorXd& x,
   return actions;
 }
 
-void FitPosterior::add_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+FitPosterior::BinVariances FitPosterior::variances(const Eigen::VectorXd& x,
+                                                   const std::vector<Prediction>& at,
+                                                   const double acceleration_variance) const {
+  BinVariances s;
+  for (std::size_t r = 0; r < at.size(); ++r)
+    s.push_back(variance(x, at[r], r, acceleration_variance));
+  return s;
+}
+
+void FitPosterior::set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                                     const BinVariances& s, const double acceleration_variance,
-                                    const Eigen::Index place, Columns& out) const {
+                                    const Eigen::Index place, Derivatives& out) const {
   const bool moment = place == static_cast<Eigen::Index>(place_moment_noise);
   const double level = 2. * std::exp(2. * x(place));
   Eigen::Index row = 0;
@@ -166,8 +175,8 @@ void FitPosterior::add_noise_column(const Eigen::VectorXd& x, const std::vector<
   if (!moment) out.acceleration(place) = level / acceleration_variance;
 }
 
-void FitPosterior::add_share_column(const Eigen::VectorXd& x, const BinVariances& s,
-                                    const Eigen::Index place, Columns& out) const {
+void FitPosterior::set_share_column(const Eigen::VectorXd& x, const BinVariances& s,
+                                    const Eigen::Index place, Derivatives& out) const {
   const double level = 2. * std::exp(2. * x(place));
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r)
@@ -178,57 +187,93 @@ void FitPosterior::add_share_column(const Eigen::VectorXd& x, const BinVariances
         out.variance(row, place) = level * power_[r][b] / s[r][b];
 }
 
-void FitPosterior::add_chain_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                                    const BinVariances& s, const double acceleration_variance,
-                                    const Eigen::Index place, Columns& out) const {
+double FitPosterior::step_of(const Eigen::VectorXd& x, const Eigen::Index place) const {
   const Parameter& parameter = figures_[static_cast<std::size_t>(place)].description;
-  Eigen::VectorXd moved = x;
-  double h = parameter.step;
-  if (x(place) + h > parameter.prior.high) h = -h;
-  moved(place) += h;
-  const Chain chain = make_chain(experiment_, figures_, moved);
-  const std::vector<Prediction> there = ChainSimulator(chain).predict(experiment_.records);
-  const double a_moved = this->acceleration_variance(x, chain);
-  out.acceleration(place) = (a_moved - acceleration_variance) / h / acceleration_variance;
+  return x(place) + parameter.step > parameter.prior.high ? -parameter.step : parameter.step;
+}
+
+void FitPosterior::set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                                  const BinVariances& s, const Chain& moved,
+                                  const std::vector<Prediction>& there, const double h,
+                                  const Eigen::Index place, Derivatives& out) const {
+  const double a_moved = acceleration_variance(x, moved);
+  out.acceleration(place) = (a_moved - acceleration_variance(x)) / h;
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r) {
     const std::vector<double> s_there = variance(x, there[r], r, a_moved);
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row) {
-      const Complex d = (there[r].mean[b] - at[r].mean[b]) / h / std::sqrt(s[r][b]);
+      const Complex d = (there[r].mean[b] - at[r].mean[b]) / h;
       out.mean(2 * row, place) = d.real();
       out.mean(2 * row + 1, place) = d.imag();
-      out.variance(row, place) = (s_there[b] - s[r][b]) / h / s[r][b];
+      out.variance(row, place) = (s_there[b] - s[r][b]) / h;
     }
   }
 }
 
-FitPosterior::Columns FitPosterior::columns(const Eigen::VectorXd& x,
-                                            const std::vector<Prediction>& at,
-                                            const BinVariances& s,
-                                            const double acceleration_variance) const {
+Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
+                                      const std::vector<Prediction>& at) const {
+  // More at a time would only fill the caches.
+  constexpr std::size_t n_together = 4;
+  const BinVariances s = variances(x, at, acceleration_variance(x));
   Eigen::Index n_bins = 0;
   for (const std::vector<double>& bins : s) n_bins += static_cast<Eigen::Index>(bins.size());
-  Columns out{.mean = Eigen::MatrixXd::Zero(2 * n_bins, x.size()),
-              .variance = Eigen::MatrixXd::Zero(n_bins, x.size()),
-              .acceleration = Eigen::VectorXd::Zero(x.size())};
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const auto place = static_cast<std::size_t>(i);
-    if (place < n_noise_figures)
-      add_noise_column(x, at, s, acceleration_variance, i, out);
-    else if (figures_[place].effect == nullptr && place >= n_own_figures)
-      add_share_column(x, s, i, out);
-    else
-      add_chain_column(x, at, s, acceleration_variance, i, out);
+  Derivatives out{.mean = Eigen::MatrixXd::Zero(2 * n_bins, x.size()),
+                  .variance = Eigen::MatrixXd::Zero(n_bins, x.size()),
+                  .acceleration = Eigen::VectorXd::Zero(x.size())};
+  std::vector<Eigen::Index> places;
+  for (std::size_t i = n_noise_figures; i < figures_.size(); ++i) {
+    const FreeFigure& figure = figures_[i];
+    const bool is_of_chain = figure.effect != nullptr || i < n_own_figures;
+    if (is_of_chain && figure.description.prior.low < figure.description.prior.high)
+      places.push_back(static_cast<Eigen::Index>(i));
+  }
+  for (std::size_t first = 0; first < places.size(); first += n_together) {
+    const std::size_t n = std::min(n_together, places.size() - first);
+    std::vector<Chain> moved;
+    for (const Eigen::Index place : std::span(places).subspan(first, n)) {
+      Eigen::VectorXd there = x;
+      there(place) += step_of(x, place);
+      moved.push_back(make_chain(experiment_, figures_, there));
+    }
+    const auto predictions = predict_together(moved, experiment_.records);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Eigen::Index place = places[first + i];
+      set_derivative(x, at, s, moved[i], predictions[i], step_of(x, place), place, out);
+    }
+  }
+  return out;
+}
+
+Derivatives FitPosterior::whitened(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                                   const BinVariances& s, const double acceleration_variance,
+                                   const Derivatives& derivatives) const {
+  Eigen::VectorXd per_deviation(derivatives.mean.rows()), per_variance(derivatives.variance.rows());
+  Eigen::Index row = 0;
+  for (const std::vector<double>& bins : s)
+    for (const double variance : bins) {
+      per_variance(row) = 1. / variance;
+      per_deviation(2 * row) = per_deviation(2 * row + 1) = 1. / std::sqrt(variance);
+      ++row;
+    }
+  Derivatives out{.mean = per_deviation.asDiagonal() * derivatives.mean,
+                  .variance = per_variance.asDiagonal() * derivatives.variance,
+                  .acceleration = derivatives.acceleration / acceleration_variance};
+  for (std::size_t i = 0; i < figures_.size(); ++i) {
+    const auto place = static_cast<Eigen::Index>(i);
+    if (i < n_noise_figures)
+      set_noise_column(x, at, s, acceleration_variance, place, out);
+    else if (figures_[i].effect == nullptr && i >= n_own_figures)
+      set_share_column(x, s, place, out);
   }
   return out;
 }
 
 void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                             Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const {
+                             const Derivatives& derivatives, Eigen::VectorXd& gradient,
+                             Eigen::MatrixXd& information) const {
   const double a_variance = acceleration_variance(x);
-  BinVariances s;
-  for (std::size_t r = 0; r < at.size(); ++r) s.push_back(variance(x, at[r], r, a_variance));
-  const Columns d = columns(x, at, s, a_variance);
+  const BinVariances s = variances(x, at, a_variance);
+  const Derivatives d = whitened(x, at, s, a_variance, derivatives);
   Eigen::VectorXd error(d.mean.rows()), excess(d.variance.rows());
   Eigen::Index row = 0;
   double a_gradient = 0., a_lines = 0.;

@@ -24,6 +24,13 @@ inline constexpr std::size_t form_reach = 10;
 /// Power that the form error of an effect may have around each bin, given what it changes.
 std::vector<double> form_error_power(const Effect& effect, std::span<const Complex> change);
 
+/// Derivatives by the figures: of the mean (real and imaginary parts in turn) [N m], of its
+/// variance [(N m)^2], of the accelerometer's variance [(m/s^2)^2].
+struct Derivatives {
+  Eigen::MatrixXd mean, variance;
+  Eigen::VectorXd acceleration;
+};
+
 /// Log posterior of a fit's figures by Whittle's likelihood (see fit_hypothesis()). What the
 /// variance takes from the mean, misfit of the nominal form and form errors, is held fixed between
 /// renewals. experiment and figures must outlive it.
@@ -44,33 +51,39 @@ class FitPosterior {
   double log_likelihood(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
   double log_prior(const Eigen::VectorXd& x) const;
 
+  /// By the figures that their priors leave free; those of the noise are left at zero.
+  Derivatives derivatives(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
   /// Gradient of the log posterior, and Fisher's information plus the prior's curvature.
+  /// derivatives: at x, or at a place from which they have hardly changed.
   void linearise(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                 Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
+                 const Derivatives& derivatives, Eigen::VectorXd& gradient,
+                 Eigen::MatrixXd& information) const;
 
   /// In the order of the figures.
   std::vector<EffectAction> actions(const Eigen::VectorXd& x,
                                     const std::vector<Prediction>& at) const;
 
  private:
-  /// Whitened derivatives by the figures: of the mean (real and imaginary parts in turn), of log S,
-  /// of the logarithm of the accelerometer's variance.
-  struct Columns {
-    Eigen::MatrixXd mean, variance;
-    Eigen::VectorXd acceleration;
-  };
   using BinVariances = std::vector<std::vector<double>>;  // [record][bin]
 
-  Columns columns(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                  const BinVariances& s, double acceleration_variance) const;
-  void add_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+  /// A figure's step to a place nearby.
+  double step_of(const Eigen::VectorXd& x, Eigen::Index place) const;
+  /// From the predictions at a step h of one figure, under a chain.
+  void set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                      const BinVariances& s, const Chain& moved,
+                      const std::vector<Prediction>& there, double h, Eigen::Index place,
+                      Derivatives& out) const;
+  /// Of the whole variance, over it: those of the figures of noise are set.
+  Derivatives whitened(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                       const BinVariances& s, double acceleration_variance,
+                       const Derivatives& derivatives) const;
+  void set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                         const BinVariances& s, double acceleration_variance, Eigen::Index place,
-                        Columns& out) const;
-  void add_share_column(const Eigen::VectorXd& x, const BinVariances& s, Eigen::Index place,
-                        Columns& out) const;
-  void add_chain_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                        const BinVariances& s, double acceleration_variance, Eigen::Index place,
-                        Columns& out) const;
+                        Derivatives& out) const;
+  void set_share_column(const Eigen::VectorXd& x, const BinVariances& s, Eigen::Index place,
+                        Derivatives& out) const;
+  BinVariances variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                         double acceleration_variance) const;
   void remove_ramps(const std::vector<Prediction>& at, const BinVariances& s,
                     const Eigen::MatrixXd& mean_columns, const Eigen::VectorXd& error,
                     Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;

@@ -132,9 +132,20 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
   return records;
 }
 
+/// Has a fit moved a nuisance out of its tolerance?
+bool has_retuned(const HypothesisFit& fit) {
+  for (std::size_t i = n_own_figures; i < fit.figures.size(); ++i) {
+    const Prior& prior = fit.figures[i].description.prior;
+    const double moved = fit.x(static_cast<Eigen::Index>(i)) - prior.centre;
+    if (fit.figures[i].nuisance && std::abs(moved) > prior.scale) return true;
+  }
+  return false;
+}
+
 /// A climb on which the nuisances move last.
-Climb climb_before_nuisances(FitPosterior& posterior, const std::vector<FreeFigure>& figures,
-                             const std::vector<Eigen::VectorXd>& nominal_starts) {
+Climb climb_before_nuisances(FitPosterior& posterior, const Experiment& experiment,
+                             const std::vector<FreeFigure>& figures, const Hypothesis& hypothesis,
+                             const HypothesisFit* start, const FitOptions& options) {
   constexpr int n_alone = 12;
   std::vector<FreeFigure> held = figures;
   for (FreeFigure& figure : held)
@@ -142,10 +153,13 @@ Climb climb_before_nuisances(FitPosterior& posterior, const std::vector<FreeFigu
       Prior& prior = figure.description.prior;
       prior.low = prior.high = prior.centre;
     }
-  Climb climb = best_start(posterior, held, nominal_starts, {});
-  climb_on(posterior, held, climb, n_alone, {});
+  FitPosterior posterior_of_held(experiment, held, hypothesis);
+  Climb climb = best_start(posterior_of_held, held,
+                           start_vectors(experiment, figures, hypothesis, start, true), options);
+  climb_on(posterior_of_held, held, climb, n_alone, options);
   climb.ended = false;
-  climb_on(posterior, figures, climb, n_alone, {});
+  climb.derivatives.reset();
+  climb_on(posterior, figures, climb, n_alone, options);
   return climb;
 }
 
@@ -178,23 +192,23 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   fit.hypothesis = hypothesis;
   fit.figures = make_figures(experiment, hypothesis);
   FitPosterior posterior(experiment, fit.figures, fit.hypothesis);
-  // Retunes of another fit may have taken up what an effect does: both basins are looked at.
   const auto climb_from = [&](bool nominal_nuisances) {
     return best_start(posterior, fit.figures,
                       start_vectors(experiment, fit.figures, hypothesis, start, nominal_nuisances),
                       options);
   };
-  Climb climb = climb_from(true);
-  if (start != nullptr) {
-    Climb other = climb_from(false);
+  Climb climb = climb_from(start == nullptr);
+  // Retunes of another fit may have taken up what an effect does: both basins are looked at.
+  if (start != nullptr && options.n_promising > 1 && has_retuned(*start)) {
+    Climb other = climb_from(true);
     if (other.log_posterior > climb.log_posterior) climb = std::move(other);
   }
   // An effect that recalibrates, as nuisances do, is aliased with them: where they take up what it
   // does, it stays near nothing. Beside others it would take up what none of them explains.
   const auto& effects = hypothesis.effects();
   if (effects.size() == 1 && effects.front()->retune) {
-    Climb other = climb_before_nuisances(
-        posterior, fit.figures, start_vectors(experiment, fit.figures, hypothesis, start, true));
+    Climb other =
+        climb_before_nuisances(posterior, experiment, fit.figures, hypothesis, start, options);
     if (other.log_posterior > climb.log_posterior) climb = std::move(other);
   }
   if (further) {
@@ -207,8 +221,9 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   fit.n_iterations = climb.n_iterations;
   fit.log_posterior = climb.log_posterior;
   posterior.renew_slow_variance(fit.x, climb.predictions);
+  if (!climb.derivatives) climb.derivatives = posterior.derivatives(fit.x, climb.predictions);
   Eigen::VectorXd gradient;
-  posterior.linearise(fit.x, climb.predictions, gradient, fit.information);
+  posterior.linearise(fit.x, climb.predictions, *climb.derivatives, gradient, fit.information);
   const std::vector<EffectAction> actions = posterior.actions(fit.x, climb.predictions);
   for (const EffectAction& action : actions)
     fit.effect_energy.emplace_back(action.effect, action.energy);

@@ -13,7 +13,8 @@ namespace {
 
 constexpr auto n_lanes = static_cast<std::size_t>(Lanes::SizeAtCompileTime);
 
-/// Integrates what is added to the linear part, whose elastic joint moment is given.
+/// Integrates what is added to the linear part, whose elastic joint moment is given. A step: begin,
+/// correct while it is open, end.
 class DifferenceIntegrator {
  public:
   DifferenceIntegrator(const Chain& chain, const JointModel& joint, const Lanes& record_number,
@@ -22,19 +23,52 @@ class DifferenceIntegrator {
     for (const JointLawMaker& maker : chain.joint) laws_.push_back(maker(record_number));
   }
 
-  /// One step to (y, y_rate) of the linear part; load gives the extra wind load for a rate of the
-  /// joint moment. Returns the change at the base.
+  /// To (y, y_rate) of the linear part at times t_s.
+  void begin(const Lanes& y, const Lanes& y_rate, const Lanes& t_s) {
+    y_ = y;
+    y_rate_ = y_rate;
+    t_s_ = t_s;
+    n_corrections_ = 0;
+    if (!laws_.empty()) begin_torque();
+  }
+
+  /// Is the residual before the last correction large in any lane? What is left after it is far
+  /// less. Plain loops here: Eigen's comparisons are not vectorised.
+  bool is_open() const {
+    constexpr double tolerance = 1e-5;
+    constexpr int most_corrections = 4;
+    if (laws_.empty() || n_corrections_ == most_corrections) return false;
+    int n_open = 0;
+    for (Eigen::Index i = 0; i < at_.size(); ++i)
+      n_open += std::abs(from_excess_(i)) > tolerance * std::abs(at_(i)) ? 1 : 0;
+    return n_open > 0;
+  }
+
+  void correct() {
+    ++n_corrections_;
+    const Lanes at_excess = law_moment(at_, false) - at_;
+    const Lanes slopes = (at_excess - from_excess_) / (at_ - from_);
+    from_ = at_;
+    from_excess_ = at_excess;
+    for (Eigen::Index i = 0; i < at_.size(); ++i) {
+      const bool usable = at_excess(i) != 0. && slopes(i) < 0.;
+      slope_(i) = usable ? slopes(i) : slope_(i);
+      at_(i) -= usable ? at_excess(i) / slope_(i) : 0.;
+    }
+  }
+
+  /// load gives the extra wind load for a rate of the joint moment. Returns the change at the base.
   template <typename Load>
-  JointIntegrator::AtBase advance(const Lanes& y, const Lanes& y_rate, const Lanes& t_s,
-                                  const Load& load) {
+  JointIntegrator::AtBase end(const Load& load) {
     if (laws_.empty()) {
       for (int pass = 0; pass < 2; ++pass)
-        external_ = load(y_rate + integrator_.elastic_rate(torque_, external_));
+        external_ = load(y_rate_ + integrator_.elastic_rate(torque_, external_));
       return integrator_.accept(torque_, external_);
     }
-    solve_torque(y, y_rate, t_s);
-    if (is_loaded_) external_ = load(y_rate + integrator_.elastic_rate(torque_, external_));
-    law_moment(y, y_rate, t_s, torque_, true);
+    torque_before_ = torque_;
+    torque_ = at_;
+    if (is_loaded_) external_ = load(y_rate_ + integrator_.elastic_rate(torque_, external_));
+    law_moment(torque_, true);
     return integrator_.accept(torque_, external_);
   }
 
@@ -42,45 +76,17 @@ class DifferenceIntegrator {
   /// The extra moment at the step's end acts back on the joint's rotation at once: a stiff law
   /// needs the solution of T = law(y(T)). Secant rule from the line through the steps before, with
   /// their slope.
-  void solve_torque(const Lanes& y, const Lanes& y_rate, const Lanes& t_s) {
-    Lanes from = 2. * torque_ - torque_before_;
-    Lanes from_excess = law_moment(y, y_rate, t_s, from, false) - from;
-    Lanes at = from - from_excess / slope_;
-    for (int i = 0; i < 4 && is_open(from_excess, at); ++i) {
-      const Lanes at_excess = law_moment(y, y_rate, t_s, at, false) - at;
-      take_secant(from, from_excess, at, at_excess);
-    }
-    torque_before_ = torque_;
-    torque_ = at;
+  void begin_torque() {
+    from_ = 2. * torque_ - torque_before_;
+    from_excess_ = law_moment(from_, false) - from_;
+    at_ = from_ - from_excess_ / slope_;
   }
 
-  /// Is the residual before the last correction large in any lane? What is left after it is far
-  /// less. Plain loops here: Eigen's comparisons are not vectorised.
-  static bool is_open(const Lanes& excess, const Lanes& at) {
-    constexpr double tolerance = 1e-5;
-    int n_open = 0;
-    for (Eigen::Index i = 0; i < excess.size(); ++i)
-      n_open += std::abs(excess(i)) > tolerance * std::abs(at(i)) ? 1 : 0;
-    return n_open > 0;
-  }
-
-  void take_secant(Lanes& from, Lanes& from_excess, Lanes& at, const Lanes& at_excess) {
-    const Lanes slopes = (at_excess - from_excess) / (at - from);
-    from = at;
-    from_excess = at_excess;
-    for (Eigen::Index i = 0; i < at.size(); ++i) {
-      const bool usable = at_excess(i) != 0. && slopes(i) < 0.;
-      slope_(i) = usable ? slopes(i) : slope_(i);
-      at(i) -= usable ? at_excess(i) / slope_(i) : 0.;
-    }
-  }
-
-  Lanes law_moment(const Lanes& y, const Lanes& y_rate, const Lanes& t_s, const Lanes& assumed,
-                   bool commit) {
-    const Lanes elastic = y + integrator_.elastic(assumed, external_);
-    const Lanes rate = y_rate + integrator_.elastic_rate(assumed, external_);
+  Lanes law_moment(const Lanes& assumed, bool commit) {
+    const Lanes elastic = y_ + integrator_.elastic(assumed, external_);
+    const Lanes rate = y_rate_ + integrator_.elastic_rate(assumed, external_);
     Lanes sum = Lanes::Zero();
-    for (const auto& law : laws_) sum += law->moment(elastic, rate, t_s, dt_, commit);
+    for (const auto& law : laws_) sum += law->moment(elastic, rate, t_s_, dt_, commit);
     return sum;
   }
 
@@ -90,26 +96,44 @@ class DifferenceIntegrator {
   std::vector<std::unique_ptr<JointLaw>> laws_;
   Lanes torque_ = Lanes::Zero(), torque_before_ = Lanes::Zero(), external_ = Lanes::Zero();
   Lanes slope_ = Lanes::Constant(-1.);  // of law(y(T)) - T, at the step before
+  // Of the step that has begun.
+  Lanes y_ = Lanes::Zero(), y_rate_ = Lanes::Zero(), t_s_ = Lanes::Zero();
+  Lanes from_ = Lanes::Zero(), from_excess_ = Lanes::Zero(), at_ = Lanes::Zero();
+  int n_corrections_ = 0;
 };
 
-/// Signals of the linear part on the fine grid, a lane for each record. Periodic records are in
-/// steady state: their last part goes before them.
+/// A record on the fine grid. Periodic records are in steady state: their last part goes before
+/// them.
+struct FineSignal {
+  std::vector<double> samples{};
+  std::size_t before = 0;
+};
+
+/// A lane for each record; nothing after its end.
+std::vector<Lanes> interleaved(const std::vector<FineSignal>& signals, std::size_t n_steps) {
+  std::vector<Lanes> out(n_steps);
+  for (std::size_t i = 0; i < n_steps; ++i) {
+    Lanes values = Lanes::Zero();
+    for (std::size_t lane = 0; lane < signals.size(); ++lane) {
+      const auto& [x, before] = signals[lane];
+      if (i < x.size() + before)
+        values(static_cast<Eigen::Index>(lane)) =
+            x[i < before ? x.size() - before + i : i - before];
+    }
+    out[i] = values;
+  }
+  return out;
+}
+
+/// Signals of the linear part.
 struct FineSignals {
-  explicit FineSignals(std::size_t n) : y(n, Lanes::Zero()), y_rate(n, Lanes::Zero()) {}
-  std::vector<Lanes> y, y_rate, wind, base_velocity;
+  std::vector<Lanes> y, y_rate, wind{}, base_velocity{};
   Lanes wind_share = Lanes::Zero();
 };
 
 std::size_t warm_up(const PreparedRecord& record, std::size_t factor) {
   const std::size_t n = record.n_samples * factor;
   return record.periodic ? n - n / 2 : 0;
-}
-
-void fill_lane(std::vector<Lanes>& lanes, std::size_t lane, const std::vector<double>& x,
-               std::size_t before) {
-  const std::size_t n = x.size(), first = n - before;
-  for (std::size_t i = 0; i < n + before; ++i)
-    lanes[i](static_cast<Eigen::Index>(lane)) = x[i < before ? first + i : i - before];
 }
 
 std::vector<Complex> base_velocity(const PreparedRecord& record) {
@@ -121,20 +145,34 @@ std::vector<Complex> base_velocity(const PreparedRecord& record) {
   return velocity;
 }
 
-void fill(FineSignals& fine, const Chain& chain, std::size_t lane, const ElasticMoment& elastic,
-          std::size_t factor) {
-  const PreparedRecord& record = *elastic.record;
-  const std::size_t n = record.n_samples, before = warm_up(record, factor);
-  fill_lane(fine.y, lane, upsampled(elastic.spectrum, n, factor), before);
-  std::vector<Complex> rate = elastic.spectrum;
-  for (std::size_t k = 0; k < rate.size(); ++k) rate[k] *= record.line_s(k);
-  fill_lane(fine.y_rate, lane, upsampled(rate, n, factor), before);
-  if (!chain.relative_wind.on || record.wind.empty()) return;
-  fine.wind.resize(fine.y.size(), Lanes::Zero());
-  fine.base_velocity.resize(fine.y.size(), Lanes::Zero());
-  fine.wind_share(static_cast<Eigen::Index>(lane)) = record.wind_share;
-  fill_lane(fine.wind, lane, upsampled(spectrum_of(record.wind), n, factor), before);
-  fill_lane(fine.base_velocity, lane, upsampled(base_velocity(record), n, factor), before);
+FineSignals fine_signals(const Chain& chain, std::span<const ElasticMoment> elastic,
+                         std::size_t factor, std::size_t n_steps) {
+  std::vector<FineSignal> y, y_rate, wind, base;
+  Lanes wind_share = Lanes::Zero();
+  bool any_wind = false;
+  for (std::size_t lane = 0; lane < elastic.size(); ++lane) {
+    const PreparedRecord& record = *elastic[lane].record;
+    const std::size_t n = record.n_samples, before = warm_up(record, factor);
+    y.push_back({upsampled(elastic[lane].spectrum, n, factor), before});
+    std::vector<Complex> rate = elastic[lane].spectrum;
+    for (std::size_t k = 0; k < rate.size(); ++k) rate[k] *= record.line_s(k);
+    y_rate.push_back({upsampled(rate, n, factor), before});
+    wind.emplace_back();
+    base.emplace_back();
+    if (!chain.relative_wind.on || record.wind.empty()) continue;
+    any_wind = true;
+    wind_share(static_cast<Eigen::Index>(lane)) = record.wind_share;
+    wind.back() = {upsampled(spectrum_of(record.wind), n, factor), before};
+    base.back() = {upsampled(base_velocity(record), n, factor), before};
+  }
+  FineSignals out{.y = interleaved(y, n_steps),
+                  .y_rate = interleaved(y_rate, n_steps),
+                  .wind_share = wind_share};
+  if (any_wind) {
+    out.wind = interleaved(wind, n_steps);
+    out.base_velocity = interleaved(base, n_steps);
+  }
+  return out;
 }
 
 /// 25 points a period of the first mode keep the exponential rule's error below half a percent of
@@ -144,54 +182,125 @@ std::size_t refinement(const JointModel& joint, double sampling_rate_hz) {
   return static_cast<std::size_t>(std::clamp(std::ceil(wanted_hz / sampling_rate_hz), 1., 16.));
 }
 
-/// Records of one sampling rate, no more than there are lanes.
-std::vector<std::vector<double>> side_by_side(const Chain& chain, const JointModel& joint,
-                                              std::span<const ElasticMoment> elastic) {
-  const double rate_hz = elastic.front().record->sampling_rate_hz;
-  const std::size_t factor = refinement(joint, rate_hz);
-  std::size_t n_steps = 0;
-  Lanes start = Lanes::Zero(), number = Lanes::Zero();
+/// Records of one sampling rate under one chain, no more than there are lanes.
+class SideBySide {
+ public:
+  SideBySide(const DynamicTask& task, std::span<const ElasticMoment> elastic)
+      : rate_hz_(elastic.front().record->sampling_rate_hz),
+        factor_(refinement(*task.joint, rate_hz_)),
+        dt_(1. / (rate_hz_ * static_cast<double>(factor_))),
+        elastic_(elastic),
+        fine_(fine_signals(*task.chain, elastic, factor_, n_fine_steps())),
+        integrator_(*task.chain, *task.joint, record_numbers(), dt_),
+        velocity_per_rate_(task.chain->relative_wind.velocity_per_moment_rate) {
+    for (std::size_t lane = 0; lane < elastic.size(); ++lane) {
+      const PreparedRecord& record = *elastic[lane].record;
+      const std::size_t before = warm_up(record, factor_);
+      start_(static_cast<Eigen::Index>(lane)) = static_cast<double>(before);
+      next_[lane] = {before, 0};
+      samples_.emplace_back(record.n_samples);
+    }
+    wind_gain_ =
+        fine_.wind_share * task.chain->structure.modes.front().wind_gain * task.chain->drag_factor;
+  }
+
+  std::size_t n_steps() const { return fine_.y.size(); }
+
+  void begin(std::size_t i) {
+    // A record's own clock starts at its first sample: before it slow changes stand still.
+    const Lanes t_s = (static_cast<double>(i) - start_).max(0.) * dt_;
+    integrator_.begin(fine_.y[i], fine_.y_rate[i], t_s);
+  }
+
+  bool correct() {
+    if (!integrator_.is_open()) return false;
+    integrator_.correct();
+    return true;
+  }
+
+  void end(std::size_t i) {
+    const auto load = [&](const Lanes& rate) -> Lanes {
+      if (fine_.wind.empty()) return Lanes::Zero();
+      const Lanes& u = fine_.wind[i];
+      const Lanes felt = u - fine_.base_velocity[i] - velocity_per_rate_ * rate;
+      return wind_gain_ * (felt * felt.abs() - u * u.abs());
+    };
+    const JointIntegrator::AtBase added = integrator_.end(load);
+    for (std::size_t lane = 0; lane < elastic_.size(); ++lane) {
+      Next& next = next_[lane];
+      if (i != next.step || next.sample == samples_[lane].size()) continue;
+      const bool rotation = elastic_[lane].record->readout == signals::Readout::rotation;
+      samples_[lane][next.sample++] =
+          (rotation ? added.elastic : added.moment)(static_cast<Eigen::Index>(lane));
+      next.step += factor_;
+    }
+  }
+
+  std::vector<std::vector<double>> take_samples() { return std::move(samples_); }
+
+ private:
   struct Next {
     std::size_t step = 0, sample = 0;
   };
-  std::array<Next, n_lanes> next{};  // where each record is sampled next
-  std::vector<std::vector<double>> out;
-  for (std::size_t lane = 0; lane < elastic.size(); ++lane) {
-    const PreparedRecord& record = *elastic[lane].record;
-    const std::size_t before = warm_up(record, factor);
-    start(static_cast<Eigen::Index>(lane)) = static_cast<double>(before);
-    next[lane] = {before, 0};
-    number(static_cast<Eigen::Index>(lane)) = static_cast<double>(record.number);
-    n_steps = std::max(n_steps, before + record.n_samples * factor);
-    out.emplace_back(record.n_samples);
+
+  std::size_t n_fine_steps() const {
+    std::size_t n = 0;
+    for (const ElasticMoment& e : elastic_)
+      n = std::max(n, warm_up(*e.record, factor_) + e.record->n_samples * factor_);
+    return n;
   }
-  FineSignals fine(n_steps);
-  for (std::size_t lane = 0; lane < elastic.size(); ++lane)
-    fill(fine, chain, lane, elastic[lane], factor);
-  const double dt = 1. / (rate_hz * static_cast<double>(factor));
-  DifferenceIntegrator integrator(chain, joint, number, dt);
-  const double velocity_per_rate = chain.relative_wind.velocity_per_moment_rate;
-  const Lanes wind_gain =
-      fine.wind_share * chain.structure.modes.front().wind_gain * chain.drag_factor;
-  for (std::size_t i = 0; i < n_steps; ++i) {
-    const auto load = [&](const Lanes& rate) -> Lanes {
-      if (fine.wind.empty()) return Lanes::Zero();
-      const Lanes& u = fine.wind[i];
-      const Lanes felt = u - fine.base_velocity[i] - velocity_per_rate * rate;
-      return wind_gain * (felt * felt.abs() - u * u.abs());
-    };
-    // A record's own clock starts at its first sample: before it slow changes stand still.
-    const Lanes t_s = (static_cast<double>(i) - start).max(0.) * dt;
-    const auto added = integrator.advance(fine.y[i], fine.y_rate[i], t_s, load);
-    for (std::size_t lane = 0; lane < elastic.size(); ++lane)
-      if (i == next[lane].step && next[lane].sample < out[lane].size()) {
-        const bool rotation = elastic[lane].record->readout == signals::Readout::rotation;
-        out[lane][next[lane].sample++] =
-            (rotation ? added.elastic : added.moment)(static_cast<Eigen::Index>(lane));
-        next[lane].step += factor;
-      }
+
+  Lanes record_numbers() const {
+    Lanes number = Lanes::Zero();
+    for (std::size_t lane = 0; lane < elastic_.size(); ++lane)
+      number(static_cast<Eigen::Index>(lane)) = static_cast<double>(elastic_[lane].record->number);
+    return number;
+  }
+
+  double rate_hz_;
+  std::size_t factor_;
+  double dt_;
+  std::span<const ElasticMoment> elastic_;
+  FineSignals fine_;
+  DifferenceIntegrator integrator_;
+  double velocity_per_rate_;
+  Lanes start_ = Lanes::Zero(), wind_gain_ = Lanes::Zero();
+  std::array<Next, n_lanes> next_{};  // where each record is sampled next
+  std::vector<std::vector<double>> samples_;
+};
+
+/// The records of a task, in its order.
+std::vector<SideBySide> in_lanes(const DynamicTask& task) {
+  std::vector<SideBySide> out;
+  std::span<const ElasticMoment> left = task.elastic;
+  while (!left.empty()) {
+    const double rate_hz = left.front().record->sampling_rate_hz;
+    const auto other = std::find_if(left.begin(), left.end(), [&](const ElasticMoment& e) {
+      return e.record->sampling_rate_hz != rate_hz;
+    });
+    const std::size_t n =
+        std::min(n_lanes, static_cast<std::size_t>(std::distance(left.begin(), other)));
+    out.emplace_back(task, left.first(n));
+    left = left.subspan(n);
   }
   return out;
+}
+
+void step_in_turn(std::span<SideBySide> runs) {
+  std::size_t n_steps = 0;
+  for (const SideBySide& run : runs) n_steps = std::max(n_steps, run.n_steps());
+  const auto for_each = [&](std::size_t i, const auto& work) {
+    for (SideBySide& run : runs)
+      if (i < run.n_steps()) work(run);
+  };
+  for (std::size_t i = 0; i < n_steps; ++i) {
+    for_each(i, [&](SideBySide& run) { run.begin(i); });
+    for (bool open = true; open;) {
+      open = false;
+      for_each(i, [&](SideBySide& run) { open = run.correct() || open; });
+    }
+    for_each(i, [&](SideBySide& run) { run.end(i); });
+  }
 }
 
 }  // namespace
@@ -204,20 +313,19 @@ bool is_dynamic(const Chain& chain, const PreparedRecord& record) {
   return !chain.joint.empty() || (chain.relative_wind.on && !record.wind.empty());
 }
 
-std::vector<std::vector<double>> dynamic_parts(const Chain& chain, const JointModel& joint,
-                                               std::span<const ElasticMoment> elastic) {
-  std::vector<std::vector<double>> out;
-  while (!elastic.empty()) {
-    const double rate_hz = elastic.front().record->sampling_rate_hz;
-    const auto other = std::find_if(elastic.begin(), elastic.end(), [&](const ElasticMoment& e) {
-      return e.record->sampling_rate_hz != rate_hz;
-    });
-    const std::size_t n =
-        std::min(n_lanes, static_cast<std::size_t>(std::distance(elastic.begin(), other)));
-    for (std::vector<double>& part : side_by_side(chain, joint, elastic.first(n)))
-      out.push_back(std::move(part));
-    elastic = elastic.subspan(n);
-  }
+std::vector<std::vector<std::vector<double>>> dynamic_parts(std::span<const DynamicTask> tasks) {
+  std::vector<SideBySide> runs;
+  std::vector<std::size_t> task_of_run;
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    for (SideBySide& run : in_lanes(tasks[i])) {
+      runs.push_back(std::move(run));
+      task_of_run.push_back(i);
+    }
+  step_in_turn(runs);
+  std::vector<std::vector<std::vector<double>>> out(tasks.size());
+  for (std::size_t j = 0; j < runs.size(); ++j)
+    for (std::vector<double>& samples : runs[j].take_samples())
+      out[task_of_run[j]].push_back(std::move(samples));
   return out;
 }
 

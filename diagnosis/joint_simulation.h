@@ -23,11 +23,19 @@ struct ElasticMoment {
   std::vector<Complex> spectrum;
 };
 
+/// What the simulation of one chain's dynamic parts takes; what it points at must outlive it.
+struct DynamicTask {
+  const Chain* chain = nullptr;
+  const JointModel* joint = nullptr;
+  std::vector<ElasticMoment> elastic{};
+};
+
 /// What joint laws and relative wind add to the base moments before the sensor [N m], or, under the
-/// readout rotation, to the joint's elastic moments, at the records' samples. Integrated on a finer
-/// grid with a second-order exponential rule, records side by side; the joint's law is solved
-/// implicitly. Proven by tests/diagnosis/chain_simulation_test.cc.
-std::vector<std::vector<double>> dynamic_parts(const Chain& chain, const JointModel& joint,
-                                               std::span<const ElasticMoment> elastic);
+/// readout rotation, to the joint's elastic moments, at the records' samples: [task][record].
+/// Integrated on a finer grid with a second-order exponential rule, records side by side; the
+/// joint's law is solved implicitly. Tasks are stepped in turn: a step is a chain of dependent
+/// operations, and the processor fills the waiting of one with another. Proven by
+/// tests/diagnosis/chain_simulation_test.cc.
+std::vector<std::vector<std::vector<double>>> dynamic_parts(std::span<const DynamicTask> tasks);
 
 }  // namespace vibrissa::diagnosis

@@ -84,6 +84,21 @@ bool leaves_too_much(const HypothesisFit& fit) {
          foretells_its_noise(fit);
 }
 
+/// Stands a fit, for all that it holds, where a larger one does?
+bool stands_alike(const HypothesisFit& part, const HypothesisFit& whole) {
+  constexpr double n_deviations = 2.;
+  for (std::size_t i = 0; i < part.figures.size(); ++i) {
+    const FreeFigure& figure = part.figures[i];
+    if (figure.effect == nullptr) continue;
+    const auto there = whole.place(figure.effect->id, figure.parameter);
+    if (!there) return false;
+    const auto place = static_cast<Eigen::Index>(i);
+    const double moved = whole.x(static_cast<Eigen::Index>(*there)) - part.x(place);
+    if (std::abs(moved) > n_deviations * std::sqrt(part.covariance(place, place))) return false;
+  }
+  return true;
+}
+
 class Searcher {
  public:
   Searcher(const Experiment& experiment, const SearchOptions& options)
@@ -124,18 +139,21 @@ class Searcher {
     Hypothesis hypothesis;
     std::optional<std::size_t> start;  // number of a fit
     std::optional<Further> further{};
+    bool in_brief = false;  // from one start alone
   };
 
   void fit_all(const std::vector<Task>& tasks) {
     const std::size_t first = fits_.size();
     fits_.resize(first + tasks.size());
     // Known before any of them runs: which thread is first must not matter.
-    const FitOptions fit_options{.to_beat = best_log_posterior_};
+    const double to_beat = best_log_posterior_;
     for_each_parallel(tasks.size(), options_.n_threads, [&](std::size_t i) {
       const HypothesisFit* start = tasks[i].start ? &fits_[*tasks[i].start] : nullptr;
       std::optional<FurtherStart> also;
       if (const auto& further = tasks[i].further)
         also = {&fits_[further->without], further->effect, further->resemblance.values};
+      const FitOptions fit_options{.to_beat = to_beat,
+                                   .n_promising = tasks[i].in_brief ? std::size_t{1} : 2};
       fits_[first + i] = fit_hypothesis(experiment_, tasks[i].hypothesis, start, fit_options, also);
       const std::lock_guard lock(mutex_);
       if (options_.on_fit) options_.on_fit();
@@ -164,7 +182,8 @@ class Searcher {
     for (const std::size_t base : bases)
       for (const Effect* effect : fits_[base].hypothesis.effects()) {
         const auto found = known_.find(fits_[base].hypothesis.without(*effect).name());
-        if (found != known_.end()) again.emplace_back(found->second, base);
+        if (found != known_.end() && !stands_alike(fits_[found->second], fits_[base]))
+          again.emplace_back(found->second, base);
       }
     std::vector<HypothesisFit> refined(again.size());
     for_each_parallel(again.size(), options_.n_threads, [&](std::size_t i) {
@@ -249,12 +268,16 @@ class Searcher {
     keep_first(bases, size == 2 ? n_extended : n_extended / 2);
     std::vector<Task> tasks;
     std::set<std::string> names;
-    for (const std::size_t base : bases)
+    for (const std::size_t base : bases) {
+      const bool in_brief = explains_little(base);
       for (Partner& partner : partners(base)) {
         const Hypothesis joint = fits_[base].hypothesis.with(*partner.effect);
+        // What the best one gains beside it, its own partners tell.
+        if (in_brief && (is_hopeless(base, partner.gain) || holds(joint, bases.front()))) continue;
         if (known_.count(joint.name()) != 0 || !names.insert(joint.name()).second) continue;
-        tasks.push_back({joint, base, std::move(partner.further)});
+        tasks.push_back({joint, base, std::move(partner.further), in_brief});
       }
+    }
     return tasks;
   }
 
@@ -263,6 +286,26 @@ class Searcher {
     const Effect* effect = nullptr;
     std::optional<Further> further{};
   };
+
+  bool holds(const Hypothesis& hypothesis, std::size_t fit) const {
+    const auto& parts = fits_[fit].hypothesis.effects();
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](const Effect* part) { return hypothesis.contains(part->id); });
+  }
+
+  /// Does a fit explain little of what the best one does, and is that far from it?
+  bool explains_little(std::size_t base) const {
+    constexpr double little = 0.3, far_nats = 300.;
+    const double behind = best_log_posterior_ - fits_[base].log_posterior,
+                 whole = best_log_posterior_ - fits_.front().log_posterior;
+    return behind > far_nats && behind > (1. - little) * whole;
+  }
+
+  /// Would a partner not help by far, to first order? gain: twice its log likelihood.
+  bool is_hopeless(std::size_t base, double gain) const {
+    constexpr double n_first_orders = 20.;
+    return best_log_posterior_ - fits_[base].log_posterior > n_first_orders * 0.5 * gain;
+  }
 
   std::vector<Partner> partners(std::size_t base) {
     const HypothesisFit& fit = fits_[base];

@@ -297,5 +297,26 @@ TEST(SimulateChain, RecordsSideBySideAreAsRecordsAlone) {
   }
 }
 
+TEST(SimulateChain, ChainsPredictedTogetherAreAsEachAlone) {
+  const Experiment experiment = prepare_experiment(
+      test::nominal_of(test::OneModeRig{}, true),
+      test::rig_dataset(test::noisy_rig(), {.wind = true}), Split::fit, InputNoise::reduced);
+  std::vector<Chain> chains;
+  for (const std::vector<const char*>& ids : std::vector<std::vector<const char*>>{
+           {"joint_friction"}, {"delay"}, {"backlash", "relative_drag"}, {"relative_drag"}}) {
+    chains.push_back(experiment.nominal_chain());
+    for (const char* id : ids)
+      find_effect(id).extend(chains.back(), find_effect(id).starts.front(), experiment.scales);
+  }
+  const auto together = predict_together(chains, experiment.records);
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const auto alone = ChainSimulator(chains[i]).predict(experiment.records);
+    for (std::size_t r = 0; r < alone.size(); ++r) {
+      EXPECT_EQ(together[i][r].mean, alone[r].mean) << i << " " << experiment.records[r].name;
+      EXPECT_EQ(together[i][r].own_noise, alone[r].own_noise);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis
