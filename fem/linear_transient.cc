@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/cholesky_solver.h"
 #include "fem/damping.h"
 #include "fem/generalized_alpha.h"
 #include "fem/internal_force.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fem/cell_elasticity.h"
-#include "fem/linear_algebra.h"
+#include "fem/cholesky_solver.h"
 #include "fem/node_rows.h"
 #include "fem/solid_space.h"
 
