@@ -41,17 +41,6 @@ void zero_entries(Vector& vector, const dealii::IndexSet& entries) {
   vector.compress(dealii::VectorOperation::insert);
 }
 
-std::unique_ptr<Matrix> combine(const double a, const Matrix& x, const double b, const Matrix& y) {
-  auto sum = std::make_unique<Matrix>();
-  sum->reinit(x);
-  sum->copy_from(x);
-  const Mat raw = *sum;
-  check_petsc(MatScale(raw, a), "MatScale");
-  const Mat raw_y = y;
-  check_petsc(MatAXPY(raw, b, raw_y, SUBSET_NONZERO_PATTERN), "MatAXPY");
-  return sum;
-}
-
 DenseView::DenseView(const Columns& columns, MPI_Comm communicator) {
   check_petsc(MatCreateDense(communicator, static_cast<PetscInt>(columns.rows()), PETSC_DECIDE,
                              PETSC_DETERMINE, static_cast<PetscInt>(columns.cols()),

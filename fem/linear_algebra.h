@@ -40,9 +40,6 @@ std::unique_ptr<Matrix> with_clamped_rows(const Matrix& matrix, const dealii::In
 /// Sets the given (owned) entries to zero.
 void zero_entries(Vector& vector, const dealii::IndexSet& entries);
 
-/// a x + b y; the pattern of y must lie within that of x.
-std::unique_ptr<Matrix> combine(double a, const Matrix& x, double b, const Matrix& y);
-
 /// The entries that this process owns, in order.
 Eigen::VectorXd owned_entries(const Vector& vector);
 void set_owned_entries(const Eigen::VectorXd& entries, Vector& vector);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "fem/cell_elasticity.h"
@@ -28,6 +29,8 @@ class TangentMatrix {
   void finish(double diagonal_of_held = 1.);
 
   const Matrix& matrix() const { return *matrix_; }
+  /// The matrix, of which nothing is left here.
+  std::unique_ptr<Matrix> release() { return std::move(matrix_); }
 
  private:
   static constexpr auto n_nodes = SolidSpace::nodes_per_cell;
