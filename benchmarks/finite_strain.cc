@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fem/calculix_file.h"
+#include "fem/cholesky_solver.h"
 #include "fem/internal_force.h"
 #include "fem/nonlinear_transient.h"
 #include "fem/sensor.h"

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "fem/cholesky_solver.h"
 #include "fem/internal_force.h"
 #include "fem/processes.h"
 #include "fem/solid_operators.h"

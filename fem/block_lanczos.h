@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fem/linear_algebra.h"
+#include "fem/cholesky_solver.h"
 
 namespace vibrissa::fem {
 

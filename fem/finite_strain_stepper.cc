@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "fem/cholesky_solver.h"
 #include "fem/internal_force.h"
 #include "fem/low_rank_damping.h"
 #include "fem/tangent_matrix.h"

@@ -1,5 +1,7 @@
 #include "fem/linear_deflection.h"
 
+#include "fem/cholesky_solver.h"
+
 namespace vibrissa::fem {
 
 Vector linear_deflection(const Sensor& sensor,

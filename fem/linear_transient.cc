@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "fem/cholesky_solver.h"
 #include "fem/damping.h"
 #include "fem/generalized_alpha.h"
 #include "fem/internal_force.h"
@@ -78,9 +79,9 @@ class LinearStepper : public DrivenSensor {
         alpha_(options.spectral_radius),
         dt_(1. / (input.sampling_rate_hz * options.substeps)),
         damping_(space_, sensor.operators(), sensor.modes(), sensor.damping_ratios()),
-        system_(combine((1. - alpha_.alpha_f) * alpha_.beta * dt_ * dt_,
-                        *sensor.operators().clamped_stiffness, 1. - alpha_.alpha_m,
-                        *sensor.operators().clamped_mass)),
+        system_(stiffness_with_mass(space_, sensor.operators(),
+                                    (1. - alpha_.alpha_f) * alpha_.beta * dt_ * dt_,
+                                    1. - alpha_.alpha_m)),
         solver_(sensor, *system_, undamped_product(), damping_,
                 (1. - alpha_.alpha_f) * alpha_.gamma * dt_) {
     for (Vector* v : {&state_.displacement, &state_.velocity, &state_.acceleration, &algorithmic_,

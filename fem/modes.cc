@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fem/block_lanczos.h"
+#include "fem/cholesky_solver.h"
 #include "fem/eigenpair_refinement.h"
 #include "fem/internal_force.h"
 #include "signals/error.h"

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "fem/secant_memory.h"
+#include "fem/sparse_factors.h"
 
 namespace vibrissa::fem {
 

@@ -85,8 +85,8 @@ std::array<std::size_t, nodes_per_cell> NodePattern::places(const PetscInt row,
 
 namespace {
 
-// `each` entries of a row for every neighbour.
-Mat preallocated(const NodePattern& pattern, const PetscInt each, MPI_Comm communicator) {
+// An entry of a row for every neighbour.
+Mat preallocated(const NodePattern& pattern, MPI_Comm communicator) {
   const PetscInt n = 3 * pattern.n_rows();
   std::vector<PetscInt> own, foreign;
   for (PetscInt row = 0; row < pattern.n_rows(); ++row) {
@@ -94,8 +94,8 @@ Mat preallocated(const NodePattern& pattern, const PetscInt each, MPI_Comm commu
     for (auto entry = pattern.start(row); entry < pattern.start(row + 1); ++entry) {
       if (pattern.owns(pattern.neighbour(entry))) ++n_own;
     }
-    own.insert(own.end(), 3, each * n_own);
-    foreign.insert(foreign.end(), 3, each * (static_cast<PetscInt>(pattern.length(row)) - n_own));
+    own.insert(own.end(), 3, n_own);
+    foreign.insert(foreign.end(), 3, static_cast<PetscInt>(pattern.length(row)) - n_own);
   }
   Mat raw = nullptr;
   check_petsc(MatCreate(communicator, &raw), "MatCreate");
@@ -127,29 +127,10 @@ std::unique_ptr<Matrix> wrapped(const Mat raw, MPI_Comm communicator) {
   return matrix;
 }
 
-NodeRows::NodeRows(const NodePattern& pattern, const Coupling coupling)
-    : pattern_(pattern),
-      coupling_(coupling),
-      values_(pattern.n_entries() * (coupling == Coupling::all_components ? 9 : 1), 0.) {}
-
-void NodeRows::add(const CellNodes& nodes, const ElementMatrices::CellMatrix& cell) {
-  assert(coupling_ == Coupling::all_components);
-  for (std::size_t i = 0; i < nodes_per_cell; ++i) {
-    if (!pattern_.owns(nodes[i])) continue;
-    const auto row = pattern_.row_of(nodes[i]);
-    const auto places = pattern_.places(row, nodes);
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double* from = cell.data() + (3 * i + a) * SolidSpace::dofs_per_cell;
-      double* to = values_.data() + 9 * pattern_.start(row) + 3 * a * pattern_.length(row);
-      for (std::size_t j = 0; j < nodes_per_cell; ++j) {
-        for (std::size_t b = 0; b < 3; ++b) to[3 * places[j] + b] += from[3 * j + b];
-      }
-    }
-  }
-}
+NodeRows::NodeRows(const NodePattern& pattern)
+    : pattern_(pattern), values_(pattern.n_entries(), 0.) {}
 
 void NodeRows::add(const CellNodes& nodes, const ElementMatrices::NodeMatrix& cell) {
-  assert(coupling_ == Coupling::each_component_alone);
   for (std::size_t i = 0; i < nodes_per_cell; ++i) {
     if (!pattern_.owns(nodes[i])) continue;
     const auto row = pattern_.row_of(nodes[i]);
@@ -161,29 +142,19 @@ void NodeRows::add(const CellNodes& nodes, const ElementMatrices::NodeMatrix& ce
 }
 
 std::unique_ptr<Matrix> NodeRows::matrix(MPI_Comm communicator) const {
-  const bool all = coupling_ == Coupling::all_components;
-  const Mat raw = preallocated(pattern_, all ? 3 : 1, communicator);
+  const Mat raw = preallocated(pattern_, communicator);
   auto matrix = wrapped(raw, communicator);
   std::vector<PetscInt> columns;
   PetscInt unknown = 0;
   check_petsc(MatGetOwnershipRange(raw, &unknown, nullptr), "MatGetOwnershipRange");
   for (PetscInt row = 0; row < pattern_.n_rows(); ++row) {
-    const auto length = pattern_.length(row);
-    const double* values = values_.data() + (all ? 9 : 1) * pattern_.start(row);
     for (PetscInt a = 0; a < 3; ++a, ++unknown) {
       columns.clear();
-      for (auto entry = pattern_.start(row); entry < pattern_.start(row + 1); ++entry) {
-        const PetscInt column = 3 * pattern_.neighbour(entry);
-        if (all) {
-          columns.insert(columns.end(), {column, column + 1, column + 2});
-        } else {
-          columns.push_back(column + a);
-        }
-      }
+      for (auto entry = pattern_.start(row); entry < pattern_.start(row + 1); ++entry)
+        columns.push_back(3 * pattern_.neighbour(entry) + a);
       check_petsc(MatSetValues(raw, 1, &unknown, static_cast<PetscInt>(columns.size()),
-                               columns.data(), values, INSERT_VALUES),
+                               columns.data(), values_.data() + pattern_.start(row), INSERT_VALUES),
                   "MatSetValues");
-      if (all) values += 3 * length;
     }
   }
   matrix->compress(dealii::VectorOperation::insert);

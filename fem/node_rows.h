@@ -43,24 +43,20 @@ class NodePattern {
   std::vector<PetscInt> neighbours_;  // ascending within a row
 };
 
-/// Sums the cells' matrices in rows of nodes, without a look-up for every single entry, and hands
-/// them over to PETSc in one piece. Cells are added by every process that owns one of their nodes.
+/// Sums the cells' matrices of one component in rows of nodes, without a look-up for every single
+/// entry, and hands them over to PETSc in one piece, the same for each of the three components,
+/// which do not couple. Cells are added by every process that owns one of their nodes.
 /// Proven by tests/fem/node_rows_test.cc.
 class NodeRows {
  public:
-  enum class Coupling { all_components, each_component_alone };
-  NodeRows(const NodePattern& pattern, Coupling coupling);
+  explicit NodeRows(const NodePattern& pattern);
 
-  /// All components couple: unknowns 3 node + component.
-  void add(const CellNodes& nodes, const ElementMatrices::CellMatrix& cell);
-  /// Each component alone, all with the same values.
   void add(const CellNodes& nodes, const ElementMatrices::NodeMatrix& cell);
   std::unique_ptr<Matrix> matrix(MPI_Comm communicator) const;
 
  private:
   const NodePattern& pattern_;
-  Coupling coupling_;
-  std::vector<double> values_;  // in the order of the matrix; each component alone: once for all
+  std::vector<double> values_;  // in the order of the pattern
 };
 
 }  // namespace vibrissa::fem

@@ -3,6 +3,7 @@
 #include "fem/element_matrices.h"
 #include "fem/internal_force.h"
 #include "fem/node_rows.h"
+#include "fem/tangent_matrix.h"
 #include "meshes/regions.h"
 #include "signals/error.h"
 
@@ -25,12 +26,10 @@ const materials::Material& material_of(const std::map<std::string, materials::Ma
 SolidOperators assemble_operators(const SolidSpace& space,
                                   const std::map<std::string, materials::Material>& materials) {
   const NodePattern pattern(space);
-  NodeRows stiffness_rows(pattern, NodeRows::Coupling::all_components);
-  NodeRows mass_rows(pattern, NodeRows::Coupling::each_component_alone);
+  NodeRows mass_rows(pattern);
   SolidOperators operators;
   const auto internal_force = std::make_shared<InternalForce>(space, materials);
   ElementMatrices element(space);
-  ElementMatrices::CellMatrix stiffness;
   ElementMatrices::NodeMatrix mass;
   for (const auto& cell : space.dofs().active_cell_iterators()) {
     if (cell->is_artificial()) continue;
@@ -38,19 +37,26 @@ SolidOperators assemble_operators(const SolidSpace& space,
     const auto& material = material_of(materials, region);
     const CellNodes nodes = nodes_of(space, cell);
     element.reinit(cell);
-    element.stiffness(material, stiffness);
-    stiffness_rows.add(nodes, stiffness);
     element.mass(material.density, mass);
     mass_rows.add(nodes, mass);
     internal_force->append(nodes, region, element.integrals(), cell->is_locally_owned());
   }
   operators.internal_force = internal_force;
-  const auto communicator = space.dofs().get_communicator();
-  operators.mass = mass_rows.matrix(communicator);
+  operators.mass = mass_rows.matrix(space.dofs().get_communicator());
   operators.clamped_mass = with_clamped_rows(*operators.mass, space.clamped(), 0.);
-  operators.clamped_stiffness = stiffness_rows.matrix(communicator);
-  clamp_rows(*operators.clamped_stiffness, space.clamped(), 1.);
+  operators.clamped_stiffness = stiffness_with_mass(space, operators, 1., 0.);
   return operators;
+}
+
+std::unique_ptr<Matrix> stiffness_with_mass(const SolidSpace& space,
+                                            const SolidOperators& operators, const double stiffness,
+                                            const double mass) {
+  TangentMatrix sum(space, *operators.mass, space.clamped());
+  const Vector rest = space.make_vector();
+  sum.start(mass);
+  operators.internal_force->add_tangent(stiffness, rest, rest, sum);
+  sum.finish();
+  return sum.release();
 }
 
 }  // namespace vibrissa::fem

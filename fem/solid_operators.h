@@ -17,7 +17,7 @@ class InternalForce;
 struct SolidOperators {
   std::unique_ptr<Matrix> mass;
   std::shared_ptr<const InternalForce> internal_force;  // K u of all rows, without loss of balance
-  std::unique_ptr<Matrix> clamped_stiffness;            // clamp: unit diagonal
+  std::unique_ptr<Matrix> clamped_stiffness;            // clamp: unit diagonal; upper triangle
   std::unique_ptr<Matrix> clamped_mass;                 // clamp: zero
 };
 
@@ -25,5 +25,10 @@ struct SolidOperators {
 /// mesh without material.
 SolidOperators assemble_operators(const SolidSpace& space,
                                   const std::map<std::string, materials::Material>& materials);
+
+/// stiffness * K + mass * M, the clamp's rows and columns unit ones; as the upper triangle.
+std::unique_ptr<Matrix> stiffness_with_mass(const SolidSpace& space,
+                                            const SolidOperators& operators, double stiffness,
+                                            double mass);
 
 }  // namespace vibrissa::fem

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fem/cholesky_solver.h"
 #include "fem/internal_force.h"
 #include "signals/number_text.h"
 

@@ -79,16 +79,25 @@ void TangentMatrix::find_held(const dealii::IndexSet& held) {
   Vector mark = space_.make_vector();
   for (const auto i : held) mark[i] = 1.;
   mark.compress(dealii::VectorOperation::insert);
+  const Eigen::VectorXd own = owned_entries(mark);
   const Vector ghosted = space_.make_ghosted(mark);
-  const auto is_held = [&](const PetscInt node, const std::size_t c) {
-    return ghosted(3 * static_cast<dealii::types::global_dof_index>(node) + c) != 0.;
+  const auto marks = [&](const PetscInt node) -> Eigen::Vector3d {
+    const Eigen::Index row = node - first_row_;
+    if (row >= 0 && 3 * row < own.size()) return own.segment<3>(3 * row);
+    const auto first = 3 * static_cast<dealii::types::global_dof_index>(node);
+    return {ghosted(first), ghosted(first + 1), ghosted(first + 2)};
   };
   for (std::size_t row = 0; row + 1 < start_.size(); ++row) {
     const PetscInt node = first_row_ + static_cast<PetscInt>(row);
+    const Eigen::Vector3d of_row = marks(node);
     for (auto block = start_[row]; block < start_[row + 1]; ++block) {
+      const Eigen::Vector3d of_column = marks(columns_[block]);
+      if (of_row.isZero(0.) && of_column.isZero(0.)) continue;
       for (std::size_t a = 0; a < 3; ++a) {
         for (std::size_t b = 0; b < 3; ++b) {
-          if (!is_held(node, a) && !is_held(columns_[block], b)) continue;
+          if (of_row[static_cast<Eigen::Index>(a)] == 0. &&
+              of_column[static_cast<Eigen::Index>(b)] == 0.)
+            continue;
           held_.push_back(9 * block + 3 * b + a);
           if (columns_[block] == node && a == b) diagonal_of_held_.push_back(held_.back());
         }

@@ -3,10 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "fem/cell_elasticity.h"
-#include "fem/linear_algebra.h"
+#include "fem/cholesky_solver.h"
 #include "fem/node_rows.h"
 #include "fem/solid_space.h"
 
@@ -28,6 +29,8 @@ class TangentMatrix {
   void finish(double diagonal_of_held = 1.);
 
   const Matrix& matrix() const { return *matrix_; }
+  /// The matrix, of which nothing is left here.
+  std::unique_ptr<Matrix> release() { return std::move(matrix_); }
 
  private:
   static constexpr auto n_nodes = SolidSpace::nodes_per_cell;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "fem/cholesky_solver.h"
 #include "fem/internal_force.h"
 #include "fem/linear_transient.h"
 #include "signals/reduced_model.h"

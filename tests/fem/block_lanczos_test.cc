@@ -6,6 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "fem/cholesky_solver.h"
+
 namespace vibrissa::fem {
 namespace {
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "fem/cholesky_solver.h"
 #include "fem/solid_operators.h"
 #include "meshes/regions.h"
 

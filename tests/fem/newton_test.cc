@@ -2,12 +2,11 @@
 
 #include "fem/newton.h"
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-
 #include <cmath>
 #include <functional>
 
 #include "fem/secant_memory.h"
+#include "fem/sparse_factors.h"
 
 namespace vibrissa::fem {
 namespace {
@@ -166,28 +165,6 @@ TEST(Newton, SecantsSaveAKeptTangentMostOfItsIterations) {
   u = one(0.);
   EXPECT_GT(solve_balance(spring, u, u, options).residuals.size(), 20u);
   EXPECT_LE(spring.n_factorisations, 1);
-}
-
-TEST(CholeskySolver, TellsAMatrixThatHasBecomeIndefinite) {
-  dealii::DynamicSparsityPattern diagonal(6, 6);
-  for (unsigned int i = 0; i < 6; ++i) diagonal.add(i, i);
-  const dealii::IndexSet rows = dealii::complete_index_set(6);
-  Matrix matrix;
-  matrix.reinit(rows, rows, diagonal, MPI_COMM_SELF);
-  const auto fill = [&](const double last) {
-    for (unsigned int i = 0; i < 6; ++i) matrix.set(i, i, i == 5 ? last : 1.);
-    matrix.compress(dealii::VectorOperation::insert);
-  };
-  fill(2.);
-  CholeskySolver solver(matrix);
-  fill(4.);
-  solver.refactor();
-  Vector b(MPI_COMM_SELF, 6, 6), x(b);
-  b = 1.;
-  solver.solve_once(b, x);
-  EXPECT_DOUBLE_EQ(x[5], 0.25);
-  fill(-1.);
-  EXPECT_THROW(solver.refactor(), IndefiniteMatrix);
 }
 
 }  // namespace

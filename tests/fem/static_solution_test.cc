@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 
+#include "fem/cholesky_solver.h"
 #include "fem/follower_pressure.h"
 #include "fem/internal_force.h"
 #include "meshes/regions.h"
