@@ -122,6 +122,46 @@ TEST_F(RubberBar, TheOrderStaysTwoWhenTheStepChangesAgainAndAgain) {
               2., 0.2);
 }
 
+// The load jumps at the start, which the acceleration of (T14.5) answers by the step's length.
+TEST_F(RubberBar, AStepThatIsChangedBeforeTheFirstOneIsAsIfItHadBeenSo) {
+  const double h = 1e-4;
+  FiniteStrainStepper changed(*space, operators, space->clamped(), nullptr, {0.9, 32. * h, {}});
+  FiniteStrainStepper expected(*space, operators, space->clamped(), nullptr, {0.9, h, {}});
+  Vector force(weight);
+  force *= 0.25 * strong;
+  changed.start(space->make_vector(), space->make_vector(), force);
+  changed.set_time_step(h);
+  expected.start(space->make_vector(), space->make_vector(), force);
+  for (int n = 0; n < 5; ++n) {
+    changed.step(force);
+    expected.step(force);
+  }
+  EXPECT_LT(distance(changed.state().displacement, expected.state().displacement),
+            1e-12 * expected.state().displacement.l2_norm());
+}
+
+TEST_F(RubberBar, GoesBackToWhereItWasWithTheStressThatHadNotRelaxedYet) {
+  auto relaxing = materials::make_yeoh({3.4e5, 1.7152e5, 1.32e6}, 1.5e9, 1080., 0.);
+  relaxing.relaxation = materials::PronySeries({{0.4, 5e-3}});
+  const auto of_relaxing = assemble_operators(*space, {{"silicone", relaxing}});
+  FiniteStrainStepper stepper(*space, of_relaxing, space->clamped(), nullptr, {0.9, 2e-4, {}});
+  Vector force(weight);
+  force *= 0.25 * strong;
+  stepper.start(space->make_vector(), space->make_vector(), force);
+  const auto ten_steps = [&] {
+    for (int n = 0; n < 10; ++n) stepper.step(force);
+    return stepper.state().displacement;
+  };
+  ten_steps();
+  const TransientMemory motion = stepper.motion();
+  const Vector expected = ten_steps();
+  const double dissipated_j = stepper.energy().dissipated_j;
+  ten_steps();
+  stepper.go_back(motion);
+  EXPECT_LT(distance(ten_steps(), expected), 1e-9 * expected.l2_norm());
+  EXPECT_NEAR(stepper.energy().dissipated_j / dissipated_j, 1., 1e-9);
+}
+
 // (T14.6) against the same step in very small ones.
 TEST_F(RubberBar, TheEstimateIsTheErrorOfAStep) {
   const double h = 1e-4;
