@@ -16,6 +16,16 @@ struct TransientCommandOptions {
   std::optional<std::string> resumed_folder, strain;
 };
 
+void print_substeps(const nlohmann::json& substeps) {
+  std::cout << substeps["smallest"] << " to " << substeps["largest"] << " substeps a sample, "
+            << report::Cell(substeps["mean"].get<double>()).rounded(3)
+            << " in the mean; samples gone through anew: " << substeps["rejected_intervals"]
+            << "\n";
+  if (substeps["intervals_over_tolerance"] > 0)
+    std::cout << "Samples above Transient/Time tolerance at the most substeps: "
+              << substeps["intervals_over_tolerance"] << " (substeps.csv)\n";
+}
+
 void print_outcome(const TransientOutcome& outcome) {
   const auto number = [&](const char* name) {
     return report::Cell(outcome.summary[name].get<double>()).rounded(3);
@@ -26,6 +36,7 @@ void print_outcome(const TransientOutcome& outcome) {
             << " factorisations\nLargest base moment " << number("largest_base_moment_n_m")
             << " N m; its two routes differ by " << number("two_moment_routes_relative_difference")
             << " of it\n";
+  if (outcome.summary.contains("substeps")) print_substeps(outcome.summary["substeps"]);
   if (outcome.summary.contains("energy_error_over_largest_work"))
     std::cout << "Energy balance closes to " << number("energy_error_over_largest_work")
               << " of the largest work\n";

@@ -100,6 +100,7 @@ class Job {
     write_pvd();
     signals::write_record(folder_ / "record.csv", record());
     if (!run_.output().energy.empty()) write_energy();
+    if (parameters_.transient.adaptive) write_substeps();
     report::write_json(folder_ / "summary.json", summary);
     fs::remove(checkpoint());
     return summary;
@@ -118,9 +119,9 @@ class Job {
                                     inputs_.base_velocity_m_s};
     if (solid.strain == Strain::small)
       return fem::drive_linear(sensor_, input, {solid.spectral_radius, solid.substeps, true});
-    return fem::drive_nonlinear(
-        sensor_, input,
-        {solid.spectral_radius, solid.substeps, true, solid.gravity_m_s2, solid.newton});
+    return fem::drive_nonlinear(sensor_, input,
+                                {solid.spectral_radius, solid.substeps, true, solid.gravity_m_s2,
+                                 solid.newton, solid.adaptive});
   }
 
   bool is_checkpoint_due(const Clock::time_point written) const {
@@ -187,6 +188,26 @@ class Job {
     signals::write_file(folder_ / "energy.csv", [&](std::ostream& out) { out << table.to_csv(); });
   }
 
+  void write_substeps() const {
+    report::Table table({{"time", "s"}, {"substeps", ""}, {"rejected_tries", ""}, {"error", ""}});
+    const auto& intervals = run_.output().intervals;
+    for (std::size_t i = 0; i < intervals.size(); ++i)
+      table.add_row(
+          {time_s(i), intervals[i].substeps, intervals[i].n_rejected, intervals[i].error});
+    signals::write_file(folder_ / "substeps.csv",
+                        [&](std::ostream& out) { out << table.to_csv(); });
+  }
+
+  nlohmann::json substep_summary() const {
+    const auto summary =
+        fem::summarise(run_.output().intervals, parameters_.transient.adaptive->tolerance);
+    return {{"smallest", summary.smallest},
+            {"largest", summary.largest},
+            {"mean", summary.mean},
+            {"rejected_intervals", summary.n_rejected},
+            {"intervals_over_tolerance", summary.n_over_tolerance}};
+  }
+
   nlohmann::json summarise() const {
     const auto& output = run_.output();
     double peak = 0., work = 0., error = 0.;
@@ -205,6 +226,7 @@ class Job {
         {"factorisations", output.count.n_factorisations},
         {"largest_base_moment_n_m", peak},
         {"two_moment_routes_relative_difference", output.largest_route_difference()}};
+    if (parameters_.transient.adaptive) summary["substeps"] = substep_summary();
     if (work > 0.) summary["energy_error_over_largest_work"] = error / work;
     return summary;
   }

@@ -17,9 +17,10 @@ struct TransientOutcome {
 };
 
 /// The case's full-order solid through the whole record, into a new run folder: record.csv,
-/// energy.csv (finite strain), transient.pvd with its frames, summary.json last; checkpoint.h5 on
-/// the way, taken away at the end. Throws UserError for a bad case or bad inputs before anything is
-/// written, and as simulate_nonlinear. Proven by tests/apps/transient_test.cc.
+/// energy.csv (finite strain), substeps.csv (where they are chosen), transient.pvd with its frames,
+/// summary.json last; checkpoint.h5 on the way, taken away at the end. Throws UserError for a bad
+/// case or bad inputs before anything is written, and as simulate_nonlinear. Proven by
+/// tests/apps/transient_test.cc.
 TransientOutcome run_transient(const CaseOptions& chosen,
                                const std::vector<std::string>& command_line, bool show_progress);
 

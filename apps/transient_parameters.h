@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "fem/newton.h"
+#include "fem/substep_control.h"
 
 namespace vibrissa::apps {
 
@@ -15,6 +17,7 @@ enum class Strain { small, finite };
 struct TransientParameters {
   Strain strain = Strain::finite;
   unsigned int substeps = 1;
+  std::optional<fem::SubstepOptions> adaptive;  // nothing: those substeps in every sample
   double spectral_radius = 0.9;
   std::array<double, 3> gravity_m_s2{};
   fem::NewtonOptions newton;

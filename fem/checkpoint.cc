@@ -51,10 +51,28 @@ std::vector<EnergyBalance> energies_of(const std::vector<double>& values) {
   return energy;
 }
 
+std::vector<double> columns_of(const std::vector<IntervalSteps>& intervals) {
+  std::vector<double> values;
+  for (const auto& interval : intervals) {
+    const double substeps = interval.substeps, n_rejected = interval.n_rejected;
+    values.insert(values.end(), {substeps, n_rejected, interval.error});
+  }
+  return values;
+}
+
+std::vector<IntervalSteps> intervals_of(const std::vector<double>& values) {
+  std::vector<IntervalSteps> intervals;
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+    intervals.push_back({static_cast<unsigned int>(values[i]),
+                         static_cast<unsigned int>(values[i + 1]), values[i + 2]});
+  return intervals;
+}
+
 void add_record(signals::Hdf5Writer& file, const TransientOutput& output) {
   file.add("record/base_moment_N_m", output.base_moment);
   file.add("record/cross_moment_N_m", output.cross_moment);
   file.add("record/energy_J", columns_of(output.energy));
+  file.add("record/substeps_rejected_and_error", columns_of(output.intervals));
   const std::vector<double> rest{output.largest_component, output.largest_difference,
                                  static_cast<double>(output.count.n_steps),
                                  static_cast<double>(output.count.n_iterations),
@@ -67,6 +85,7 @@ TransientOutput read_record(const signals::Hdf5Reader& file) {
   output.base_moment = file.numbers("record/base_moment_N_m");
   output.cross_moment = file.numbers("record/cross_moment_N_m");
   output.energy = energies_of(file.numbers("record/energy_J"));
+  output.intervals = intervals_of(file.numbers("record/substeps_rejected_and_error"));
   const auto rest = file.numbers("record/routes_and_counts");
   output.largest_component = rest.at(0);
   output.largest_difference = rest.at(1);

@@ -9,6 +9,7 @@
 
 #include "fem/base_moment.h"
 #include "fem/energy_balance.h"
+#include "fem/substep_control.h"
 
 namespace vibrissa::fem {
 
@@ -40,6 +41,8 @@ class DrivenSensor {
   /// Nothing for the linear model.
   virtual std::optional<EnergyBalance> energy() const = 0;
   virtual StepCount count() const = 0;
+  /// The interval that was gone through last, of a model that chooses its substeps.
+  virtual std::optional<IntervalSteps> interval() const = 0;
 
   virtual TransientMemory memory() const = 0;
   /// Goes on from a memory at a sample.

@@ -16,8 +16,7 @@ namespace vibrissa::fem {
 class FiniteStrainStepper::Problem : public BalanceProblem {
  public:
   Problem(const SolidSpace& space, const SolidOperators& operators, const dealii::IndexSet& held,
-          const ModalDamping* damping, const StateLoad* load, const double mass_factor,
-          const double damping_factor, const double time_step_s)
+          const ModalDamping* damping, const StateLoad* load)
       : held_(held),
         known_force(space.make_vector()),
         known_velocity(known_force),
@@ -25,15 +24,23 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
         stressed_at(known_force),
         space_(space),
         operators_(operators),
+        modal_damping_(damping),
         load_(load),
-        mass_factor_(mass_factor),
-        velocity_factor_(damping_factor),
         elastic_(space.make_vector()),
         inertia_(elastic_),
-        tangent_(space, *operators.mass, held) {
-    if (operators.internal_force->relaxes())
-      relaxation = operators.internal_force->make_relaxing_stress(time_step_s);
-    if (damping != nullptr) damping_.emplace(*damping, held, damping_factor);
+        tangent_(space, *operators.mass, held) {}
+
+  /// For steps of this length; the tangent is out of date.
+  void take_step(const double mass_factor, const double velocity_factor, const double time_step_s) {
+    mass_factor_ = mass_factor;
+    velocity_factor_ = velocity_factor;
+    if (operators_.internal_force->relaxes()) {
+      const auto memory = relaxation ? relaxation->memory() : std::vector<double>();
+      relaxation = operators_.internal_force->make_relaxing_stress(time_step_s);
+      if (!memory.empty()) relaxation->restore(memory);
+    }
+    if (modal_damping_ != nullptr) damping_.emplace(*modal_damping_, held_, velocity_factor);
+    is_up_to_date_ = false;
   }
 
   double forces(const Vector& u, Vector& out_of_balance) override {
@@ -61,9 +68,10 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
     operators_.internal_force->add_tangent(1., u, stressed, tangent_, relaxing());
     tangent_.finish(mass_factor_);
     renew_factors(tangent_, solver_);
+    is_up_to_date_ = true;
     if (damping_) damping_->renew(solved_damping_forces());
   }
-  bool is_factorised() const override { return solver_ != nullptr; }
+  bool is_factorised() const override { return solver_ != nullptr && is_up_to_date_; }
 
   void solve(const Vector& out_of_balance, Vector& step) override {
     solver_->solve_once(out_of_balance, step);
@@ -111,11 +119,13 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
 
   const SolidSpace& space_;
   const SolidOperators& operators_;
+  const ModalDamping* modal_damping_;
   const StateLoad* load_;
-  double mass_factor_, velocity_factor_;
+  double mass_factor_ = 0., velocity_factor_ = 0.;
   Vector elastic_, inertia_;
   TangentMatrix tangent_;
   std::unique_ptr<CholeskySolver> solver_;
+  bool is_up_to_date_ = false;  // the tangent with the step's length
   std::optional<LowRankDamping> damping_;
 };
 
@@ -133,14 +143,45 @@ FiniteStrainStepper::FiniteStrainStepper(const SolidSpace& space, const SolidOpe
       elastic_force_(algorithmic_),
       damping_force_(algorithmic_),
       relaxing_force_(algorithmic_) {
-  const double dt = options.time_step_s;
-  problem_ = std::make_unique<Problem>(
-      space, operators, held, damping, options.load,
-      (1. - alpha_.alpha_m) / ((1. - alpha_.alpha_f) * alpha_.beta * dt * dt),
-      alpha_.gamma / (alpha_.beta * dt), dt);
+  problem_ = std::make_unique<Problem>(space, operators, held, damping, options.load);
+  take_time_step(options.time_step_s);
 }
 
 FiniteStrainStepper::~FiniteStrainStepper() = default;
+
+void FiniteStrainStepper::take_time_step(const double dt) {
+  options_.time_step_s = dt;
+  problem_->take_step((1. - alpha_.alpha_m) / ((1. - alpha_.alpha_f) * alpha_.beta * dt * dt),
+                      alpha_.gamma / (alpha_.beta * dt), dt);
+}
+
+void FiniteStrainStepper::set_time_step(const double time_step_s) {
+  if (time_step_s == options_.time_step_s) return;
+  const double ratio = time_step_s / options_.time_step_s, now = time_s();
+  take_time_step(time_step_s);
+  if (now == 0.) {
+    find_first_algorithmic(out_of_balance_at_start());
+    return;
+  }
+  changed_at_s_ = now;
+  n_steps_since_change_ = 0;
+  Vector growth(algorithmic_);
+  growth -= algorithmic_before_;
+  algorithmic_.add((alpha_.alpha_m - alpha_.alpha_f) * (ratio - 1.), growth);
+  algorithmic_before_ = algorithmic_;
+  algorithmic_before_.add(-ratio, growth);
+}
+
+double FiniteStrainStepper::time_s() const {
+  return changed_at_s_ + static_cast<double>(n_steps_since_change_) * options_.time_step_s;
+}
+
+double FiniteStrainStepper::local_error_m() const {
+  const double dt = options_.time_step_s, shift = alpha_.alpha_m - alpha_.alpha_f;
+  Vector growth(algorithmic_);
+  growth -= algorithmic_before_;
+  return (1. / 12. + 0.25 * shift * shift) * dt * dt * growth.linfty_norm();
+}
 
 void FiniteStrainStepper::update_forces() {
   elastic_force_ = 0.;
@@ -176,25 +217,38 @@ void FiniteStrainStepper::start(const Vector& displacement, const Vector& veloci
   if (problem_->relaxation) operators_.internal_force->rest(displacement, *problem_->relaxation);
   update_forces();
   add_relaxing_force();
-  Vector right(force_), momentum(force);
-  right -= elastic_force_;
-  right -= damping_force_;
-  zero_entries(right, problem_->held_);
+  changed_at_s_ = 0.;
+  n_steps_since_change_ = 0;
+  const Vector right = out_of_balance_at_start();
   if (right.l2_norm() > 0.) {
     const auto regular = with_clamped_rows(*operators_.mass, problem_->held_, 1.);
     CholeskySolver(*regular).solve(right, state_.acceleration);
-    problem_->factorise(displacement, displacement);
-    problem_->acceleration_of_a_step(right, algorithmic_);
-    count_.n_factorisations = 1;
   }
-  algorithmic_before_ = algorithmic_;
+  find_first_algorithmic(right);
+  Vector momentum(force);
   operators_.mass->vmult(momentum, velocity);
   energy_.kinetic_j = 0.5 * (velocity * momentum);
 }
 
-TransientMemory FiniteStrainStepper::memory() const {
-  const auto count = [](const std::size_t n) { return static_cast<double>(n); };
-  TransientMemory memory{{{"displacement", state_.displacement},
+Vector FiniteStrainStepper::out_of_balance_at_start() const {
+  Vector right(force_);
+  right -= elastic_force_;
+  right -= damping_force_;
+  zero_entries(right, problem_->held_);
+  return right;
+}
+
+void FiniteStrainStepper::find_first_algorithmic(const Vector& out_of_balance) {
+  if (out_of_balance.l2_norm() > 0.) {
+    problem_->factorise(state_.displacement, state_.displacement);
+    problem_->acceleration_of_a_step(out_of_balance, algorithmic_);
+    ++count_.n_factorisations;
+  }
+  algorithmic_before_ = algorithmic_;
+}
+
+TransientMemory FiniteStrainStepper::motion() const {
+  TransientMemory motion{{{"displacement", state_.displacement},
                           {"velocity", state_.velocity},
                           {"acceleration", state_.acceleration},
                           {"algorithmic_acceleration", algorithmic_},
@@ -204,27 +258,33 @@ TransientMemory FiniteStrainStepper::memory() const {
                           {"dissipated_j", energy_.dissipated_j},
                           {"numerical_j", energy_.numerical_j},
                           {"work_j", energy_.work_j},
-                          {"n_steps", count(count_.n_steps)},
-                          {"n_iterations", count(count_.n_iterations)},
-                          {"n_factorisations", count(count_.n_factorisations)}}};
+                          {"time_step_s", options_.time_step_s},
+                          {"time_step_changed_at_s", changed_at_s_},
+                          {"n_steps_since_change", static_cast<double>(n_steps_since_change_)}}};
+  if (problem_->relaxation) {
+    motion.vectors.emplace("relaxing_force", relaxing_force_);
+    motion.own.emplace("relaxing_stress", problem_->relaxation->memory());
+  }
+  return motion;
+}
+
+TransientMemory FiniteStrainStepper::memory() const {
+  TransientMemory memory = motion();
+  memory.numbers["n_steps"] = static_cast<double>(count_.n_steps);
+  memory.numbers["n_iterations"] = static_cast<double>(count_.n_iterations);
+  memory.numbers["n_factorisations"] = static_cast<double>(count_.n_factorisations);
   if (problem_->is_factorised()) {
     memory.vectors.emplace("tangent_at", problem_->tangent_at);
     memory.vectors.emplace("stressed_at", problem_->stressed_at);
   }
-  if (problem_->relaxation) {
-    memory.vectors.emplace("relaxing_force", relaxing_force_);
-    memory.own.emplace("relaxing_stress", problem_->relaxation->memory());
-    memory.own.emplace("relaxing_at", problem_->relaxing_at);
-  }
+  if (problem_->relaxation) memory.own.emplace("relaxing_at", problem_->relaxing_at);
   return memory;
 }
 
-// The tangent that is kept is part of what comes next: Newton's iteration ends elsewhere by another
-// one, though within its tolerance.
-void FiniteStrainStepper::restore(const TransientMemory& memory) {
-  const auto count = [&](const char* name) {
-    return static_cast<std::size_t>(memory.numbers.at(name));
-  };
+void FiniteStrainStepper::go_back(const TransientMemory& memory) {
+  take_time_step(memory.numbers.at("time_step_s"));
+  changed_at_s_ = memory.numbers.at("time_step_changed_at_s");
+  n_steps_since_change_ = static_cast<std::size_t>(memory.numbers.at("n_steps_since_change"));
   state_ = {memory.vectors.at("displacement"), memory.vectors.at("velocity"),
             memory.vectors.at("acceleration")};
   algorithmic_ = memory.vectors.at("algorithmic_acceleration");
@@ -239,6 +299,16 @@ void FiniteStrainStepper::restore(const TransientMemory& memory) {
   energy_.dissipated_j = memory.numbers.at("dissipated_j");
   energy_.numerical_j = memory.numbers.at("numerical_j");
   energy_.work_j = memory.numbers.at("work_j");
+  if (problem_->relaxation) problem_->relaxation->restore(memory.own.at("relaxing_stress"));
+}
+
+// The tangent that is kept is part of what comes next: Newton's iteration ends elsewhere by another
+// one, though within its tolerance.
+void FiniteStrainStepper::restore(const TransientMemory& memory) {
+  const auto count = [&](const char* name) {
+    return static_cast<std::size_t>(memory.numbers.at(name));
+  };
+  go_back(memory);
   count_ = {count("n_steps"), count("n_iterations"), count("n_factorisations")};
   auto& relaxation = problem_->relaxation;
   const auto tangent_at = memory.vectors.find("tangent_at");
@@ -293,6 +363,7 @@ void FiniteStrainStepper::step(const Vector& force) {
   mean_acceleration.sadd(0.5, 0.5, state_.acceleration);
   state_.acceleration = acceleration;
   ++count_.n_steps;
+  ++n_steps_since_change_;
   const Vector total = with_state_load(force);
   add_energies(before, mean_acceleration, total);
   force_ = total;
@@ -323,10 +394,11 @@ void FiniteStrainStepper::add_to_count(const NewtonReport& report) {
 }
 
 void FiniteStrainStepper::give_up(const NewtonReport& report) const {
-  throw signals::UserError(
+  throw NoBalance(
       "the solid does not come to balance in step " + std::to_string(count_.n_steps + 1) + ", at " +
-      signals::to_text(static_cast<double>(count_.n_steps + 1) * options_.time_step_s) + " s (" +
-      report.failure + "; out-of-balance force over force: " + report.history() +
+      signals::to_text(changed_at_s_ +
+                       static_cast<double>(n_steps_since_change_ + 1) * options_.time_step_s) +
+      " s (" + report.failure + "; out-of-balance force over force: " + report.history() +
       "). Take more substeps or weaker inputs, or look for a material that is too soft for them or "
       "for distorted cells of the mesh");
 }

@@ -9,8 +9,15 @@
 #include "fem/solid_operators.h"
 #include "fem/solid_space.h"
 #include "fem/state_load.h"
+#include "signals/error.h"
 
 namespace vibrissa::fem {
+
+/// The forces of a step do not come to balance.
+class NoBalance : public signals::UserError {
+ public:
+  using signals::UserError::UserError;
+};
 
 /// Steps M u'' + C u' + f(u) = F + F(u, u') by generalised-alpha (T14.1) at finite strain. The
 /// equation of motion holds at every step's end. Newton begins from the extrapolated acceleration
@@ -36,9 +43,14 @@ class FiniteStrainStepper {
 
   /// Begins from a state under a force of all rows; finds the acceleration.
   void start(const Vector& displacement, const Vector& velocity, const Vector& force);
-  /// To the end of the next step, where the force is given. Throws UserError with the time, the
-  /// residuals and advice when the forces do not come to balance.
+  /// To the end of the next step, where the force is given. Throws NoBalance with the time, the
+  /// residuals and advice, and is then still at the step's start.
   void step(const Vector& force);
+  /// Of the steps to come; the tangent, which depends on it, is made anew. The acceleration a goes
+  /// over by (T14.8), which keeps the second order, before the first step by (T14.5).
+  void set_time_step(double time_step_s);
+  /// Estimate of the last step's error in the displacement [m], its largest component (T14.6).
+  double local_error_m() const;
 
   const SolidState& state() const { return state_; }
   /// With that of relaxing branches, all rows.
@@ -51,10 +63,18 @@ class FiniteStrainStepper {
   TransientMemory memory() const;
   /// In place of start(): goes on bit for bit.
   void restore(const TransientMemory& memory);
+  /// The part of the memory that is no tangent and no count of work, and back to it, for steps of
+  /// another length.
+  TransientMemory motion() const;
+  void go_back(const TransientMemory& motion);
 
  private:
   class Problem;
 
+  void take_time_step(double time_step_s);
+  double time_s() const;
+  Vector out_of_balance_at_start() const;
+  void find_first_algorithmic(const Vector& out_of_balance);
   /// The work on the way from a displacement and the mean acceleration there; before the state's
   /// forces are those of the step's end.
   void add_energies(const Vector& before, const Vector& mean_acceleration, const Vector& force);
@@ -77,6 +97,8 @@ class FiniteStrainStepper {
   Vector relaxing_force_;  // the share of relaxing branches in the elastic force
   EnergyBalance energy_;
   StepCount count_;
+  double changed_at_s_ = 0.;  // the time step
+  std::size_t n_steps_since_change_ = 0;
 };
 
 }  // namespace vibrissa::fem

@@ -108,6 +108,7 @@ class LinearStepper : public DrivenSensor {
   }
   std::optional<EnergyBalance> energy() const override { return std::nullopt; }
   StepCount count() const override { return {n_steps_, n_steps_, 1}; }
+  std::optional<IntervalSteps> interval() const override { return std::nullopt; }
 
   TransientMemory memory() const override {
     return {{{"displacement", state_.displacement},

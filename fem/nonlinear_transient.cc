@@ -1,6 +1,7 @@
 #include "fem/nonlinear_transient.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "fem/finite_strain_stepper.h"
@@ -42,8 +43,10 @@ class FiniteStrainSensor : public DrivenSensor {
         stepper_(space_, sensor.operators(), space_.clamped(), &damping_,
                  {options.spectral_radius, 1. / (input.sampling_rate_hz * options.substeps),
                   options.newton, load_at_.state_load()}),
+        sampling_rate_hz_(input.sampling_rate_hz),
         weight_(space_.make_vector()),
         force_(weight_) {
+    if (options.adaptive) control_.emplace(options.substeps, *options.adaptive);
     load_.external_force = space_.make_vector();
     load_.damping_force = space_.make_vector();
     Vector rest = space_.make_vector();
@@ -64,9 +67,10 @@ class FiniteStrainSensor : public DrivenSensor {
 
   void advance(const std::size_t sample) override {
     load_at_.enter_sample(sample);
-    for (unsigned int s = 1; s <= options_.substeps; ++s) {
-      set_load(static_cast<double>(s) / options_.substeps);
-      stepper_.step(force_);
+    if (control_) {
+      cross_as_finely_as_needed();
+    } else {
+      cross_as_told();
     }
     load_.damping_force = stepper_.damping_force();
     load_.external_force = external_force();
@@ -81,17 +85,64 @@ class FiniteStrainSensor : public DrivenSensor {
   }
   std::optional<EnergyBalance> energy() const override { return stepper_.energy(); }
   StepCount count() const override { return stepper_.count(); }
+  std::optional<IntervalSteps> interval() const override {
+    if (!control_) return std::nullopt;
+    return control_->interval();
+  }
 
-  TransientMemory memory() const override { return stepper_.memory(); }
+  TransientMemory memory() const override {
+    TransientMemory memory = stepper_.memory();
+    if (control_) control_->add_to(memory.numbers);
+    return memory;
+  }
   void restore(const TransientMemory& memory, const std::size_t sample) override {
     load_at_.enter_sample(sample);
     set_load(0.);
     stepper_.restore(memory);
+    if (control_) control_->restore(memory.numbers);
     load_.damping_force = stepper_.damping_force();
     load_.external_force = external_force();
   }
 
  private:
+  void cross_as_told() {
+    try {
+      cross(options_.substeps);
+    } catch (const NoBalance& failure) {
+      throw signals::UserError(std::string(failure.what()) +
+                               "; Transient/Substep choice = adaptive takes more substeps where "
+                               "they are needed");
+    }
+  }
+
+  void cross_as_finely_as_needed() {
+    const TransientMemory start = stepper_.motion();
+    control_->begin_interval();
+    while (!try_to_cross()) stepper_.go_back(start);
+  }
+
+  bool try_to_cross() {
+    stepper_.set_time_step(1. / (sampling_rate_hz_ * control_->substeps()));
+    try {
+      const double error_m = cross(control_->substeps());
+      return control_->accept(error_m, stepper_.state().displacement.linfty_norm());
+    } catch (const NoBalance&) {
+      if (!control_->refine()) throw;
+      return false;
+    }
+  }
+
+  /// The sample interval in equal steps; returns the sum of their errors, where it is asked for.
+  double cross(const unsigned int n_steps) {
+    double error_m = 0.;
+    for (unsigned int s = 1; s <= n_steps; ++s) {
+      set_load(static_cast<double>(s) / n_steps);
+      stepper_.step(force_);
+      if (control_) error_m += stepper_.local_error_m();
+    }
+    return error_m;
+  }
+
   void set_load(const double fraction) {
     load_at_.set(fraction, load_, force_);
     force_ += weight_;
@@ -111,6 +162,8 @@ class FiniteStrainSensor : public DrivenSensor {
   ModalDamping damping_;
   TransientLoad load_at_;
   FiniteStrainStepper stepper_;
+  double sampling_rate_hz_;
+  std::optional<SubstepControl> control_;
   Vector weight_, force_;
   SolidLoad load_;
 };

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "fem/newton.h"
 #include "fem/sensor.h"
+#include "fem/substep_control.h"
 #include "fem/transient_load.h"
 #include "fem/transient_run.h"
 
@@ -17,12 +19,16 @@ struct NonlinearOptions {
   std::array<double, 3> gravity_m_s2{};  // the sensor begins at rest in it
   /// A looser tolerance than a static one's: the moment is within a part in 1e10 of that at 1e-11.
   NewtonOptions newton{.tolerance = 1e-7};
+  /// Takes more than those substeps where the error of time (T14.7) or Newton's iteration asks for
+  /// it; nothing: as many in every sample.
+  std::optional<SubstepOptions> adaptive = std::nullopt;
 };
 
 /// Full-order response of the sensor at finite strain, otherwise as simulate_linear: the same
 /// inputs, damping, integrator and clock; the linear response is its limit for small inputs. Throws
-/// UserError for inputs that are not finite, and as FiniteStrainStepper::step and solve_static.
-/// Proven by tests/fem/nonlinear_transient_test.cc.
+/// UserError for inputs that are not finite, and as FiniteStrainStepper::step (adaptive: only at
+/// the most substeps), SubstepOptions::check and solve_static. Proven by
+/// tests/fem/nonlinear_transient_test.cc and adaptive_transient_test.cc.
 std::unique_ptr<DrivenSensor> drive_nonlinear(const Sensor& sensor, const TransientInput& input,
                                               const NonlinearOptions& options = {});
 

@@ -22,6 +22,7 @@ void TransientRun::record() {
 void TransientRun::advance() {
   assert(!is_done());
   sensor_->advance(n_done() - 1);
+  if (const auto interval = sensor_->interval()) output_.intervals.push_back(*interval);
   record();
 }
 

@@ -10,7 +10,8 @@
 namespace vibrissa::fem {
 
 struct TransientOutput : MomentRecord {
-  std::vector<EnergyBalance> energy;  // at every sample; none of the linear model
+  std::vector<EnergyBalance> energy;     // at every sample; none of the linear model
+  std::vector<IntervalSteps> intervals;  // where their substeps were chosen
   StepCount count;
 };
 

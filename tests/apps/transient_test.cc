@@ -2,6 +2,7 @@
 
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <random>
@@ -161,6 +162,33 @@ TEST(Transient, ALoadThatDivergesEndsItWithTheResidualsAndLeavesNoRecord) {
                                             HasSubstr("Take more substeps or weaker inputs")));
   EXPECT_FALSE(fs::exists(run + "/record.csv"));
   EXPECT_FALSE(fs::exists(run + "/summary.json"));
+}
+
+TEST(Transient, ChoosesItsSubstepsWhereTheCaseSaysSoAndTellsThem) {
+  const Folder folder;
+  const std::string adaptive = swinging + " --set 'Transient/Substep choice=adaptive'";
+  const auto result =
+      vibrissa(adaptive + " --set 'Transient/Most substeps=16' -o " + quoted(folder.file("run")));
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto counts = nlohmann::json::parse(content(folder.file("run/summary.json")))["substeps"];
+  EXPECT_GE(counts["smallest"], 1);
+  EXPECT_GT(counts["largest"], 1);
+  EXPECT_LE(counts["largest"], 16);
+  EXPECT_GT(counts["mean"], 1.);
+  EXPECT_GE(counts["rejected_intervals"], 1);
+  EXPECT_TRUE(counts.contains("intervals_over_tolerance"));
+  EXPECT_THAT(result.output, HasSubstr("to " + counts["largest"].dump() + " substeps a sample"));
+  const std::string table = content(folder.file("run/substeps.csv"));
+  EXPECT_THAT(table, testing::StartsWith("time [s],substeps,rejected_tries,error"));
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 64);  // 63 intervals
+  const auto refusal = [&](const std::string& setting) {
+    return vibrissa(adaptive + " --set " + quoted("Transient/" + setting)).errors;
+  };
+  EXPECT_THAT(refusal("Time tolerance=0"), HasSubstr("Transient/Time tolerance = 0"));
+  EXPECT_THAT(refusal("Time tolerance=-1"), HasSubstr("Time tolerance"));
+  EXPECT_THAT(refusal("Most substeps=0"), HasSubstr("Most substeps"));
+  EXPECT_THAT(refusal("Most substeps=48"), HasSubstr("Transient/Most substeps = 48"));
+  EXPECT_THAT(refusal("Strain=small"), HasSubstr("Transient/Substep choice = adaptive needs"));
 }
 
 TEST(Transient, WhereNothingMayBeWrittenItIsRefusedAndWhatIsThereStays) {

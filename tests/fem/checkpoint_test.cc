@@ -2,6 +2,7 @@
 
 #include "fem/checkpoint.h"
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -18,7 +19,9 @@ namespace {
 
 using testing::HasSubstr;
 
-class Checkpoint : public testing::TestWithParam<bool> {
+enum class Model { small, finite, adaptive };
+
+class Checkpoint : public testing::TestWithParam<Model> {
  protected:
   Checkpoint() {
     std::string name =
@@ -29,10 +32,14 @@ class Checkpoint : public testing::TestWithParam<bool> {
   ~Checkpoint() override { std::filesystem::remove_all(folder); }
 
   TransientRun begin() const {
-    const TransientInput input{1000., a.size(), a, {}, wind};
-    return {GetParam() ? drive_nonlinear(sensor, input, {0.9, 2, true, {0., 0., -9.81}, {}})
-                       : drive_linear(sensor, input, {0.9, 2, true}),
-            a.size(), sensor.parameters().model.axial_direction(), true};
+    return {drive({1000., a.size(), a, {}, wind}), a.size(),
+            sensor.parameters().model.axial_direction(), true};
+  }
+  std::unique_ptr<DrivenSensor> drive(const TransientInput& input) const {
+    if (GetParam() == Model::small) return drive_linear(sensor, input, {0.9, 2, true});
+    NonlinearOptions options{0.9, 2, true, {0., 0., -9.81}, {}};
+    if (GetParam() == Model::adaptive) options.adaptive = SubstepOptions{1.5e-3, 1e-4, 16};
+    return drive_nonlinear(sensor, input, options);
   }
   static void go_to(const std::size_t sample, TransientRun& run) {
     while (run.n_done() <= sample) run.advance();
@@ -61,13 +68,27 @@ class Checkpoint : public testing::TestWithParam<bool> {
   const CheckpointOwner owner{"subsection Records\n  set Seed = 1\nend\n", {{"mesh", "m"}}, "r7"};
   std::filesystem::path folder;
 };
-INSTANTIATE_TEST_SUITE_P(Strains, Checkpoint, testing::Bool(), [](const auto& info) {
-  return std::string(info.param ? "Finite" : "Small");
-});
+std::string name_of(const testing::TestParamInfo<Model>& info) {
+  constexpr std::array names{"Small", "Finite", "Adaptive"};
+  return names.at(static_cast<std::size_t>(info.param));
+}
+INSTANTIATE_TEST_SUITE_P(Strains, Checkpoint,
+                         testing::Values(Model::small, Model::finite, Model::adaptive), name_of);
+
+std::vector<std::array<double, 3>> rows_of(const std::vector<IntervalSteps>& intervals) {
+  std::vector<std::array<double, 3>> rows;
+  for (const auto& i : intervals)
+    rows.push_back({static_cast<double>(i.substeps), static_cast<double>(i.n_rejected), i.error});
+  return rows;
+}
 
 TEST_P(Checkpoint, ARunThatGoesOnFromOneLeavesTheSameRecordBitForBit) {
   TransientRun undisturbed = begin();
   go_to(15, undisturbed);
+  const auto intervals = rows_of(undisturbed.output().intervals);
+  if (GetParam() == Model::adaptive) {
+    ASSERT_NE(intervals.front()[0], intervals.back()[0]) << "nothing to be adapted";
+  }
   for (const std::size_t sample : {0u, 1u, 9u}) {
     TransientRun resumed = begin();
     EXPECT_EQ(read_checkpoint(write(sample), owner, resumed), "r7");
@@ -77,7 +98,8 @@ TEST_P(Checkpoint, ARunThatGoesOnFromOneLeavesTheSameRecordBitForBit) {
     EXPECT_EQ(resumed.output().cross_moment, undisturbed.output().cross_moment);
     EXPECT_EQ(resumed.output().largest_difference, undisturbed.output().largest_difference);
     EXPECT_EQ(resumed.output().count.n_iterations, undisturbed.output().count.n_iterations);
-    if (GetParam()) {
+    EXPECT_EQ(rows_of(resumed.output().intervals), intervals);
+    if (GetParam() != Model::small) {
       EXPECT_EQ(resumed.output().energy.back().work_j, undisturbed.output().energy.back().work_j);
       EXPECT_EQ(resumed.output().energy.back().numerical_j,
                 undisturbed.output().energy.back().numerical_j);

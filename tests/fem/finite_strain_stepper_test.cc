@@ -92,6 +92,103 @@ TEST_F(RubberBar, ErrorFallsWithTheSquareOfTheStepAtLargeSwings) {
               2., 0.15);
 }
 
+// One step of h, then two of h/2, and so on: as many changes as steps.
+TEST_F(RubberBar, TheOrderStaysTwoWhenTheStepChangesAgainAndAgain) {
+  const auto end_of = [&](const unsigned int n_pairs) {
+    const double h = 0.03 / (2 * n_pairs);
+    FiniteStrainStepper stepper(*space, operators, space->clamped(), nullptr, {0.6, h, {}});
+    Vector force = space->make_vector();
+    stepper.start(force, force, force);
+    const auto step_to = [&](const double half_steps) {
+      force = weight;
+      force *= strong * std::pow(std::sin(M_PI * half_steps / (4. * n_pairs)), 2);
+      stepper.step(force);
+    };
+    for (unsigned int n = 0; n < n_pairs; ++n) {
+      stepper.set_time_step(h);
+      step_to(4. * n + 2.);
+      stepper.set_time_step(0.5 * h);
+      step_to(4. * n + 3.);
+      step_to(4. * n + 4.);
+    }
+    return stepper.state();
+  };
+  const SolidState once = end_of(75), twice = end_of(150), four_times = end_of(300);
+  EXPECT_NEAR(std::log2(distance(once.displacement, twice.displacement) /
+                        distance(twice.displacement, four_times.displacement)),
+              2., 0.2);
+  EXPECT_NEAR(std::log2(distance(once.velocity, twice.velocity) /
+                        distance(twice.velocity, four_times.velocity)),
+              2., 0.2);
+}
+
+// The load jumps at the start, which the acceleration of (T14.5) answers by the step's length.
+TEST_F(RubberBar, AStepThatIsChangedBeforeTheFirstOneIsAsIfItHadBeenSo) {
+  const double h = 1e-4;
+  FiniteStrainStepper changed(*space, operators, space->clamped(), nullptr, {0.9, 32. * h, {}});
+  FiniteStrainStepper expected(*space, operators, space->clamped(), nullptr, {0.9, h, {}});
+  Vector force(weight);
+  force *= 0.25 * strong;
+  changed.start(space->make_vector(), space->make_vector(), force);
+  changed.set_time_step(h);
+  expected.start(space->make_vector(), space->make_vector(), force);
+  for (int n = 0; n < 5; ++n) {
+    changed.step(force);
+    expected.step(force);
+  }
+  EXPECT_LT(distance(changed.state().displacement, expected.state().displacement),
+            1e-12 * expected.state().displacement.l2_norm());
+}
+
+TEST_F(RubberBar, GoesBackToWhereItWasWithTheStressThatHadNotRelaxedYet) {
+  auto relaxing = materials::make_yeoh({3.4e5, 1.7152e5, 1.32e6}, 1.5e9, 1080., 0.);
+  relaxing.relaxation = materials::PronySeries({{0.4, 5e-3}});
+  const auto of_relaxing = assemble_operators(*space, {{"silicone", relaxing}});
+  FiniteStrainStepper stepper(*space, of_relaxing, space->clamped(), nullptr, {0.9, 2e-4, {}});
+  Vector force(weight);
+  force *= 0.25 * strong;
+  stepper.start(space->make_vector(), space->make_vector(), force);
+  const auto ten_steps = [&] {
+    for (int n = 0; n < 10; ++n) stepper.step(force);
+    return stepper.state().displacement;
+  };
+  ten_steps();
+  const TransientMemory motion = stepper.motion();
+  const Vector expected = ten_steps();
+  const double dissipated_j = stepper.energy().dissipated_j;
+  ten_steps();
+  stepper.go_back(motion);
+  EXPECT_LT(distance(ten_steps(), expected), 1e-9 * expected.l2_norm());
+  EXPECT_NEAR(stepper.energy().dissipated_j / dissipated_j, 1., 1e-9);
+}
+
+// (T14.6) against the same step in very small ones.
+TEST_F(RubberBar, TheEstimateIsTheErrorOfAStep) {
+  const double h = 1e-4;
+  Vector force = space->make_vector();
+  const auto step_to = [&](const double steps, FiniteStrainStepper& stepper) {
+    force = weight;
+    force *= strong * std::pow(std::sin(M_PI * steps * h / 0.03), 2);
+    stepper.step(force);
+  };
+  FiniteStrainStepper coarse(*space, operators, space->clamped(), nullptr, {0.6, h, {}});
+  coarse.start(force, force, force);
+  for (int n = 1; n <= 120; ++n) {
+    FiniteStrainStepper fine(*space, operators, space->clamped(), nullptr, {0.6, h, {}});
+    const bool is_compared = n % 40 == 0;
+    if (is_compared) {
+      fine.go_back(coarse.motion());
+      fine.set_time_step(h / 32.);
+      for (int part = 1; part <= 32; ++part) step_to(n - 1 + part / 32., fine);
+    }
+    step_to(n, coarse);
+    if (!is_compared) continue;
+    Vector difference(coarse.state().displacement);
+    difference -= fine.state().displacement;
+    EXPECT_NEAR(coarse.local_error_m() / difference.linfty_norm(), 1., 0.1) << n;
+  }
+}
+
 // A motion that is chosen, u(t) = w sin(t/T)^3, under the forces that it takes.
 TEST_F(RubberBar, FollowsAManufacturedMotionWithErrorsOfSecondOrder) {
   Vector shape = space->make_vector();

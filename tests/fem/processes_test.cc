@@ -160,6 +160,25 @@ TEST_P(Processes, MoveAtFiniteStrainAsEachAlone) {
   EXPECT_NEAR(output.energy.back().stored_j / expected.energy.back().stored_j, 1., 1e-8);
 }
 
+// All processes must decide alike.
+TEST_P(Processes, ChooseSubstepsAsEachAlone) {
+  const auto a = wave(4, 60., 30.);
+  const TransientInput input{rate_hz, a.size(), a, {}, {}};
+  NonlinearOptions options;
+  options.adaptive = SubstepOptions{5e-2, 1e-5, 4};
+  const auto output = simulate_nonlinear(together(), input, options);
+  const auto expected = simulate_nonlinear(alone(), input, options);
+  ASSERT_EQ(output.intervals.size(), expected.intervals.size());
+  std::size_t n_rejected = 0;
+  for (std::size_t i = 0; i < expected.intervals.size(); ++i) {
+    EXPECT_EQ(output.intervals[i].substeps, expected.intervals[i].substeps) << i;
+    EXPECT_NEAR(output.intervals[i].error / expected.intervals[i].error, 1., 1e-3) << i;
+    n_rejected += expected.intervals[i].n_rejected;
+  }
+  EXPECT_GE(n_rejected, 1u);
+  EXPECT_LT(difference(output.base_moment, expected.base_moment), as_alone);
+}
+
 StaticSolution under_pressure(const Sensor& sensor) {
   const FollowerPressure pressure(sensor.space(), {meshes::boundary::silicone_surface}, 2e3);
   StaticLoad load;
