@@ -214,6 +214,9 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   if (further) {
     Climb other = best_start(posterior, fit.figures,
                              {further_start(experiment, fit.figures, *further)}, options);
+    // Its noise levels are those of a fit without the effect: it takes longer to show its worth.
+    for (Climb* c : {&climb, &other})
+      climb_on(posterior, fit.figures, *c, options.max_iterations, options);
     if (other.log_posterior > climb.log_posterior) climb = std::move(other);
   }
   climb_on(posterior, fit.figures, climb, options.max_iterations, options);

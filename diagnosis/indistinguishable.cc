@@ -1,6 +1,6 @@
 #include "diagnosis/indistinguishable.h"
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -8,6 +8,7 @@
 #include "diagnosis/effect_size.h"
 #include "diagnosis/fisher_changes.h"
 #include "diagnosis/location.h"
+#include "diagnosis/retune_choices.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -179,22 +180,48 @@ void add_refitted(const SearchResult& result, const HypothesisFit& best, const E
   }
 }
 
-/// Retunes that do in a fit of their own, where they may lie anywhere, what the named one does:
-/// that is back within its tolerance there.
-void add_refitted_retunes(const SearchResult& result, const HypothesisFit& best,
-                          const std::string& named, std::vector<std::vector<std::string>>& sets) {
-  for (const std::string& rival : nuisance_ids()) {
-    if (rival == named || best.hypothesis.contains(rival)) continue;
-    const std::string name = best.hypothesis.with(find_effect(rival)).name();
-    for (const HypothesisFit& fit : result.fits) {
-      const auto place = fit.place(named, 0);
-      if (fit.hypothesis.name() != name || !place) continue;
-      const Prior& tolerance = fit.figures[*place].description.prior;
-      const bool is_back = std::abs(fit.x(static_cast<Eigen::Index>(*place)) - tolerance.centre) <
-                           2. * tolerance.scale;
-      if (is_back && best.log_likelihood - fit.log_likelihood < enough_nats)
-        sets.push_back({named, rival});
-    }
+/// Places of the ratios of a fit's retunes but for the given ones.
+std::vector<Eigen::Index> retunes_but(const HypothesisFit& fit,
+                                      const std::vector<std::string>& ids) {
+  std::vector<Eigen::Index> places;
+  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
+    const FreeFigure& figure = fit.figures[i];
+    if (figure.nuisance && figure.parameter == 0 &&
+        std::find(ids.begin(), ids.end(), figure.effect->id) == ids.end())
+      places.push_back(static_cast<Eigen::Index>(i));
+  }
+  return places;
+}
+
+/// Log likelihood of a fit whose retunes but for the given ones are exactly nominal: in Gaussian
+/// approximation, tolerances taken out.
+double likelihood_at_nominal_but(const HypothesisFit& fit, const std::vector<std::string>& ids) {
+  const std::vector<Eigen::Index> all = retunes_but(fit, {});
+  const RetunedPosterior free = retuned_posterior(fit, all);
+  const auto nats_to = [&](const Eigen::VectorXd& x, const std::vector<Eigen::Index>& places) {
+    if (places.empty()) return 0.;
+    const Eigen::VectorXd way = free.x(places) - x(places);
+    const Eigen::MatrixXd covariance = free.covariance(places, places);
+    return 0.5 * way.dot(covariance.ldlt().solve(way));
+  };
+  return fit.log_likelihood + nats_to(fit.x, all) -
+         nats_to(Eigen::VectorXd::Zero(fit.x.size()), retunes_but(fit, ids));
+}
+
+/// Effects that do in a fit of their own what a named retune does in the best fit.
+void add_refitted_for_retune(const SearchResult& result, const HypothesisFit& best,
+                             const std::vector<std::string>& retunes, const std::string& named,
+                             std::vector<std::vector<std::string>>& sets) {
+  std::vector<std::string> others = retunes;
+  std::erase(others, named);
+  const double of_best = likelihood_at_nominal_but(best, retunes);
+  for (const Effect& rival : effect_catalogue()) {
+    if (rival.id == named || best.hypothesis.contains(rival.id)) continue;
+    const std::string name = best.hypothesis.with(rival).name();
+    for (const HypothesisFit& fit : result.fits)
+      if (fit.hypothesis.name() == name && fit.place(named, 0) &&
+          of_best - likelihood_at_nominal_but(fit, others) < enough_nats)
+        sets.push_back({named, rival.id});
   }
 }
 
@@ -214,7 +241,8 @@ std::vector<std::vector<std::string>> indistinguishable_sets(const Experiment& e
   for (const Effect* effect : best.hypothesis.effects()) add_refitted(result, best, *effect, sets);
   if (candidate.retunes.empty()) return sets;
   const Directions directions(experiment, best);
-  for (const std::string& id : candidate.retunes) add_refitted_retunes(result, best, id, sets);
+  for (const std::string& id : candidate.retunes)
+    add_refitted_for_retune(result, best, candidate.retunes, id, sets);
   for (const std::string& id : candidate.retunes) {
     const Effect& effect = find_effect(id);
     Eigen::VectorXd change = directions.change_of(effect, experiment, best);

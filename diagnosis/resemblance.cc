@@ -1,6 +1,7 @@
 #include "diagnosis/resemblance.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/chain_simulation.h"
 #include "diagnosis/effect_size.h"
@@ -8,13 +9,48 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Sums over all bins of a fit's records.
-struct Overlap {
-  double cross = 0., own = 0.;      // of the change of the mean with the residual, with itself
-  double excess = 0., square = 0.;  // of the share of new noise, likewise
-  double of_mean() const { return own > 0. ? 2. * cross * cross / own : 0.; }
-  double of_noise() const { return square > 0. && excess > 0. ? excess * excess / square : 0.; }
+/// A bin's new noise over what is foretold there, and its residual's power over the same.
+struct NoisyBin {
+  double share = 0., power = 0.;
 };
+
+/// What an effect changes, over all bins of a fit's records.
+struct Overlap {
+  double cross = 0., own = 0.;  // of the change of the mean with the residual, with itself
+  std::vector<NoisyBin> noisy{};
+  double of_mean() const { return own > 0. ? 2. * cross * cross / own : 0.; }
+
+  /// Twice the log likelihood that a multiple of the new noise's variance gains.
+  double of_noise(double multiple) const {
+    double sum = 0.;
+    for (const NoisyBin& bin : noisy) {
+      const double more = multiple * bin.share;
+      sum += bin.power * more / (1. + more) - std::log1p(more);
+    }
+    return 2. * sum;
+  }
+  /// The multiple that gains most: golden section of its logarithm.
+  double best_multiple() const {
+    constexpr double golden = 0.6180339887, orders = 14., enough = 1e-2;
+    double low = -orders, high = orders;
+    while (high - low > enough) {
+      const double a = high - golden * (high - low), b = low + golden * (high - low);
+      if (of_noise(std::exp(a)) < of_noise(std::exp(b)))
+        low = a;
+      else
+        high = b;
+    }
+    return std::exp(0.5 * (low + high));
+  }
+};
+
+/// Bins that hold less of the noise than this share of its peak say nothing of its size.
+void keep_loud(std::vector<NoisyBin>& bins) {
+  constexpr double least = 1e-4;
+  double peak = 0.;
+  for (const NoisyBin& bin : bins) peak = std::max(peak, bin.share);
+  std::erase_if(bins, [&](const NoisyBin& bin) { return bin.share <= least * peak; });
+}
 
 Overlap overlap(const Experiment& experiment, const HypothesisFit& fit,
                 const std::vector<WhitenedRecord>& residual, const Effect& effect,
@@ -32,11 +68,10 @@ Overlap overlap(const Experiment& experiment, const HypothesisFit& fit,
       sum.own += std::norm(d);
       const double v = (there.own_noise[b] + reference * there.acceleration_noise[b]) /
                        (residual[r].deviation[b] * residual[r].deviation[b]);
-      const double w = v / (1. + v);
-      sum.excess += w * (std::norm(residual[r].error[b]) - 1.);
-      sum.square += w * w;
+      sum.noisy.push_back({v, std::norm(residual[r].error[b])});
     }
   }
+  keep_loud(sum.noisy);
   return sum;
 }
 
@@ -62,10 +97,12 @@ Resemblance resemblance(const Experiment& experiment, const HypothesisFit& fit,
   Resemblance best;
   for (const std::vector<double>& values : tried) {
     const Overlap sum = overlap(experiment, fit, residual, effect, values);
-    const double gain = std::max(sum.of_mean(), sum.of_noise());
+    const double multiple = sum.best_multiple(), of_mean = sum.of_mean(),
+                 of_noise = sum.of_noise(multiple), gain = std::max(of_mean, of_noise);
     if (gain <= best.gain) continue;
-    best = {gain, sum.of_mean() > sum.of_noise() ? resized(effect, values, sum.cross / sum.own)
-                                                 : std::vector<double>{}};
+    // What an effect does to variances goes with the square of its size.
+    const double factor = of_mean > of_noise ? sum.cross / sum.own : std::sqrt(multiple);
+    best = {gain, resized(effect, values, factor)};
   }
   return best;
 }

@@ -5,6 +5,8 @@
 
 #include "diagnosis/effect.h"
 #include "diagnosis/linear_response.h"
+#include "diagnosis/search.h"
+#include "one_mode_rig.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -133,6 +135,35 @@ TEST(SensorLowpass, OfThreeLagsIsAnAverageOverTimeToThirdOrder) {
     const Complex st(0., 2. * std::numbers::pi * f_hz * length_s);
     const Complex average = (1. - std::exp(-st)) / st;
     EXPECT_LT(std::abs(lowpass(corner_hz, 3., f_hz) - average), std::pow(std::abs(st), 3) / 200.);
+  }
+}
+
+TEST(Hum, OfMainsThatAreALittleOffIsFoundToAHundredthOfAHertz) {
+  SearchOptions hum_alone{.max_effects = 1};
+  for (const Effect& effect : effect_catalogue())
+    if (effect.id != "hum") hum_alone.left_out.push_back(effect.id);
+  for (const double frequency_hz : {49.96, 50.08, 99.95, 119.9}) {
+    test::OneModeRig rig = test::noisy_rig();
+    rig.hum = 1.5e-5;
+    rig.hum_hz = frequency_hz;
+    signals::Dataset records = test::rig_dataset(rig);
+    for (const std::size_t n : {2000, 4096, 5000}) {
+      records.records.push_back(records.records.front());
+      records.records.back().record =
+          rig.record(n, 0., test::no_signal, test::no_signal, 90, false);
+    }
+    const SearchResult result =
+        search(prepare_experiment(test::nominal_of(test::OneModeRig{}, false), records,
+                                  signals::Split::fit, InputNoise::reduced),
+               hum_alone);
+    ASSERT_EQ(result.candidates.front().name, "hum");
+    const HypothesisFit& fit = result.fits[result.candidates.front().fit];
+    const auto found = [&](std::size_t parameter) {
+      const std::size_t place = fit.place("hum", parameter).value();
+      return fit.figures[place].description.value(fit.x(static_cast<Eigen::Index>(place)));
+    };
+    EXPECT_NEAR(found(1), frequency_hz, 0.01);
+    EXPECT_NEAR(found(0), rig.hum, 0.1 * rig.hum) << frequency_hz;
   }
 }
 

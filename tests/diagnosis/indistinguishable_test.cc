@@ -55,6 +55,16 @@ TEST(Indistinguishable, ATinyDelayIsALowpassButALongOneIsNot) {
   EXPECT_TRUE(sets_of(rig, {}, rivals).empty());
 }
 
+TEST(Indistinguishable, AGainOfTheAccelerometerIsAStageThatRocksBelowItsResonance) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.moment_mass *= 0.98;
+  const Sets sets = sets_of(rig, {"reference_gain"},
+                            {Hypothesis{}, only("stage_rocking"), only("delay"), only("hum")});
+  EXPECT_TRUE(holds(sets, "reference_gain", "stage_rocking"));
+  EXPECT_FALSE(holds(sets, "reference_gain", "delay"));
+  EXPECT_FALSE(holds(sets, "reference_gain", "hum"));
+}
+
 TEST(Indistinguishable, NoneHasNoSets) {
   EXPECT_TRUE(sets_of(test::noisy_rig(), {}, {Hypothesis{}}).empty());
 }

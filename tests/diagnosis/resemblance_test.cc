@@ -43,6 +43,18 @@ TEST_F(ResemblanceTest, OfNoiseAloneIsThatOfChance) {
     EXPECT_LT(of("extra_mode", {{hz, 0.02, 0.05}}).gain, 16.) << hz;
 }
 
+TEST_F(ResemblanceTest, TellsPlaceAndSizeOfATone) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.hum = 2e-5;
+  rig.hum_hz = 50.1;
+  measure(rig);
+  const Resemblance found = of("hum", {{1e-6, 49.7}, {1e-6, 50.1}, {1e-6, 60.}});
+  EXPECT_GT(found.gain, 50.);
+  ASSERT_FALSE(found.values.empty());
+  EXPECT_EQ(found.values[1], 50.1);
+  EXPECT_NEAR(found.values[0], rig.hum, 0.3 * rig.hum);
+}
+
 TEST_F(ResemblanceTest, HasNoSizeBeyondTheRangeOfTheEffect) {
   test::OneModeRig rig = test::noisy_rig();
   rig.extra_hz = 70.;
