@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <random>
 
 #include "signals/record_io.h"
@@ -26,8 +27,8 @@ const std::string swinging =
     " --set 'Records/Sampling rate=320' --set 'Base motion/Lines=27'"
     " --set 'Base motion/Peak=9.81' --set 'Transient/Checkpoint interval=2'";
 
-/// Starts the program and ends it by a signal after a time; true when that came before its own end.
-bool interrupt(const std::string& arguments, const double after_s, const int signal) {
+/// Starts the program, waits and ends it by a signal; true when that came before its own end.
+bool interrupt(const std::string& arguments, const std::function<void()>& wait, const int signal) {
   const std::string command =
       std::string("exec '") + VIBRISSA_PROGRAM + "' " + arguments + " > /dev/null 2>&1";
   const pid_t child = fork();
@@ -35,11 +36,24 @@ bool interrupt(const std::string& arguments, const double after_s, const int sig
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(127);
   }
-  usleep(static_cast<useconds_t>(1e6 * after_s));
+  wait();
   kill(child, signal);
   int status = 0;
   waitpid(child, &status, 0);
   return WIFSIGNALED(status) || (WIFEXITED(status) && WEXITSTATUS(status) == 130);
+}
+
+std::function<void()> for_seconds(const double time_s) {
+  return [=] { usleep(static_cast<useconds_t>(1e6 * time_s)); };
+}
+
+/// Machines take unlike times to begin: until then, but no longer than two minutes.
+std::function<void()> until_there(const std::string& file) {
+  return [=] {
+    constexpr double look_again_s = 0.02;
+    constexpr int n_looks = 6000;
+    for (int i = 0; i < n_looks && !fs::exists(file); ++i) for_seconds(look_again_s)();
+  };
 }
 
 TEST(Transient, WritesRecordEnergiesFieldsAndASummary) {
@@ -99,7 +113,7 @@ TEST(Transient, KilledAgainAndAgainAndGoneOnWithLeavesTheSameFiles) {
   std::uniform_real_distribution<double> after_s(0.3, 2.);
   int n_killed = 0;
   std::string command = swinging + " --quiet -o '" + killed + "'";
-  while (n_killed < n_kills && interrupt(command, after_s(random), SIGKILL)) {
+  while (n_killed < n_kills && interrupt(command, for_seconds(after_s(random)), SIGKILL)) {
     ++n_killed;
     if (fs::exists(killed + "/resolved.prm"))
       command = "transient --quiet --resume " + quoted(killed);
@@ -120,10 +134,10 @@ TEST(Transient, CtrlCWritesACheckpointFirst) {
   const Folder folder;
   const std::string run = folder.file("run");
   ASSERT_TRUE(interrupt(swinging +
-                            " --set 'Transient/Checkpoint interval=0' --set Records/Duration=20 "
-                            "--quiet -o '" +
+                            " --set 'Transient/Checkpoint interval=0' --set 'Transient/VTK "
+                            "interval=1' --set Records/Duration=20 --quiet -o '" +
                             run + "'",
-                        4., SIGINT));
+                        until_there(run + "/vtk/transient_1.vtu"), SIGINT));
   EXPECT_TRUE(fs::exists(run + "/checkpoint.h5"));
   EXPECT_FALSE(fs::exists(run + "/record.csv"));
 }
@@ -138,7 +152,8 @@ TEST(Transient, RefusesToGoOnWithWhatIsNoRunOrDoneOrAnotherCase) {
   EXPECT_THAT(refusal("--resume " + quoted(folder.file("absent"))), HasSubstr("holds no run"));
   EXPECT_THAT(refusal(""), HasSubstr("name a case file"));
   const std::string run = folder.file("run");
-  ASSERT_TRUE(interrupt(swinging + " --quiet -o '" + run + "'", 4., SIGINT));
+  ASSERT_TRUE(interrupt(swinging + " --set Records/Duration=20 --quiet -o '" + run + "'",
+                        until_there(run + "/checkpoint.h5"), SIGINT));
   EXPECT_THAT(refusal(quoted(case_file("flow_sensor.prm")) + " --resume " + quoted(run)),
               HasSubstr("nothing beside it"));
   const std::string file = run + "/resolved.prm";
