@@ -180,19 +180,6 @@ void add_refitted(const SearchResult& result, const HypothesisFit& best, const E
   }
 }
 
-/// Places of the ratios of a fit's retunes but for the given ones.
-std::vector<Eigen::Index> retunes_but(const HypothesisFit& fit,
-                                      const std::vector<std::string>& ids) {
-  std::vector<Eigen::Index> places;
-  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-    const FreeFigure& figure = fit.figures[i];
-    if (figure.nuisance && figure.parameter == 0 &&
-        std::find(ids.begin(), ids.end(), figure.effect->id) == ids.end())
-      places.push_back(static_cast<Eigen::Index>(i));
-  }
-  return places;
-}
-
 /// Log likelihood of a fit whose retunes but for the given ones are exactly nominal: in Gaussian
 /// approximation, tolerances taken out.
 double likelihood_at_nominal_but(const HypothesisFit& fit, const std::vector<std::string>& ids) {

@@ -89,6 +89,18 @@ double log_mean(double a, double b) {
 
 }  // namespace
 
+std::vector<Eigen::Index> retunes_but(const HypothesisFit& fit,
+                                      const std::vector<std::string>& ids) {
+  std::vector<Eigen::Index> places;
+  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
+    const FreeFigure& figure = fit.figures[i];
+    if (figure.nuisance && figure.parameter == 0 &&
+        std::find(ids.begin(), ids.end(), figure.effect->id) == ids.end())
+      places.push_back(static_cast<Eigen::Index>(i));
+  }
+  return places;
+}
+
 RetunedPosterior retuned_posterior(const HypothesisFit& fit,
                                    const std::vector<Eigen::Index>& named) {
   RetunedPosterior out{fit.x, fit.covariance, fit.log_evidence};
@@ -119,9 +131,7 @@ RetunedPosterior retuned_posterior(const HypothesisFit& fit,
 
 std::vector<RetuneChoice> retune_choices(const NominalModel& nominal, const HypothesisFit& fit) {
   std::vector<Eigen::Index> ratios;
-  for (std::size_t i = 0; i < fit.figures.size() && !fit.hypothesis.is_discrepancy(); ++i)
-    if (fit.figures[i].nuisance && fit.figures[i].parameter == 0)
-      ratios.push_back(static_cast<Eigen::Index>(i));
+  if (!fit.hypothesis.is_discrepancy()) ratios = retunes_but(fit, {});
   std::vector<RetuneChoice> choices;
   for (std::size_t set = 0; set < (std::size_t{1} << ratios.size()); ++set) {
     RetuneChoice choice;

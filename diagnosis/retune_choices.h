@@ -7,6 +7,10 @@
 
 namespace vibrissa::diagnosis {
 
+/// Places among the figures of the ratios of a fit's retunes, but for the given ones.
+std::vector<Eigen::Index> retunes_but(const HypothesisFit& fit,
+                                      const std::vector<std::string>& ids);
+
 /// A fit's figures when what is named of its retunes may lie anywhere in its range, in place of its
 /// tolerance. Where retunes do the same, as gains do, tolerances share between them what one of
 /// them did; once it is named it does all of it.
