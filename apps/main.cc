@@ -17,6 +17,7 @@
 #include "fem/solver_session.h"
 #include "report/revision.h"
 #include "signals/error.h"
+#include "signals/kept_memory.h"
 
 namespace {
 
@@ -153,6 +154,7 @@ void settle(const Failure& failure, Voice& voice) {
 int main(int argc, char** argv) {
   namespace fem = vibrissa::fem;
   vibrissa::apps::use_fast_blas_kernel(argv);
+  vibrissa::signals::keep_freed_memory();
   const std::string_view command = argc > 1 ? argv[1] : "";
   // Pictures are drawn by a child of a process that may be one of several.
   std::optional<fem::SolverSession> session;

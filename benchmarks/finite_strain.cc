@@ -16,6 +16,7 @@
 #include "fem/sensor.h"
 #include "fem/solver_session.h"
 #include "meshes/sensor_mesh.h"
+#include "signals/kept_memory.h"
 
 namespace {
 
@@ -218,6 +219,7 @@ BENCHMARK(step_against_calculix)->Arg(11)->Iterations(1)->Unit(benchmark::kSecon
 }  // namespace
 
 int main(int argc, char** argv) {
+  signals::keep_freed_memory();  // as the program does
   const fem::SolverSession session;
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

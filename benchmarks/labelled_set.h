@@ -10,6 +10,7 @@
 
 #include "diagnosis/hypothesis.h"
 #include "signals/json_input.h"
+#include "signals/kept_memory.h"
 
 /// A folder with sim/, caseNNN/real/ and labels.json.
 namespace vibrissa::benchmarks {
@@ -44,6 +45,7 @@ inline std::vector<std::string> cases_of(const std::filesystem::path& set) {
 
 /// main of a scoring program: user's mistakes become a message and exit code 2.
 inline int guarded(const std::function<int()>& run) {
+  signals::keep_freed_memory();  // as the program does
   try {
     return run();
   } catch (const std::exception& error) {

@@ -13,6 +13,7 @@
 #include "fem/sensor.h"
 #include "fem/solver_session.h"
 #include "meshes/sensor_mesh.h"
+#include "signals/kept_memory.h"
 
 namespace {
 
@@ -97,6 +98,7 @@ BENCHMARK(calculix)->Arg(0)->Arg(2)->Arg(3)->Unit(benchmark::kSecond)->UseRealTi
 }  // namespace
 
 int main(int argc, char** argv) {
+  signals::keep_freed_memory();  // as the program does
   const fem::SolverSession session;
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

@@ -27,6 +27,7 @@
 #include "materials/sensor_materials.h"
 #include "meshes/distributed_mesh.h"
 #include "meshes/sensor_mesh.h"
+#include "signals/kept_memory.h"
 
 namespace {
 
@@ -215,6 +216,7 @@ void print_header() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  signals::keep_freed_memory();  // as the program does
   const fem::SolverSession session;
   const bool prints = fem::is_first_process();
   if (prints) print_header();

@@ -1,20 +1,17 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "diagnosis/lanes.h"
 #include "diagnosis/nominal_model.h"
 
 namespace vibrissa::diagnosis {
 
 /// Transfer function of the continuous signals, s = j 2 pi f.
 using Filter = std::function<Complex(Complex s)>;
-
-/// One value for each of the records that are integrated side by side.
-using Lanes = Eigen::Array<double, 8, 1>;
 
 /// What the joint at the base does beyond its nominal spring and damper. The state is in moments:
 /// y = nominal elastic joint moment k0 phi [N m], y_rate its derivative. One object serves one set

@@ -33,15 +33,12 @@ class DifferenceIntegrator {
   }
 
   /// Is the residual before the last correction large in any lane? What is left after it is far
-  /// less. Plain loops here: Eigen's comparisons are not vectorised.
+  /// less.
   bool is_open() const {
     constexpr double tolerance = 1e-5;
     constexpr int most_corrections = 4;
     if (laws_.empty() || n_corrections_ == most_corrections) return false;
-    int n_open = 0;
-    for (Eigen::Index i = 0; i < at_.size(); ++i)
-      n_open += std::abs(from_excess_(i)) > tolerance * std::abs(at_(i)) ? 1 : 0;
-    return n_open > 0;
+    return (from_excess_.abs() - tolerance * at_.abs()).maxCoeff() > 0.;
   }
 
   void correct() {
@@ -50,11 +47,8 @@ class DifferenceIntegrator {
     const Lanes slopes = (at_excess - from_excess_) / (at_ - from_);
     from_ = at_;
     from_excess_ = at_excess;
-    for (Eigen::Index i = 0; i < at_.size(); ++i) {
-      const bool usable = at_excess(i) != 0. && slopes(i) < 0.;
-      slope_(i) = usable ? slopes(i) : slope_(i);
-      at_(i) -= usable ? at_excess(i) / slope_(i) : 0.;
-    }
+    slope_ = where_negative(slopes, slopes, slope_);
+    at_ -= where_negative(slopes, at_excess, Lanes::Zero()) / slope_;
   }
 
   /// load gives the extra wind load for a rate of the joint moment. Returns the change at the base.
@@ -109,19 +103,26 @@ struct FineSignal {
   std::size_t before = 0;
 };
 
-/// A lane for each record; nothing after its end.
+/// All steps of a record; nothing after its end.
+std::vector<double> all_steps(const FineSignal& signal, std::size_t n_steps) {
+  const auto& [x, before] = signal;
+  std::vector<double> out(n_steps, 0.);
+  std::copy(x.end() - static_cast<std::ptrdiff_t>(before), x.end(), out.begin());
+  std::copy(x.begin(), x.end(), out.begin() + static_cast<std::ptrdiff_t>(before));
+  return out;
+}
+
+/// A lane for each record.
 std::vector<Lanes> interleaved(const std::vector<FineSignal>& signals, std::size_t n_steps) {
+  std::vector<std::vector<double>> of_lanes;
+  for (const FineSignal& signal : signals) of_lanes.push_back(all_steps(signal, n_steps));
+  of_lanes.resize(n_lanes, std::vector<double>(n_steps, 0.));
+  std::array<const double*, n_lanes> x{};
+  for (std::size_t lane = 0; lane < n_lanes; ++lane) x[lane] = of_lanes[lane].data();
   std::vector<Lanes> out(n_steps);
-  for (std::size_t i = 0; i < n_steps; ++i) {
-    Lanes values = Lanes::Zero();
-    for (std::size_t lane = 0; lane < signals.size(); ++lane) {
-      const auto& [x, before] = signals[lane];
-      if (i < x.size() + before)
-        values(static_cast<Eigen::Index>(lane)) =
-            x[i < before ? x.size() - before + i : i - before];
-    }
-    out[i] = values;
-  }
+  // A loop over the lanes inside would be compiled to scattered stores, which are slow.
+  for (std::size_t i = 0; i < n_steps; ++i)
+    out[i] << x[0][i], x[1][i], x[2][i], x[3][i], x[4][i], x[5][i], x[6][i], x[7][i];
   return out;
 }
 
@@ -182,7 +183,7 @@ std::size_t refinement(const JointModel& joint, double sampling_rate_hz) {
   return static_cast<std::size_t>(std::clamp(std::ceil(wanted_hz / sampling_rate_hz), 1., 16.));
 }
 
-/// Records of one sampling rate under one chain, no more than there are lanes.
+/// Records of one sampling rate and readout under one chain, no more than there are lanes.
 class SideBySide {
  public:
   SideBySide(const DynamicTask& task, std::span<const ElasticMoment> elastic)
@@ -192,13 +193,11 @@ class SideBySide {
         elastic_(elastic),
         fine_(fine_signals(*task.chain, elastic, factor_, n_fine_steps())),
         integrator_(*task.chain, *task.joint, record_numbers(), dt_),
-        velocity_per_rate_(task.chain->relative_wind.velocity_per_moment_rate) {
+        velocity_per_rate_(task.chain->relative_wind.velocity_per_moment_rate),
+        rotation_(elastic.front().record->readout == signals::Readout::rotation) {
     for (std::size_t lane = 0; lane < elastic.size(); ++lane) {
-      const PreparedRecord& record = *elastic[lane].record;
-      const std::size_t before = warm_up(record, factor_);
+      const std::size_t before = warm_up(*elastic[lane].record, factor_);
       start_(static_cast<Eigen::Index>(lane)) = static_cast<double>(before);
-      next_[lane] = {before, 0};
-      samples_.emplace_back(record.n_samples);
     }
     wind_gain_ =
         fine_.wind_share * task.chain->structure.modes.front().wind_gain * task.chain->drag_factor;
@@ -226,23 +225,26 @@ class SideBySide {
       return wind_gain_ * (felt * felt.abs() - u * u.abs());
     };
     const JointIntegrator::AtBase added = integrator_.end(load);
-    for (std::size_t lane = 0; lane < elastic_.size(); ++lane) {
-      Next& next = next_[lane];
-      if (i != next.step || next.sample == samples_[lane].size()) continue;
-      const bool rotation = elastic_[lane].record->readout == signals::Readout::rotation;
-      samples_[lane][next.sample++] =
-          (rotation ? added.elastic : added.moment)(static_cast<Eigen::Index>(lane));
-      next.step += factor_;
-    }
+    // In the place of what this step was the last to read.
+    fine_.y[i] = rotation_ ? added.elastic : added.moment;
   }
 
-  std::vector<std::vector<double>> take_samples() { return std::move(samples_); }
+  /// When all steps are done: what was added, at each record's samples.
+  std::vector<std::vector<double>> samples() const {
+    std::vector<std::vector<double>> out;
+    for (std::size_t lane = 0; lane < elastic_.size(); ++lane) {
+      const PreparedRecord& record = *elastic_[lane].record;
+      std::vector<double>& x = out.emplace_back(record.n_samples);
+      const Lanes* next = &fine_.y[warm_up(record, factor_)];
+      for (double& value : x) {
+        value = (*next)(static_cast<Eigen::Index>(lane));
+        next += factor_;
+      }
+    }
+    return out;
+  }
 
  private:
-  struct Next {
-    std::size_t step = 0, sample = 0;
-  };
-
   std::size_t n_fine_steps() const {
     std::size_t n = 0;
     for (const ElasticMoment& e : elastic_)
@@ -264,9 +266,8 @@ class SideBySide {
   FineSignals fine_;
   DifferenceIntegrator integrator_;
   double velocity_per_rate_;
+  bool rotation_;
   Lanes start_ = Lanes::Zero(), wind_gain_ = Lanes::Zero();
-  std::array<Next, n_lanes> next_{};  // where each record is sampled next
-  std::vector<std::vector<double>> samples_;
 };
 
 /// The records of a task, in its order.
@@ -274,9 +275,10 @@ std::vector<SideBySide> in_lanes(const DynamicTask& task) {
   std::vector<SideBySide> out;
   std::span<const ElasticMoment> left = task.elastic;
   while (!left.empty()) {
-    const double rate_hz = left.front().record->sampling_rate_hz;
+    const PreparedRecord& first = *left.front().record;
     const auto other = std::find_if(left.begin(), left.end(), [&](const ElasticMoment& e) {
-      return e.record->sampling_rate_hz != rate_hz;
+      return e.record->sampling_rate_hz != first.sampling_rate_hz ||
+             e.record->readout != first.readout;
     });
     const std::size_t n =
         std::min(n_lanes, static_cast<std::size_t>(std::distance(left.begin(), other)));
@@ -324,7 +326,7 @@ std::vector<std::vector<std::vector<double>>> dynamic_parts(std::span<const Dyna
   step_in_turn(runs);
   std::vector<std::vector<std::vector<double>>> out(tasks.size());
   for (std::size_t j = 0; j < runs.size(); ++j)
-    for (std::vector<double>& samples : runs[j].take_samples())
+    for (std::vector<double>& samples : runs[j].samples())
       out[task_of_run[j]].push_back(std::move(samples));
   return out;
 }

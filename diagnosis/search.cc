@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <set>
 
 #include "diagnosis/calibration.h"
@@ -20,6 +21,8 @@ namespace {
 constexpr std::size_t n_extended = 4, n_partners = 5;
 /// Twice the log likelihood that a shape gains to first order where it is worth a fit.
 constexpr double least_resemblance = 6.;
+/// Log likelihood by which one fit is far behind another.
+constexpr double far_nats = 300.;
 
 bool testable(const Experiment& experiment, const Effect& effect, const SearchOptions& options) {
   const auto& out = options.left_out;
@@ -61,6 +64,12 @@ Hypothesis without_retunes(Hypothesis hypothesis) {
 /// Does the effect say more of the accelerometer's noise?
 bool tells_noise(const Effect& effect) {
   return probe(effect).reference_variance > 0.;
+}
+
+/// Is it simulated step by step, which takes longer?
+bool is_integrated(const Effect& effect) {
+  const Chain chain = probe(effect);
+  return !chain.joint.empty() || chain.relative_wind.on;
 }
 
 /// What it calls the noise of an effect follows the wind: something else answers to the wind.
@@ -142,12 +151,26 @@ class Searcher {
     bool in_brief = false;  // from one start alone
   };
 
+  /// So that no thread is left alone with a long one at the end.
+  static std::vector<std::size_t> longest_first(const std::vector<Task>& tasks) {
+    std::vector<std::size_t> order(tasks.size()), length(tasks.size(), 0);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      for (const Effect* effect : tasks[i].hypothesis.effects())
+        length[i] += is_integrated(*effect) ? effect->parameters.size() : 0;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
+    return order;
+  }
+
   void fit_all(const std::vector<Task>& tasks) {
     const std::size_t first = fits_.size();
     fits_.resize(first + tasks.size());
     // Known before any of them runs: which thread is first must not matter.
     const double to_beat = best_log_posterior_;
-    for_each_parallel(tasks.size(), options_.n_threads, [&](std::size_t i) {
+    const std::vector<std::size_t> order = longest_first(tasks);
+    for_each_parallel(tasks.size(), options_.n_threads, [&](std::size_t nth) {
+      const std::size_t i = order[nth];
       const HypothesisFit* start = tasks[i].start ? &fits_[*tasks[i].start] : nullptr;
       std::optional<FurtherStart> also;
       if (const auto& further = tasks[i].further)
@@ -187,8 +210,9 @@ class Searcher {
       }
     std::vector<HypothesisFit> refined(again.size());
     for_each_parallel(again.size(), options_.n_threads, [&](std::size_t i) {
-      refined[i] =
-          fit_hypothesis(experiment_, fits_[again[i].first].hypothesis, &fits_[again[i].second]);
+      const HypothesisFit& part = fits_[again[i].first];
+      refined[i] = fit_hypothesis(experiment_, part.hypothesis, &fits_[again[i].second],
+                                  {.to_beat = part.log_posterior});
       const std::lock_guard lock(mutex_);
       if (options_.on_fit) options_.on_fit();
     });
@@ -269,11 +293,13 @@ class Searcher {
     std::vector<Task> tasks;
     std::set<std::string> names;
     for (const std::size_t base : bases) {
-      const bool in_brief = explains_little(base);
+      const bool little = explains_little(base), outdone = is_outdone(base, bases.front());
       for (Partner& partner : partners(base)) {
         const Hypothesis joint = fits_[base].hypothesis.with(*partner.effect);
+        const bool holds_best = holds(joint, bases.front());
+        const bool in_brief = little || (outdone && !holds_best);
         // What the best one gains beside it, its own partners tell.
-        if (in_brief && (is_hopeless(base, partner.gain) || holds(joint, bases.front()))) continue;
+        if (in_brief && (is_hopeless(base, partner.gain) || holds_best)) continue;
         if (known_.count(joint.name()) != 0 || !names.insert(joint.name()).second) continue;
         tasks.push_back({joint, base, std::move(partner.further), in_brief});
       }
@@ -293,18 +319,26 @@ class Searcher {
                        [&](const Effect* part) { return hypothesis.contains(part->id); });
   }
 
+  double nats_behind(std::size_t base) const {
+    return best_log_posterior_ - fits_[base].log_posterior;
+  }
+
   /// Does a fit explain little of what the best one does, and is that far from it?
   bool explains_little(std::size_t base) const {
-    constexpr double little = 0.3, far_nats = 300.;
-    const double behind = best_log_posterior_ - fits_[base].log_posterior,
-                 whole = best_log_posterior_ - fits_.front().log_posterior;
+    constexpr double little = 0.3;
+    const double behind = nats_behind(base), whole = nats_behind(0);
     return behind > far_nats && behind > (1. - little) * whole;
+  }
+
+  /// Is a fit far from one of its size that leaves nothing but noise?
+  bool is_outdone(std::size_t base, std::size_t best) const {
+    return nats_behind(base) - nats_behind(best) > far_nats && !leaves_too_much(fits_[best]);
   }
 
   /// Would a partner not help by far, to first order? gain: twice its log likelihood.
   bool is_hopeless(std::size_t base, double gain) const {
     constexpr double n_first_orders = 20.;
-    return best_log_posterior_ - fits_[base].log_posterior > n_first_orders * 0.5 * gain;
+    return nats_behind(base) > n_first_orders * 0.5 * gain;
   }
 
   std::vector<Partner> partners(std::size_t base) {

@@ -9,6 +9,7 @@
 #include "benchmarks/trial/trial_case.h"
 #include "fem/solver_session.h"
 #include "signals/error.h"
+#include "signals/kept_memory.h"
 #include "signals/output_file.h"
 #include "signals/record_io.h"
 #include "signals/sealed_file.h"
@@ -90,6 +91,7 @@ int main(int argc, char** argv) try {
     std::cerr << "usage: generate_trial SEED FIRST COUNT FOLDER\n";
     return 2;
   }
+  signals::keep_freed_memory();
   const fem::SolverSession session;
   generate(std::stoull(argv[1]), std::stoull(argv[2]), std::stoull(argv[3]), argv[4]);
   return 0;
