@@ -71,8 +71,9 @@ std::vector<report::KeyNumber> key_numbers(const Diagnosis& d) {
   std::vector<report::KeyNumber> numbers;
   if (!d.ranking.empty()) {
     const RankedAnswer& first = d.ranking.front();
-    numbers.push_back({"Probability of the answer", percent(first.probability),
-                       "anything unlisted " + percent(d.probability_of_unlisted)});
+    numbers.push_back(
+        {"Probability of the answer", percent(first.probability),
+         "anything else, shown by these records or not, " + percent(d.probability_of_unlisted)});
     if (first.held_out) add_scores(numbers, first.held_out->overall);
   }
   if (d.wind_speed)

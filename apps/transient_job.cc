@@ -3,7 +3,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 
 #include "apps/case_file.h"
@@ -25,14 +24,13 @@
 #include "signals/progress.h"
 #include "signals/record_io.h"
 #include "signals/sha256.h"
+#include "signals/stopwatch.h"
 
 namespace vibrissa::apps {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
 constexpr const char* checkpoint_name = "checkpoint.h5";
 
 std::string sha256_of(const Inputs& inputs) {
@@ -78,16 +76,16 @@ class Job {
     signals::Progress progress("full-order solid", run_.n_samples(), show_progress);
     progress.advance(run_.n_done());
     if (run_.n_done() == 1) write_frame();
-    auto written = Clock::now();
+    signals::Stopwatch since_written;
     while (!run_.is_done()) {
       run_.advance();
       write_frame();
       progress.advance();
       if (run_.is_done()) break;
       const bool stops = any_process(interruption.is_requested());
-      if (stops || any_process(is_checkpoint_due(written))) {
+      if (stops || any_process(is_checkpoint_due(since_written))) {
         fem::write_checkpoint(checkpoint(), run_, owner_);
-        written = Clock::now();
+        since_written.restart();
       }
       if (stops) return false;
     }
@@ -124,12 +122,12 @@ class Job {
                                  solid.newton, solid.adaptive});
   }
 
-  bool is_checkpoint_due(const Clock::time_point written) const {
+  bool is_checkpoint_due(signals::Stopwatch& since_written) const {
     const auto& solid = parameters_.transient;
     if (solid.checkpoint_samples > 0 && (run_.n_done() - 1) % solid.checkpoint_samples == 0)
       return true;
-    const std::chrono::duration<double> since = Clock::now() - written;
-    return solid.checkpoint_minutes > 0. && since.count() > 60. * solid.checkpoint_minutes;
+    return solid.checkpoint_minutes > 0. &&
+           since_written.elapsed_s() > 60. * solid.checkpoint_minutes;
   }
 
   static std::string frame_name(const std::size_t frame, const char* const extension) {

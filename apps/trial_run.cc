@@ -1,7 +1,5 @@
 #include "apps/trial_run.h"
 
-#include <chrono>
-
 #include "apps/trial_files.h"
 #include "apps/trial_queue.h"
 #include "diagnosis/diagnosis_json.h"
@@ -10,6 +8,7 @@
 #include "signals/error.h"
 #include "signals/output_file.h"
 #include "signals/progress.h"
+#include "signals/stopwatch.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -17,12 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-using Clock = std::chrono::steady_clock;
 constexpr int bad_input = 2, too_poor_data = 3, fault = 70;
-
-double seconds_since(const Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// What is said once the records of a further experiment are there, too.
 json answer_after(const std::string& experiment, const fs::path& folder, signals::Dataset real,
@@ -77,14 +71,14 @@ json answer(const TrialIndex& trial, const TrialEntry& entry,
     out["message"] = message;
     return out;
   };
-  const Clock::time_point start = Clock::now();
+  signals::Stopwatch watch;
   try {
     const fs::path folder = trial.folder / entry.name;
     const auto real = signals::read_dataset(folder / "real");
     const diagnosis::Diagnosis said = diagnosis::diagnose(nominal, real, settings);
     out["diagnosis"] = json::parse(diagnosis::diagnosis_json(said));
     out["exit_status"] = 0;
-    out["seconds"] = seconds_since(start);
+    out["seconds"] = watch.elapsed_s();
     if (options.further && said.confidence_set.size() > 1 && said.next.name != "none")
       out.update(answers_after(trial, entry, real, nominal, settings, said.next.name));
   } catch (const diagnosis::TooPoorData& error) {

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "diagnosis/calibration.h"
 #include "diagnosis/effect.h"
 #include "diagnosis/hypothesis.h"
 #include "signals/json_input.h"
@@ -120,6 +121,7 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
   out.verdict = diagnosis.at("verdict");
   const json& ranking = diagnosis.at("ranking");
   out.probability = ranking.at(0).at("probability");
+  out.probability_of_tried = diagnosis.value("probability_of_tried", 1.);
   for (std::size_t i = 0; i < ranking.size(); ++i) {
     const std::string name = ranking[i].at("effect");
     if (name == diagnosis::outside_catalogue)
@@ -212,6 +214,32 @@ void count(TrialScore& out, const ScoredCase& c) {
     out.shares["undecided, another one resolves"].add(*c.resolved_by_chance);
 }
 
+/// Is there an answer that odds can be right about?
+bool counts_for_odds(const ScoredCase& c) {
+  return c.exit_status == 0 && c.kind != "wrong_metadata" && c.kind != "below_limit";
+}
+
+/// Log odds of the best answer among all that was tried.
+double log_odds(const ScoredCase& c) {
+  constexpr double surest = 1. - 1e-4;
+  const double p = std::clamp(c.probability / c.probability_of_tried, 1. - surest, surest);
+  return std::log(p / (1. - p));
+}
+
+void learn_trust(TrialScore& out) {
+  static const std::map<diagnosis::AnswerKind, std::string> names{
+      {diagnosis::AnswerKind::none, "none"},
+      {diagnosis::AnswerKind::single, "single"},
+      {diagnosis::AnswerKind::several, "several"},
+      {diagnosis::AnswerKind::outside, "outside"}};
+  std::map<std::string, std::vector<std::pair<double, bool>>> answers;
+  for (const ScoredCase& c : out.cases)
+    if (counts_for_odds(c))
+      answers[names.at(diagnosis::answer_kind(c.verdict))].emplace_back(log_odds(c), c.right);
+  for (const auto& [kind, of_kind] : answers)
+    out.trust[kind] = {logistic_line(of_kind), of_kind.size()};
+}
+
 void measure(TrialScore& out) {
   std::vector<double> closed, transfer, errors, seconds, known, outside, set_sizes;
   std::vector<std::pair<double, bool>> answers;
@@ -223,12 +251,12 @@ void measure(TrialScore& out) {
     seconds.push_back(c.seconds);
     set_sizes.push_back(static_cast<double>(c.confidence_set_size));
     const bool is_outside = c.kind == "nameless" || c.kind == "left_out";
-    if (c.kind != "below_limit") {
-      (is_outside ? outside : known).push_back(c.outside_probability);
-      answers.emplace_back(c.probability, c.right);
-    }
+    if (!counts_for_odds(c)) continue;
+    (is_outside ? outside : known).push_back(c.outside_probability);
+    answers.emplace_back(c.probability, c.right);
   }
   out.reliability = reliability(answers);
+  learn_trust(out);
   const double n = static_cast<double>(set_sizes.size());
   out.figures = {
       {"gap closed, median", quantile(closed, 0.5)},
@@ -270,11 +298,16 @@ json to_json(const TrialScore& score) {
                     {"said", bin.said},
                     {"right", bin.right.value()},
                     {"n", bin.right.of}});
+  json trust = json::object();
+  for (const auto& [kind, learnt] : score.trust)
+    trust[kind] = {
+        {"offset", learnt.first.offset}, {"slope", learnt.first.slope}, {"n", learnt.second}};
   return {{"schema", "vibrissa-trial-score-1"},
           {"unanswered", score.unanswered},
           {"shares", shares},
           {"figures", figures},
-          {"reliability", bins}};
+          {"reliability", bins},
+          {"trust", trust}};
 }
 
 report::Table case_table(const TrialScore& score) {

@@ -20,6 +20,7 @@ struct ScoredCase {
   double size_in_limits = 0.;              // of the smallest effect; 0 without one
   int exit_status = 0;
   double probability = 0., outside_probability = 0., seconds = 0.;
+  double probability_of_tried = 1.;  // of any answer that was tried
   bool right = false, right_within_set = false, in_top_three = false, in_confidence_set = false;
   bool links_right = false;
   std::size_t confidence_set_size = 0;
@@ -36,6 +37,8 @@ struct TrialScore {
   std::map<std::string, Share> shares;    // by what is counted
   std::map<std::string, double> figures;  // medians, errors, areas
   std::vector<ReliabilityBin> reliability;
+  /// What diagnosis/calibration.h would learn from these answers, by their kind, and their number.
+  std::map<std::string, std::pair<LogisticLine, std::size_t>> trust;
 };
 
 /// Compares answers with opened labels. Proven by tests/apps/trial_test.cc.

@@ -1,5 +1,6 @@
 #include "apps/trial_statistics.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>
 #include <cmath>
@@ -55,6 +56,35 @@ double expected_calibration_error(const std::span<const ReliabilityBin> bins) {
     n += weight;
   }
   return n > 0. ? sum / n : nothing;
+}
+
+LogisticLine logistic_line(const std::span<const std::pair<double, bool>> answers) {
+  const Eigen::Vector2d centre(0., 1.);
+  const auto surprise = [&](const Eigen::Vector2d& line) {
+    double sum = 0.5 * (line - centre).squaredNorm();
+    for (const auto& [x, right] : answers) {
+      const double logit = line[0] + line[1] * x;
+      sum += std::log1p(std::exp(-std::abs(logit))) + std::max(0., right ? -logit : logit);
+    }
+    return sum;
+  };
+  constexpr int n_steps = 50, n_halvings = 30;
+  Eigen::Vector2d line = centre;
+  // Newton's steps, halved where they overshoot; the priors keep the matrix regular.
+  for (int i = 0; i < n_steps; ++i) {
+    Eigen::Vector2d gradient = centre - line;
+    Eigen::Matrix2d information = Eigen::Matrix2d::Identity();
+    for (const auto& [x, right] : answers) {
+      const Eigen::Vector2d at(1., x);
+      const double p = 1. / (1. + std::exp(-line.dot(at)));
+      gradient += ((right ? 1. : 0.) - p) * at;
+      information += p * (1. - p) * at * at.transpose();
+    }
+    Eigen::Vector2d step = information.ldlt().solve(gradient);
+    for (int k = 0; k < n_halvings && surprise(line + step) > surprise(line); ++k) step *= 0.5;
+    line += step;
+  }
+  return {line[0], line[1]};
 }
 
 double quantile(std::vector<double> values, const double probability) {

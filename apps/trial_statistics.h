@@ -33,6 +33,13 @@ std::vector<ReliabilityBin> reliability(std::span<const std::pair<double, bool>>
 /// Mean distance of said and right over the bins, weighted by their answers.
 double expected_calibration_error(std::span<const ReliabilityBin> bins);
 
+/// P(right) = 1 / (1 + exp(-offset - slope x)) by penalised maximum likelihood: offset and slope
+/// have normal priors of unit deviation about 0 and 1, so that few answers move them little.
+struct LogisticLine {
+  double offset = 0., slope = 1.;
+};
+LogisticLine logistic_line(std::span<const std::pair<double, bool>> answers);
+
 /// Quantile by linear interpolation between order statistics; NaN of nothing.
 double quantile(std::vector<double> values, double probability);
 

@@ -1,11 +1,43 @@
 #include "diagnosis/calibration.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "diagnosis/hypothesis.h"
 
 namespace vibrissa::diagnosis {
 
 double calibrated_odds(const double odds_against, const double confidence) {
   return odds_against < 1. ? std::pow(odds_against, confidence) : odds_against;
+}
+
+AnswerKind answer_kind(const std::string& answer) {
+  if (answer == "none") return AnswerKind::none;
+  if (answer == outside_catalogue) return AnswerKind::outside;
+  return effect_ids(answer).size() == 1 ? AnswerKind::single : AnswerKind::several;
+}
+
+Trust trust_in(const AnswerKind kind) {
+  switch (kind) {
+    case AnswerKind::none:
+      return {-0.075, 0.1};
+    case AnswerKind::single:
+      return {-0.525, 0.5875};
+    case AnswerKind::several:
+      return {-1.25, 0.2375};
+    case AnswerKind::outside:
+      break;
+  }
+  return {0.25, 0.1875};
+}
+
+double probability_of_tried(const AnswerKind kind, const double best) {
+  const Trust trust = trust_in(kind);
+  // Beyond it odds tell no more.
+  constexpr double surest = 1. - 1e-4;
+  const double p = std::min(best, surest);
+  const double logit = trust.offset + trust.slope * std::log(p / (1. - p));
+  return std::min(1., 1. / (1. + std::exp(-logit)) / best);
 }
 
 }  // namespace vibrissa::diagnosis

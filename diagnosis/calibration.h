@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace vibrissa::diagnosis {
 
 /// Share of their log odds that the best answers of fits earn in trials of the nominal model itself
@@ -10,5 +12,22 @@ inline constexpr double confidence_in_fits = 0.6;
 /// Odds against the best answer by trials, from those by the fits: odds^confidence. What is no
 /// likelier than not stays as it is.
 double calibrated_odds(double odds_against, double confidence = confidence_in_fits);
+
+/// What an answer names; retunes count as effects.
+enum class AnswerKind { none, single, several, outside };
+AnswerKind answer_kind(const std::string& answer);
+
+/// How often an answer of a kind was right in blind trials, where its odds among all that was tried
+/// say p: logit = offset + slope logit(p). It is less than p where something may be there that
+/// these records do not show, or that was not tried. Learnt by `vibrissa trial score`, whose seeds
+/// docs/trial.md tells.
+struct Trust {
+  double offset = 0., slope = 1.;
+};
+Trust trust_in(AnswerKind kind);
+
+/// Probability that any answer that was tried is right, the best of them having the given one among
+/// them; never more than 1. Proven by tests/diagnosis/calibration_test.cc.
+double probability_of_tried(AnswerKind kind, double best);
 
 }  // namespace vibrissa::diagnosis

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/calibration.h"
 #include "diagnosis/indistinguishable.h"
 #include "diagnosis/long_records.h"
 #include "diagnosis/material_estimates.h"
@@ -113,16 +114,18 @@ void set_gap(Diagnosis& out, const MendedModel& simulation, const signals::Datas
 
 void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nominal,
           const DiagnoseOptions& options) {
+  const Candidate& best = result.candidates.front();
+  out.probability_of_tried = probability_of_tried(answer_kind(best.name), best.probability);
   double listed = 0.;
   for (std::size_t i = 0; i < std::min(options.n_ranked, result.candidates.size()); ++i) {
     const Candidate& candidate = result.candidates[i];
     out.ranking.push_back(
         {.name = candidate.name,
-         .probability = candidate.probability,
+         .probability = out.probability_of_tried * candidate.probability,
          .parameters = parameter_estimates(result.fits[candidate.fit], candidate.name),
          .materials = material_estimates(nominal, result.fits[candidate.fit], candidate.name),
          .held_out = {}});
-    listed += candidate.probability;
+    listed += out.ranking.back().probability;
   }
   out.probability_of_unlisted = std::max(0., 1. - listed);
 }

@@ -56,6 +56,9 @@ struct Diagnosis {
   std::string verdict = "none";
   std::vector<RankedAnswer> ranking{};  // most probable first
   double probability_of_unlisted = 0.;
+  /// Of any answer that was tried, listed or not; what is left to 1 is something that these records
+  /// do not show, or that was not tried (calibration.h).
+  double probability_of_tried = 1.;
   /// The known answer that comes nearest, where the verdict is outside_catalogue.
   std::optional<RankedAnswer> nearest_known{};
   /// Fewest answers that together have 95 %.

@@ -201,6 +201,10 @@ std::string others_line(const Diagnosis& diagnosis) {
     if (answer.probability < 0.005) break;
     text += (text.empty() ? "Else: " : ", ") + answer.name + " " + percent(answer.probability);
   }
+  const double untold = 1. - diagnosis.probability_of_tried;
+  if (untold >= 0.005)
+    text +=
+        (text.empty() ? "Else: " : "; ") + ("what these records do not show " + percent(untold));
   return text;
 }
 
@@ -225,6 +229,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
       {"verdict", diagnosis.verdict},
       {"ranking", ranking},
       {"probability_of_unlisted", json_number(diagnosis.probability_of_unlisted)},
+      {"probability_of_tried", json_number(diagnosis.probability_of_tried)},
       {"nearest_known",
        diagnosis.nearest_known ? answer_json(*diagnosis.nearest_known) : json(nullptr)},
       {"confidence_set", diagnosis.confidence_set},

@@ -10,10 +10,8 @@
 namespace vibrissa::signals {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t bar_width = 30;
-constexpr std::chrono::milliseconds least_pause(100);
+constexpr double least_pause_s = 0.1;
 
 std::string minutes_and_seconds(const double duration_s) {
   const auto seconds = static_cast<unsigned long long>(duration_s + 0.5);
@@ -29,11 +27,7 @@ std::string minutes_and_seconds(const double duration_s) {
 }  // namespace
 
 Progress::Progress(std::string title, const std::size_t n_steps, const bool show)
-    : title_(std::move(title)),
-      n_steps_(n_steps),
-      show_(show && ::isatty(STDERR_FILENO) == 1),
-      start_(Clock::now()),
-      last_drawn_(start_) {}
+    : title_(std::move(title)), n_steps_(n_steps), show_(show && ::isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
   if (show_) draw(true);
@@ -41,12 +35,12 @@ Progress::~Progress() {
 
 void Progress::advance(const std::size_t n) {
   done_ += std::min(n, n_steps_ - done_);
-  if (show_ && Clock::now() - last_drawn_ >= least_pause) draw(false);
+  if (show_ && since_drawn_.elapsed_s() >= least_pause_s) draw(false);
 }
 
 void Progress::draw(const bool last) {
-  last_drawn_ = Clock::now();
-  const double elapsed_s = std::chrono::duration<double>(last_drawn_ - start_).count();
+  since_drawn_.restart();
+  const double elapsed_s = since_start_.elapsed_s();
   const double part =
       n_steps_ == 0 ? 1. : static_cast<double>(done_) / static_cast<double>(n_steps_);
   const auto filled = static_cast<std::size_t>(part * static_cast<double>(bar_width));

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <string>
+
+#include "signals/stopwatch.h"
 
 namespace vibrissa::signals {
 
@@ -22,7 +23,7 @@ class Progress {
   std::string title_;
   std::size_t n_steps_, done_ = 0;
   bool show_;
-  std::chrono::steady_clock::time_point start_, last_drawn_;
+  Stopwatch since_start_, since_drawn_;
 };
 
 }  // namespace vibrissa::signals

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -31,6 +32,21 @@ TEST(TrialStatistics, AreaUnderTheCurve) {
   EXPECT_EQ(auroc(high, low), 0.);
   EXPECT_EQ(auroc(low, low), 0.5);
   EXPECT_NEAR(auroc(low, mixed), (1.5 + 3.) / 6., 1e-15);
+}
+
+TEST(TrialStatistics, LogisticLineIsFoundInAnswersThatFollowOne) {
+  const LogisticLine none = logistic_line({});
+  EXPECT_EQ(none.offset, 0.);
+  EXPECT_EQ(none.slope, 1.);
+  constexpr double offset = -0.7, slope = 0.4;
+  constexpr int n_each = 2000;
+  std::vector<std::pair<double, bool>> answers;
+  for (const double x : {-2., -1., 0., 1., 2., 3., 4., 5.})
+    for (int i = 0; i < n_each; ++i)
+      answers.emplace_back(x, i < n_each / (1. + std::exp(-offset - slope * x)));
+  const LogisticLine found = logistic_line(answers);
+  EXPECT_NEAR(found.offset, offset, 0.01);
+  EXPECT_NEAR(found.slope, slope, 0.01);
 }
 
 TEST(TrialStatistics, CalibrationErrorIsTheWeightedDistance) {
@@ -98,6 +114,8 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
   EXPECT_EQ(share("single at 3 limits, right"), Pair(1, 2));
   EXPECT_EQ(share("single of all sizes, right"), Pair(1, 3));
   EXPECT_EQ(share("none, false alarm"), Pair(0, 1));
+  EXPECT_EQ(score.trust.at("none").second, 2u);
+  EXPECT_EQ(score.trust.at("single").second, 4u);
   EXPECT_EQ(share("retune_only, false alarm"), Pair(0, 1));
   EXPECT_EQ(share("nameless, wrong name above 0.8"), Pair(1, 1));
   EXPECT_EQ(share("wrong name above 0.8"), Pair(1, 5));

@@ -23,5 +23,35 @@ TEST(Calibration, LeavesTheLikeliestAnswerTheLikeliest) {
   for (const double odds : {1., 3., 40.}) EXPECT_EQ(calibrated_odds(odds), odds);
 }
 
+constexpr AnswerKind kinds[] = {AnswerKind::none, AnswerKind::single, AnswerKind::several,
+                                AnswerKind::outside};
+
+TEST(Calibration, AnAnswerIsOfTheKindOfWhatItNames) {
+  EXPECT_EQ(answer_kind("none"), AnswerKind::none);
+  EXPECT_EQ(answer_kind("outside_catalogue"), AnswerKind::outside);
+  EXPECT_EQ(answer_kind("hardening"), AnswerKind::single);
+  EXPECT_EQ(answer_kind("sensor_gain"), AnswerKind::single);
+  EXPECT_EQ(answer_kind("hardening+sensor_gain"), AnswerKind::several);
+}
+
+TEST(Calibration, NoTrustMakesAnAnswerSurer) {
+  for (const AnswerKind kind : kinds)
+    for (const double best : {0.01, 0.3, 0.5, 0.9, 0.999, 1.}) {
+      EXPECT_GT(probability_of_tried(kind, best), 0.);
+      EXPECT_LE(probability_of_tried(kind, best), 1.);
+    }
+}
+
+TEST(Calibration, TheSurerTheFitsTheSurerTheAnswer) {
+  for (const AnswerKind kind : kinds) {
+    double before = 0.;
+    for (const double best : {0.3, 0.5, 0.7, 0.9, 0.99, 0.999, 1.}) {
+      const double now = best * probability_of_tried(kind, best);
+      EXPECT_GE(now, before);
+      before = now;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis
