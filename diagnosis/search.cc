@@ -355,11 +355,15 @@ class Searcher {
         scored[i].gain = std::max(scored[i].gain, scored[i].further->resemblance.gain);
       if (tells_noise(*effect)) scored[i].gain += 2. * noise_strain(fit);
     });
-    std::sort(scored.begin(), scored.end(),
-              [](const Partner& a, const Partner& b) { return a.gain > b.gain; });
-    scored.resize(std::min(scored.size(), n_partners));
-    std::erase_if(scored, [](const Partner& p) { return p.gain <= least_resemblance; });
-    return scored;
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < scored.size(); ++i)
+      if (scored[i].gain > least_resemblance) order.push_back(i);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return scored[a].gain > scored[b].gain; });
+    keep_first(order, n_partners);
+    std::vector<Partner> out;
+    for (const std::size_t i : order) out.push_back(std::move(scored[i]));
+    return out;
   }
 
   enum class Kept { possible, refuted };
