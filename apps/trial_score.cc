@@ -219,13 +219,6 @@ bool counts_for_odds(const ScoredCase& c) {
   return c.exit_status == 0 && c.kind != "wrong_metadata" && c.kind != "below_limit";
 }
 
-/// Log odds of the best answer among all that was tried.
-double log_odds(const ScoredCase& c) {
-  constexpr double surest = 1. - 1e-4;
-  const double p = std::clamp(c.probability / c.probability_of_tried, 1. - surest, surest);
-  return std::log(p / (1. - p));
-}
-
 void learn_trust(TrialScore& out) {
   static const std::map<diagnosis::AnswerKind, std::string> names{
       {diagnosis::AnswerKind::none, "none"},
@@ -235,7 +228,8 @@ void learn_trust(TrialScore& out) {
   std::map<std::string, std::vector<std::pair<double, bool>>> answers;
   for (const ScoredCase& c : out.cases)
     if (counts_for_odds(c))
-      answers[names.at(diagnosis::answer_kind(c.verdict))].emplace_back(log_odds(c), c.right);
+      answers[names.at(diagnosis::answer_kind(c.verdict))].emplace_back(
+          diagnosis::log_odds(c.probability / c.probability_of_tried), c.right);
   for (const auto& [kind, of_kind] : answers)
     out.trust[kind] = {logistic_line(of_kind), of_kind.size()};
 }

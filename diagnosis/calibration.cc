@@ -31,12 +31,15 @@ Trust trust_in(const AnswerKind kind) {
   return {0.25, 0.1875};
 }
 
+double log_odds(const double probability) {
+  constexpr double surest = 1. - 1e-4;
+  const double p = std::clamp(probability, 1. - surest, surest);
+  return std::log(p / (1. - p));
+}
+
 double probability_of_tried(const AnswerKind kind, const double best) {
   const Trust trust = trust_in(kind);
-  // Beyond it odds tell no more.
-  constexpr double surest = 1. - 1e-4;
-  const double p = std::min(best, surest);
-  const double logit = trust.offset + trust.slope * std::log(p / (1. - p));
+  const double logit = trust.offset + trust.slope * log_odds(best);
   return std::min(1., 1. / (1. + std::exp(-logit)) / best);
 }
 

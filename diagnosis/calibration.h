@@ -26,6 +26,9 @@ struct Trust {
 };
 Trust trust_in(AnswerKind kind);
 
+/// Of a probability; beyond one in ten thousand, on either side, they tell no more.
+double log_odds(double probability);
+
 /// Probability that any answer that was tried is right, the best of them having the given one among
 /// them; never more than 1. Proven by tests/diagnosis/calibration_test.cc.
 double probability_of_tried(AnswerKind kind, double best);

@@ -66,12 +66,6 @@ bool tells_noise(const Effect& effect) {
   return probe(effect).reference_variance > 0.;
 }
 
-/// Is it simulated step by step, which takes longer?
-bool is_integrated(const Effect& effect) {
-  const Chain chain = probe(effect);
-  return !chain.joint.empty() || chain.relative_wind.on;
-}
-
 /// What it calls the noise of an effect follows the wind: something else answers to the wind.
 bool foretells_its_noise(const HypothesisFit& fit) {
   constexpr double most_nats = 30., most_share = 0.05;
@@ -151,13 +145,13 @@ class Searcher {
     bool in_brief = false;  // from one start alone
   };
 
-  /// So that no thread is left alone with a long one at the end.
+  /// Nonlinear ones take longer: no thread is to be left alone with one at the end.
   static std::vector<std::size_t> longest_first(const std::vector<Task>& tasks) {
     std::vector<std::size_t> order(tasks.size()), length(tasks.size(), 0);
     std::iota(order.begin(), order.end(), std::size_t{0});
     for (std::size_t i = 0; i < tasks.size(); ++i)
       for (const Effect* effect : tasks[i].hypothesis.effects())
-        length[i] += is_integrated(*effect) ? effect->parameters.size() : 0;
+        length[i] += is_nonlinear(*effect) ? effect->parameters.size() : 0;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
     return order;
