@@ -3,10 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <optional>
 
+#include "diagnosis/base_path_identification.h"
 #include "diagnosis/chain_simulation.h"
 #include "diagnosis/experiment.h"
 #include "diagnosis/judged_samples.h"
@@ -20,47 +19,6 @@ namespace {
 using signals::DatasetRecord;
 namespace channel = signals::channel;
 
-constexpr std::size_t max_order = 6;
-/// A pair of poles more must lower the misfit to this share.
-constexpr double worthwhile = 0.5;
-
-signals::FrequencyResponse base_response_of(const DatasetRecord& entry) {
-  const signals::Record& record = entry.record;
-  const auto a = record.channel(channel::base_acceleration);
-  const auto m = record.channel(channel::base_moment);
-  const double rate = record.sampling_rate_hz();
-  if (entry.period_samples > 0) return signals::periodic_response(a, m, rate, entry.period_samples);
-  return signals::welch_response(a, m, rate, {std::min<std::size_t>(2048, a.size() / 4)});
-}
-
-/// Lines of several records, each line from the first record that has it and weighted by the size
-/// of its response: a simulation's error is in proportion to it.
-signals::FrequencyResponse joined_response(const std::vector<const DatasetRecord*>& entries) {
-  std::map<double, Complex> lines;
-  for (const DatasetRecord* entry : entries) {
-    const signals::FrequencyResponse response = base_response_of(*entry);
-    for (std::size_t i = 0; i < response.value.size(); ++i)
-      if (std::isfinite(std::abs(response.value[i])) && std::abs(response.value[i]) > 0.)
-        lines.emplace(response.frequency_hz[i], response.value[i]);
-  }
-  signals::FrequencyResponse joined;
-  for (const auto& [frequency_hz, value] : lines) {
-    joined.frequency_hz.push_back(frequency_hz);
-    joined.value.push_back(value);
-    joined.coherence.push_back(1.);
-    joined.standard_deviation.push_back(1e-3 * std::abs(value));
-  }
-  return joined;
-}
-
-double relative_misfit(const separation::Bvrm& model, const signals::FrequencyResponse& response) {
-  const std::vector<Complex> fitted = separation::response(model, response.frequency_hz);
-  double sum = 0.;
-  for (std::size_t i = 0; i < fitted.size(); ++i)
-    sum += std::norm(fitted[i] / response.value[i] - 1.);
-  return std::sqrt(sum / static_cast<double>(fitted.size()));
-}
-
 std::vector<const DatasetRecord*> choose(const signals::Dataset& dataset, bool base, bool wind) {
   std::vector<const DatasetRecord*> alone, combined;
   for (const DatasetRecord& entry : dataset.records) {
@@ -73,59 +31,6 @@ std::vector<const DatasetRecord*> choose(const signals::Dataset& dataset, bool b
     (e.base && e.wind ? combined : alone).push_back(&entry);
   }
   return alone.empty() ? combined : alone;
-}
-
-void keep_periodic_if_any(std::vector<const DatasetRecord*>& entries) {
-  const auto periodic = [](const DatasetRecord* entry) { return entry->period_samples > 0; };
-  if (std::any_of(entries.begin(), entries.end(), periodic))
-    std::erase_if(entries, [&](const DatasetRecord* entry) { return !periodic(entry); });
-}
-
-/// The one real gain of a simulation without dynamics of its own; nothing where it has some.
-std::optional<double> flat_gain(const signals::FrequencyResponse& response) {
-  constexpr double flat = 1e-4;
-  const double n = static_cast<double>(response.value.size());
-  double gain = 0., error = 0.;
-  for (const Complex& value : response.value) gain += value.real() / n;
-  for (const Complex& value : response.value) error += std::norm(value - gain) / n;
-  if (!(std::sqrt(error) <= flat * std::abs(gain))) return std::nullopt;
-  return gain;
-}
-
-void set_base_path(NominalModel& model, const signals::Dataset& simulation) {
-  std::vector<const DatasetRecord*> entries = choose(simulation, true, false);
-  if (entries.empty()) return;
-  keep_periodic_if_any(entries);
-  const signals::FrequencyResponse response = joined_response(entries);
-  if (const std::optional<double> gain = flat_gain(response)) {
-    model.base_direct = *gain;
-    model.has_base = true;
-    return;
-  }
-  const auto fits = separation::identify_frequency_orders(response, {.order = max_order});
-  const separation::FittedBvrm* best = nullptr;
-  double best_misfit = 0.;
-  for (const separation::FittedBvrm& fit : fits) {
-    const double misfit = relative_misfit(fit.model, response);
-    if (best != nullptr && misfit > worthwhile * best_misfit) continue;
-    best = &fit;
-    best_misfit = misfit;
-  }
-  if (best == nullptr) return;
-  for (const separation::ModalTerm& term : best->model.modes) {
-    const double w = std::sqrt(term.a0);
-    model.modes.push_back({.frequency_rad_s = w,
-                           .damping_ratio = term.damping_ratio(),
-                           .base_gain = term.b0 / term.a0,
-                           .base_rate = term.b1 / w});
-  }
-  // Joint laws act on the strongest mode of the band: it goes first.
-  std::sort(model.modes.begin(), model.modes.end(),
-            [](const StructuralMode& a, const StructuralMode& b) {
-              return std::abs(a.base_gain) > std::abs(b.base_gain);
-            });
-  model.base_direct = best->model.direct_term_kg_m;
-  model.has_base = true;
 }
 
 std::vector<double> signed_squares(std::span<const double> wind) {
@@ -255,7 +160,8 @@ void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
 NominalModel identify_nominal(const signals::Dataset& simulation) {
   NominalModel model;
   model.readout = readout_of(simulation);
-  set_base_path(model, simulation);
+  const auto base = choose(simulation, true, false);
+  if (!base.empty()) identify_base_path(model, base);
   set_wind_path(model, simulation);
   if (!model.has_base && !model.has_wind)
     throw signals::UserError(

@@ -76,6 +76,26 @@ TEST(IdentifyNominal, FindsATwoModeModelFromItsOwnRecords) {
   }
 }
 
+/// Lines that no segment holds whole periods of.
+TEST(IdentifyNominal, IsAsExactWithoutPeriods) {
+  const NominalModel truth = two_modes();
+  constexpr double rate_hz = 1000.;
+  std::vector<double> lines;
+  for (double f = 2.03; f < 200.; f += 0.731) lines.push_back(f);
+  signals::Dataset simulation;
+  simulation.records = {steady_record(truth, {true, false}, lines, 30000, rate_hz)};
+  simulation.records.front().period_samples = 0;
+  const NominalModel found = identify_nominal(simulation);
+  ASSERT_EQ(found.modes.size(), 2u);
+  EXPECT_NEAR(found.modes[0].frequency_rad_s / truth.modes[0].frequency_rad_s, 1., 1e-5);
+  EXPECT_NEAR(found.modes[0].damping_ratio / truth.modes[0].damping_ratio, 1., 1e-4);
+  for (const double f : {3., 10., 33., 37., 100., 131.}) {
+    const Complex s(0., 2. * std::numbers::pi * f);
+    EXPECT_LT(std::abs(found.base_response(s) / truth.base_response(s) - 1.), 2e-4) << f;
+  }
+  EXPECT_LT(found.base_misfit, 1e-3);
+}
+
 TEST(IdentifyNominal, RefusesASimulationThatDeterminesNothing) {
   signals::Dataset simulation = test::rig_dataset(test::OneModeRig{}, {.held_out = false});
   simulation.records.erase(simulation.records.begin() + 1, simulation.records.end());  // quiet
