@@ -6,6 +6,7 @@
 
 #include "fem/linear_transient.h"
 #include "fem/vtk_output.h"
+#include "report/file_name.h"
 #include "signals/progress.h"
 
 namespace vibrissa::apps {
@@ -40,7 +41,7 @@ nlohmann::json check_full_order(const fem::Sensor& sensor, const signals::Reduce
     if (!parameters.output.vtk || i % samples_per_frame != 0) return;
     times.push_back(static_cast<double>(i) / rate_hz);
     const std::string name = "transient_" + std::to_string(names.size()) + ".vtu";
-    std::filesystem::create_directories(folder);
+    report::make_folder(folder);
     const auto written = fem::write_vtu(folder / name, sensor, state.displacement, times.back());
     names.push_back(written.filename().string());
   };

@@ -3,7 +3,6 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
-#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include "apps/command.h"
 #include "apps/parse_advice.h"
 #include "diagnosis/diagnosis.h"
+#include "fem/memory_error.h"
 #include "fem/processes.h"
 #include "fem/solver_session.h"
 #include "report/revision.h"
@@ -118,11 +118,11 @@ Failure attempt(int argc, char** argv, const std::string_view command) {
     return {too_poor_data, error.what()};
   } catch (const vibrissa::apps::Interrupted& error) {
     return {interrupted, error.what()};
-  } catch (const std::bad_alloc&) {
-    return {
-        bad_input,
-        "not enough memory; shorter records or a coarser mesh (Model/Mesh resolution) need less"};
   } catch (const std::exception& error) {
+    if (vibrissa::fem::is_out_of_memory(error))
+      return {
+          bad_input,
+          "not enough memory; shorter records or a coarser mesh (Model/Mesh resolution) need less"};
     return {internal_error, std::string("internal error: ") + error.what() +
                                 "\nThis is a fault of the program; please report it with the "
                                 "command that you gave."};

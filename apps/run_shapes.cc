@@ -6,6 +6,7 @@
 #include "fem/linear_deflection.h"
 #include "fem/processes.h"
 #include "fem/vtk_output.h"
+#include "report/file_name.h"
 #include "report/table.h"
 
 namespace vibrissa::apps {
@@ -52,7 +53,7 @@ report::ModePicture bent_sensor(const std::filesystem::path& folder, const fem::
 
 std::vector<report::ModePicture> write_shapes(const std::filesystem::path& folder,
                                               const fem::Sensor& sensor) {
-  std::filesystem::create_directories(folder);
+  report::make_folder(folder);
   std::vector<report::ModePicture> shapes;
   const auto& modes = sensor.modes();
   for (std::size_t k = 1; k <= std::min(n_animated_modes, modes.size()); ++k) {

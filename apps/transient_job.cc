@@ -14,6 +14,7 @@
 #include "fem/processes.h"
 #include "fem/solver_session.h"
 #include "fem/vtk_output.h"
+#include "report/file_name.h"
 #include "report/json_file.h"
 #include "report/revision.h"
 #include "report/run_folder.h"
@@ -138,7 +139,7 @@ class Job {
   void write_frame() const {
     const std::size_t every = parameters_.transient.vtk_samples, sample = run_.n_done() - 1;
     if (every == 0 || sample % every != 0) return;
-    fs::create_directories(folder_ / "vtk");
+    report::make_folder(folder_ / "vtk");
     fem::write_vtu(folder_ / "vtk" / frame_name(sample / every, ".vtu"), sensor_,
                    run_.sensor().state().displacement, time_s(sample));
   }

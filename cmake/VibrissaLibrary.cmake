@@ -1,9 +1,9 @@
 get_filename_component(VIBRISSA_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
 
-# Rooms whose files read more than they compile: deal.II's headers are compiled once for them. A
-# file still includes what it uses; the debug and sanitize presets, which build without, would miss it.
-# Rooms in which reading headers is most of the work are compiled by eight files at a time; the debug and
-# sanitize presets, which do not, would find a name that two files of a batch share by mistake.
+# Rooms whose files read more than they compile: deal.II's headers are compiled once for them, and eight
+# files at a time, which spares a whole build most of its work. Who works on one file sets
+# -DVIBRISSA_BATCHES=OFF. Both OFF find what both hide: an include that is missing, a name that two files
+# of a batch share by mistake.
 set(VIBRISSA_BATCHED_ROOMS "^(materials|meshes|flow|fem|report|apps)$")
 set(VIBRISSA_SOLID_HEADERS <Eigen/Dense> <nlohmann/json.hpp> <deal.II/base/parameter_handler.h>
     <deal.II/fe/fe_values.h> <deal.II/grid/tria.h>)

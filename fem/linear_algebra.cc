@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "fem/memory_error.h"
+
 namespace vibrissa::fem {
 
 void check_petsc(const int error_code, const char* call) {
-  // An allocation of its own that fails comes back as the line number of the call.
-  if (error_code == PETSC_ERR_MEM || error_code >= PETSC_ERR_MAX_VALUE) throw std::bad_alloc();
+  if (is_of_memory(error_code)) throw std::bad_alloc();
   if (error_code != 0) {
     throw std::runtime_error(std::string(call) + " failed with PETSc error " +
                              std::to_string(error_code));

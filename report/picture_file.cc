@@ -11,6 +11,7 @@
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "signals/error.h"
 #include "signals/output_file.h"
@@ -85,13 +86,16 @@ void write_svg(vtkRenderWindow& window, const std::filesystem::path& file, const
   exporter->SetTitle(title.c_str());
   exporter->SetDescription(caption.c_str());
   exporter->Write();
+  std::vector<std::string> lines;
   std::ifstream in(raw);
-  if (!in) throw signals::UserError(file.string() + ": cannot be written");
-  signals::write_file(file, [&](std::ostream& out) {
-    for (std::string line; std::getline(in, line);) out << mended(line) << '\n';
-  });
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
   std::error_code ignored;
   std::filesystem::remove(raw, ignored);
+  if (lines.empty() || lines.back() != "</svg>")
+    throw signals::UserError(file.string() + ": cannot be written; is the disk full?");
+  signals::write_file(file, [&](std::ostream& out) {
+    for (const std::string& line : lines) out << mended(line) << '\n';
+  });
 }
 
 }  // namespace vibrissa::report

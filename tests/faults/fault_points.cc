@@ -1,12 +1,16 @@
-// Preloaded (LD_PRELOAD) into a program under test: the Nth call of one kind fails as the system
-// would let it fail, or, told no kind, the calls of every kind are counted.
+// Preloaded (LD_PRELOAD) into a program under test. Its opens for writing, writes, renames, large
+// allocations and forks are the points at which the system can fail it; they are counted. Told a
+// judge, every one fails in turn, each in a child of the program; told a kind and a number, this
+// one fails.
 //
 // FAULT_PROGRAM  name of the program that is meant; others (its children) run undisturbed
-// FAULT_FOLDER   files below it are meant; reading elsewhere is not
-// FAULT_KIND     open | write | rename | memory | fork
-// FAULT_NUMBER   1 for the first call of this kind
-// FAULT_LARGE   bytes from which on an allocation counts (default 1 MiB)
-// FAULT_COUNTS   file that gets "kind count" lines when the program ends
+// FAULT_COMMAND  its first argument
+// FAULT_WITH     a variable that must be set, if given: only a child that has got a display is
+// meant FAULT_FOLDER   files below it are meant; reading elsewhere is not FAULT_TALK descriptors of
+// a judge (fault_child.h) FAULT_EVERY    with a judge: only each Nth call of a kind, default 1,
+// beginning with half of it FAULT_KIND     open | write | rename | memory | fork FAULT_NUMBER   1
+// for the first call of this kind FAULT_LARGE    bytes from which on an allocation counts (default
+// 1 MiB) FAULT_COUNTS   file that gets "kind count" lines when the program ends
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -24,6 +28,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
+#include <string>
+
+#include "tests/faults/fault_child.h"
 
 extern "C" {
 void* __libc_malloc(size_t size);
@@ -40,13 +48,27 @@ size_t large_bytes = 1 << 20;
 
 std::array<std::atomic<long>, n_kinds> counts;
 std::atomic<bool> is_active{false};
+bool is_in_child = false;
 int chosen_kind = -1;
-long chosen_number = 0;
+long chosen_number = 0, every = 1;
 char folder[PATH_MAX];
+std::optional<vibrissa::faults::FaultChildren> children;
+
+long long_of(const char* name, const long otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::atol(text);
+}
 
 bool fails(const Kind kind) {
   if (!is_active) return false;
-  return ++counts[kind] == chosen_number && kind == chosen_kind;
+  const long number = ++counts[kind];
+  if (!children) return number == chosen_number && kind == chosen_kind;
+  if (number % every != every / 2 % every) return false;
+  is_active = false;  // the children's own files and memory are none of the points
+  const bool is_child = children->is_child(names[kind] + (" " + std::to_string(number)));
+  is_active = !is_child;
+  is_in_child = is_child;
+  return is_child;
 }
 
 bool is_meant(const char* path) {
@@ -74,19 +96,24 @@ Result failure(const int reason, const Result result) {
   return result;
 }
 
-__attribute__((constructor)) void begin() {
+// The loader gives a constructor what main() gets.
+__attribute__((constructor)) void begin(const int n_arguments, char** arguments, char**) {
   const char* program = std::getenv("FAULT_PROGRAM");
+  const char* command = std::getenv("FAULT_COMMAND");
   const char* where = std::getenv("FAULT_FOLDER");
-  if (program == nullptr || where == nullptr ||
-      std::strcmp(program, program_invocation_short_name) != 0)
+  const char* with = std::getenv("FAULT_WITH");
+  if (program == nullptr || command == nullptr || where == nullptr || n_arguments < 2 ||
+      std::strcmp(program, program_invocation_short_name) != 0 ||
+      std::strcmp(command, arguments[1]) != 0 || (with != nullptr && std::getenv(with) == nullptr))
     return;
   std::snprintf(folder, sizeof folder, "%s", where);
   if (const char* kind = std::getenv("FAULT_KIND"))
     for (int k = 0; k < n_kinds; ++k)
       if (std::strcmp(kind, names[k]) == 0) chosen_kind = k;
-  if (const char* number = std::getenv("FAULT_NUMBER")) chosen_number = std::atol(number);
-  if (const char* bytes = std::getenv("FAULT_LARGE"))
-    large_bytes = std::strtoull(bytes, nullptr, 10);
+  chosen_number = long_of("FAULT_NUMBER", 0);
+  every = long_of("FAULT_EVERY", 1);
+  large_bytes = static_cast<size_t>(long_of("FAULT_LARGE", 1 << 20));
+  if (const char* talk = std::getenv("FAULT_TALK")) children.emplace(folder, talk);
   is_active = true;
 }
 
@@ -188,6 +215,11 @@ void* aligned_alloc(size_t alignment, size_t size) noexcept {
 }
 void* memalign(size_t alignment, size_t size) noexcept {
   return aligned_alloc(alignment, size);
+}
+
+// Its end would wait for its own thread, which a child has not.
+int MPI_Finalize() {
+  return is_in_child ? 0 : next<int()>("MPI_Finalize")();
 }
 
 pid_t fork() noexcept {

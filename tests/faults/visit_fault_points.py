@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Fails every open, write, rename, large allocation and fork of `vibrissa run` in turn.
+"""Fails every open, write, rename, large allocation and fork of `vibrissa run` in turn, and those of its
+child that draws the pictures.
 
-After each: no crash, an error in words, and in the run folder no half file and no leftover.
-Each point takes seconds and all of them hours; --every N visits each Nth.
+After each: no crash, an error in words, and in the run folder no half file and no leftover. The points of
+the job itself are visited in one run of it, each in a child process (fault_child.h); drawing, which has
+threads and a display, is done anew for each point. --every N visits each Nth.
 """
 import argparse
+import concurrent.futures
 import json
 import os
 import pathlib
@@ -16,24 +19,17 @@ import tempfile
 KINDS = ["open", "write", "rename", "memory", "fork"]
 TAILS = {".html": b"</html>", ".svg": b"</svg>", ".png": b"IEND\xaeB`\x82", ".vtu": b"</VTKFile>",
          ".pvtu": b"</VTKFile>", ".pvd": b"</VTKFile>"}
-
-
-class Job:
-    def __init__(self, program, shim, case, scratch):
-        self.program, self.shim, self.case = program, shim, case
-        self.scratch = pathlib.Path(scratch)
-
-    def run(self, name, **fault):
-        out = self.scratch / name
-        environment = dict(os.environ, LD_PRELOAD=self.shim, FAULT_FOLDER=str(self.scratch),
-                           FAULT_PROGRAM=pathlib.Path(self.program).name, **fault)
-        done = subprocess.run([self.program, "run", self.case, "-q", "-o", str(out / "run")],
-                              env=environment, capture_output=True, text=True, timeout=600)
-        return done, out
+SIGNALLED, SEVERAL_THREADS = 1000, 2000
+TIME_LIMIT_S = 600
+FEWER_PICTURES = ["CSV only", "not drawn", "then failure"]  # said where pictures are missing
 
 
 def files(folder):
     return {str(f.relative_to(folder)): f for f in folder.rglob("*") if f.is_file()}
+
+
+def spoken(file):
+    return file.read_text(errors="replace") if file.exists() else ""
 
 
 def half_file(name, file, whole):
@@ -54,19 +50,112 @@ def half_file(name, file, whole):
     return None
 
 
-def complaints(done, out, whole):
+def complaints(status, said, out, whole):
+    """What is wrong with the end of a run of which one call failed."""
     found = files(out) if out.exists() else {}
-    if done.returncode not in (0, 1, 2):
-        yield f"status {done.returncode}: {done.stderr[-300:]}"
-    if done.returncode != 0 and not done.stderr.lstrip().startswith("vibrissa: "):
-        yield f"status {done.returncode} without an error in words: {done.stderr[-300:]!r}"
+    if status == SEVERAL_THREADS:
+        yield "not visited: the program has several threads"
+        return
+    if status not in (0, 1, 2):
+        how = f"ended by signal {status - SIGNALLED}" if status > SIGNALLED else f"status {status}"
+        yield f"{how}: {said[-300:]}"
+    if status != 0 and "vibrissa: " not in said:
+        yield f"status {status} without an error in words: {said[-300:]!r}"
     for name, file in found.items():
         wrong = half_file(name, file, whole)
         if wrong:
             yield f"{name} {wrong}"
     missing = sorted(set(whole) - set(found))
-    if done.returncode == 0 and missing and "CSV only" not in done.stdout + done.stderr:
+    if status == 0 and missing and not any(words in said for words in FEWER_PICTURES):
         yield f"status 0, but {', '.join(missing[:5])} missing"
+
+
+class Tally:
+    def __init__(self):
+        self.n_visited = self.n_wrong = 0
+
+    def add(self, what, wrongs):
+        self.n_visited += 1
+        for wrong in wrongs:
+            self.n_wrong += 1
+            print(f"{what}: {wrong}", flush=True)
+
+
+def fault_environment(program, shim, command, folder, **fault):
+    return dict(os.environ, LD_PRELOAD=shim, FAULT_FOLDER=str(folder), FAULT_COMMAND=command,
+                FAULT_PROGRAM=pathlib.Path(program).name, **fault)
+
+
+def read_counts(file):
+    return {kind: int(n) for kind, n in (line.split() for line in file.read_text().splitlines())}
+
+
+def run_in_children(options, scratch, whole, tally):
+    """All points of `vibrissa run`, in one run of it. Returns their numbers."""
+    out, counts = scratch / "out", scratch / "counts"
+    heard, to_judge = os.pipe()
+    from_judge, answers = os.pipe()
+    environment = fault_environment(options.program, options.shim, "run", out, FAULT_EVERY=str(options.every),
+                                    FAULT_TALK=f"{from_judge},{to_judge}", FAULT_COUNTS=str(counts))
+    job = subprocess.Popen(run_command(options, out), pass_fds=(from_judge, to_judge), env=environment,
+                           stdout=subprocess.DEVNULL)
+    os.close(from_judge)
+    os.close(to_judge)
+    with os.fdopen(heard) as lines, os.fdopen(answers, "wb", buffering=0) as answer:
+        for line in lines:
+            kind, number, status = line.split()
+            said = spoken(out.with_name("out.said"))
+            tally.add(f"run, {kind} {number}", complaints(int(status), said, out, whole))
+            answer.write(b".")
+    if job.wait() != 0:
+        sys.exit(f"the job in whose children the faults happened failed with status {job.returncode}")
+    return read_counts(counts)
+
+
+def run_command(options, out):
+    return [options.program, "run", options.case, "-q", "-o", str(out / "run")]
+
+
+class Drawing:
+    """`vibrissa draw`, whose child draws: what fails there must cost no more than pictures."""
+
+    def __init__(self, options, scratch, whole):
+        self.options, self.scratch, self.whole = options, scratch, whole
+
+    def draw(self, name, **fault):
+        """Folder, status and what was said."""
+        out = self.scratch / name
+        shutil.copytree(self.scratch / "reference", out, ignore=shutil.ignore_patterns("*.png", "*.svg"))
+        environment = fault_environment(self.options.program, self.options.shim, "draw", out,
+                                        FAULT_WITH="DISPLAY", **fault)
+        environment.pop("DISPLAY", None)
+        done = subprocess.run([self.options.program, "draw", str(out / "run")], env=environment, capture_output=True,
+                              text=True, timeout=TIME_LIMIT_S)
+        return out, done.returncode, done.stdout + done.stderr
+
+    def counts(self):
+        file = self.scratch / "drawing_counts"
+        out, status, said = self.draw("drawn", FAULT_COUNTS=str(file))
+        if status != 0:
+            sys.exit(f"the undisturbed drawing failed: {said}")
+        return read_counts(file)
+
+    def complaints(self, point):
+        kind, number = point
+        out, status, said = self.draw(f"{kind}{number}", FAULT_KIND=kind, FAULT_NUMBER=str(number))
+        wrongs = list(complaints(0 if status == 1 else status, said, out, self.whole))
+        shutil.rmtree(out)
+        return wrongs
+
+    def visit(self, tally):
+        counts = self.counts()
+        every = self.options.every
+        points = [(kind, number) for kind in KINDS for number in range(1, counts[kind] + 1)
+                  if number % every == every // 2 % every]
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            for (kind, number), wrongs in zip(points, pool.map(self.complaints, points)):
+                tally.add(f"draw, {kind} {number}", wrongs)
+        return counts
 
 
 def main():
@@ -74,31 +163,20 @@ def main():
     parser.add_argument("program")
     parser.add_argument("shim")
     parser.add_argument("case")
-    parser.add_argument("--kind", action="append", choices=KINDS)
     parser.add_argument("--every", type=int, default=1)
-    parser.add_argument("--first", type=int, help="default: half of --every, else 1")
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory(prefix="vibrissa_faults_") as scratch:
-        job = Job(options.program, options.shim, options.case, scratch)
-        counts_file = pathlib.Path(scratch) / "counts"
-        done, reference = job.run("reference", FAULT_COUNTS=str(counts_file))
-        if done.returncode != 0:
-            sys.exit(f"the undisturbed run failed: {done.stderr}")
-        whole = files(reference)
-        counts = dict(line.split() for line in counts_file.read_text().splitlines())
-        n_visited = n_wrong = 0
-        for kind in options.kind or KINDS:
-            n = int(counts[kind])
-            first = options.first or min(max(options.every // 2, 1), max(n, 1))
-            for number in range(first, n + 1, options.every):
-                done, out = job.run("faulty", FAULT_KIND=kind, FAULT_NUMBER=str(number))
-                n_visited += 1
-                for complaint in complaints(done, out, whole):
-                    n_wrong += 1
-                    print(f"{kind} {number}: {complaint}", flush=True)
-                shutil.rmtree(out, ignore_errors=True)
-        print(f"{n_visited} fault points visited of {counts}, {n_wrong} complaints")
-        sys.exit(1 if n_wrong else 0)
+    with tempfile.TemporaryDirectory(prefix="vibrissa_faults_") as folder:
+        scratch = pathlib.Path(folder)
+        reference = scratch / "reference"
+        subprocess.run(run_command(options, reference), check=True, stdout=subprocess.DEVNULL)
+        whole, tally = files(reference), Tally()
+        running = run_in_children(options, scratch, whole, tally)
+        print(f"vibrissa run: {tally.n_visited} fault points visited of {running}", flush=True)
+        n_running = tally.n_visited
+        drawing = Drawing(options, scratch, whole).visit(tally)
+        print(f"vibrissa draw: {tally.n_visited - n_running} visited of {drawing}")
+        print(f"{tally.n_wrong} complaints")
+        sys.exit(1 if tally.n_wrong else 0)
 
 
 if __name__ == "__main__":
