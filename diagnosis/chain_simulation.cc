@@ -172,7 +172,7 @@ void ChainSimulator::add_acceleration_noise(const PreparedRecord& record,
       if (gives_velocity(s)) felt = drag * line.wind / s;
     }
     if (base)
-      variance[b] += n * std::norm((line.base - felt) * line.sensor) * record.noise_share[k];
+      variance[b] += n * std::norm((line.base - felt) * line.sensor) * record.bin_noise_share[b];
     if (cross) variance[b] += n * std::norm(line.cross * line.sensor);
   }
 }

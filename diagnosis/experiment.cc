@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "diagnosis/judged_samples.h"
+#include "diagnosis/noise_at_bins.h"
 #include "diagnosis/repeated_samples.h"
 #include "diagnosis/spectrum.h"
 #include "diagnosis/uneven_ages.h"
@@ -225,6 +226,10 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   const SensorFrame frame = in_sensor_frame(entry);
   if (!frame.axial.empty())
     prepare_acceleration(out, entry, frame.axial, acceleration_noise, excited, treatment);
+  if (!out.noise_share.empty())
+    out.bin_noise_share = out.n_judged + 1 < out.n_samples
+                              ? share_at_bins(out.noise_share, out.n_samples, out.n_judged)
+                              : std::vector(out.noise_share.begin() + 1, out.noise_share.end() - 1);
   if (!frame.cross.empty()) out.cross_acceleration = spectrum_of(frame.cross);
   if (entry.excitation.wind) {
     const auto wind = entry.record.channel(channel::wind_speed);

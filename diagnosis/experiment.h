@@ -31,6 +31,8 @@ struct PreparedRecord {
   std::vector<double> wind;                 // at the samples; empty: not measured
   /// Share of the accelerometer noise that is left at line k of the whole record.
   std::vector<double> noise_share;
+  /// The same at the judged bins.
+  std::vector<double> bin_noise_share;
   ChannelColours colours{};              // of the noise of both channels
   double acceleration_noise_power = 0.;  // sum |A_k|^2 where nothing moved, for its variance
   std::size_t n_acceleration_noise = 0;  // lines in it
