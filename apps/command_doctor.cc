@@ -52,13 +52,14 @@ Check check_mpi() {
 
 Check check_memory() {
   std::ifstream in("/proc/meminfo");
-  double available_gib = 0.;
+  double available_gib = -1.;
   for (std::string name, unit; in >> name;) {
     double value = 0.;
     if (!(in >> value)) break;
     std::getline(in, unit);
     if (name == "MemAvailable:") available_gib = value / (1024. * 1024.);
   }
+  if (available_gib < 0.) return {"memory", "not known: /proc/meminfo says nothing", ""};
   const std::string found = report::Cell(available_gib).rounded(3) + " GiB free";
   constexpr double for_default_case_gib = 2.;
   if (available_gib >= for_default_case_gib) return {"memory", found, ""};
@@ -76,10 +77,11 @@ Check check_folder() {
   const bool writable = ::access(".", W_OK) == 0;
   std::error_code unknown;
   const auto space = std::filesystem::space(".", unknown);
-  const double free_gib = unknown ? 0. : static_cast<double>(space.available) / (1 << 30);
-  constexpr double least_gib = 1.;
   if (!writable)
     return {"this folder", "cannot be written", "results go below it: go elsewhere, or give --out"};
+  if (unknown) return {"this folder", "writable", ""};
+  const double free_gib = static_cast<double>(space.available) / (1 << 30);
+  constexpr double least_gib = 1.;
   const std::string found = "writable, " + report::Cell(free_gib).rounded(3) + " GiB free";
   return {"this folder", found,
           free_gib < least_gib ? "a run with VTK files takes about 1 GiB" : ""};

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "signals/error.h"
@@ -39,6 +40,23 @@ std::string mended(const std::string& line) {
     plain = without(plain, attribute);
   return plain;
 }
+
+/// A file of others' making that is gone when its reader is.
+class PassingFile {
+ public:
+  explicit PassingFile(std::filesystem::path file) : file_(std::move(file)) {}
+  ~PassingFile() {
+    std::error_code ignored;
+    std::filesystem::remove(file_, ignored);
+  }
+  PassingFile(const PassingFile&) = delete;
+  PassingFile& operator=(const PassingFile&) = delete;
+
+  const std::filesystem::path& path() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+};
 
 }  // namespace
 
@@ -78,19 +96,17 @@ void write_png(vtkRenderWindow& window, const std::filesystem::path& file) {
 
 void write_svg(vtkRenderWindow& window, const std::filesystem::path& file, const std::string& title,
                const std::string& caption) {
-  // The exporter knows files only and is silent about failure: its copy is read and then removed.
-  const std::filesystem::path raw = file.string() + ".raw";
+  // The exporter knows files only and is silent about failure.
+  const PassingFile raw(file.string() + ".raw");
   vtkNew<vtkSVGExporter> exporter;
   exporter->SetRenderWindow(&window);
-  exporter->SetFileName(raw.c_str());
+  exporter->SetFileName(raw.path().c_str());
   exporter->SetTitle(title.c_str());
   exporter->SetDescription(caption.c_str());
   exporter->Write();
   std::vector<std::string> lines;
-  std::ifstream in(raw);
+  std::ifstream in(raw.path());
   for (std::string line; std::getline(in, line);) lines.push_back(line);
-  std::error_code ignored;
-  std::filesystem::remove(raw, ignored);
   if (lines.empty() || lines.back() != "</svg>")
     throw signals::UserError(file.string() + ": cannot be written; is the disk full?");
   signals::write_file(file, [&](std::ostream& out) {
