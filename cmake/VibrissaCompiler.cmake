@@ -10,6 +10,8 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
 set(CMAKE_CXX_FLAGS_SANITIZE
     "-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined")
 set(CMAKE_EXE_LINKER_FLAGS_SANITIZE "-fsanitize=address,undefined")
+set(CMAKE_CXX_FLAGS_THREADS "-O1 -g -fsanitize=thread")
+set(CMAKE_EXE_LINKER_FLAGS_THREADS "-fsanitize=thread")
 
 add_compile_options(-Wall -Wextra)
 if(VIBRISSA_WERROR)
@@ -23,7 +25,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   endforeach()
   # Under sanitizers it also takes what the library's own <regex> and <functional> build up for
   # uninitialised (GCC bug 105562); the debug preset keeps that warning.
-  add_compile_options($<$<CONFIG:Sanitize>:-Wno-error=maybe-uninitialized>)
+  add_compile_options($<$<CONFIG:Sanitize,Threads>:-Wno-error=maybe-uninitialized>)
 endif()
 if(VIBRISSA_NATIVE)
   add_compile_options(-march=native)
