@@ -95,9 +95,11 @@ bool is_transfer(const std::string& record) {
   return record.starts_with("other_");
 }
 
-/// Share of the gap closed over the records of one kind, each error weighted alike.
+/// Share of the gap closed over the records of one kind, each error weighted alike; nothing where
+/// the gap of these records does not stand out of their noise.
 std::optional<double> gap_closed(const json& held_out, bool transfer) {
-  double before = 0., after = 0.;
+  constexpr double stands_out = 1.2;  // times the floor
+  double before = 0., after = 0., floor = 0.;
   for (const json& record : held_out.at("records")) {
     if (is_transfer(record.at("record")) != transfer) continue;
     const auto b = number_of(record.at("nrmse_before")), a = number_of(record.at("nrmse_after")),
@@ -105,16 +107,10 @@ std::optional<double> gap_closed(const json& held_out, bool transfer) {
     if (!b || !a || !f) continue;
     before += *b * *b - *f * *f;
     after += *a * *a - *f * *f;
+    floor += *f * *f;
   }
-  return before > 0. ? std::optional(1. - after / before) : std::nullopt;
-}
-
-/// The gap stands out of the noise, and is none that noise of its own makes, which no answer
-/// closes.
-bool is_reducible(const json& held_out) {
-  const auto before = number_of(held_out.at("nrmse_before")),
-             floor = number_of(held_out.at("noise_floor_nrmse"));
-  return before && floor && *before > 1.2 * *floor && held_out.at("not_foretold").empty();
+  if (before <= (stands_out * stands_out - 1.) * floor) return std::nullopt;
+  return 1. - after / before;
 }
 
 void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
@@ -127,6 +123,7 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
     if (name == diagnosis::outside_catalogue)
       out.outside_probability = ranking[i].at("probability");
     if (i < 3) out.in_top_three |= is_right(out.kind, out.truth, name);
+    out.probabilities[name] = ranking[i].at("probability");
   }
   out.right = is_right(out.kind, out.truth, out.verdict);
   out.right_within_set =
@@ -139,7 +136,8 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
   out.links_right = out.truth == diagnosis::outside_catalogue ||
                     links_are_right(out.truth, diagnosis.at("location").at("links"));
   const json& held_out = ranking[0].at("held_out");
-  if (out.right && !held_out.is_null() && is_reducible(held_out)) {
+  // Noise of its own no answer closes.
+  if (out.right && !held_out.is_null() && held_out.at("not_foretold").empty()) {
     out.gap_closed = gap_closed(held_out, false);
     out.transfer_gap_closed = gap_closed(held_out, true);
   }
@@ -335,11 +333,21 @@ report::Table summary_table(const TrialScore& score) {
 }
 
 report::Table confusion_table(const TrialScore& score) {
-  std::map<std::pair<std::string, std::string>, std::size_t> counts;
-  for (const ScoredCase& c : score.cases)
-    if (!c.right) ++counts[{c.truth, c.verdict}];
-  report::Table table({{"truth", ""}, {"verdict", ""}, {"cases", ""}});
-  for (const auto& [pair, n] : counts) table.add_row({pair.first, pair.second, n});
+  struct Cell {
+    std::size_t n = 0;
+    double expected = 0.;
+  };
+  std::map<std::pair<std::string, std::string>, Cell> cells;  // truth, verdict
+  for (const ScoredCase& c : score.cases) {
+    if (!c.right) ++cells[{c.truth, c.verdict}].n;
+    for (const auto& [name, probability] : c.probabilities)
+      if (name != c.verdict) cells[{name, c.verdict}].expected += probability;
+  }
+  constexpr double worth_telling = 0.5;
+  report::Table table({{"truth", ""}, {"verdict", ""}, {"cases", ""}, {"expected", ""}});
+  for (const auto& [pair, cell] : cells)
+    if (cell.n > 0 || cell.expected >= worth_telling)
+      table.add_row({pair.first, pair.second, cell.n, cell.expected});
   return table;
 }
 

@@ -20,7 +20,8 @@ struct ScoredCase {
   double size_in_limits = 0.;              // of the smallest effect; 0 without one
   int exit_status = 0;
   double probability = 0., outside_probability = 0., seconds = 0.;
-  double probability_of_tried = 1.;  // of any answer that was tried
+  double probability_of_tried = 1.;               // of any answer that was tried
+  std::map<std::string, double> probabilities{};  // of all answers that are listed
   bool right = false, right_within_set = false, in_top_three = false, in_confidence_set = false;
   bool links_right = false;
   std::size_t confidence_set_size = 0;
@@ -47,7 +48,8 @@ TrialScore score_trial(const TrialIndex& trial, const nlohmann::json& labels);
 nlohmann::json to_json(const TrialScore& score);
 report::Table case_table(const TrialScore& score);
 report::Table summary_table(const TrialScore& score);
-/// Truth against verdict, counted.
+/// Truth against verdict, of wrong answers: how many there were, and how many the answers with that
+/// verdict said that they expect.
 report::Table confusion_table(const TrialScore& score);
 /// Accuracy against size, and said against right.
 std::vector<report::Figure> trial_figures(const TrialScore& score);

@@ -145,6 +145,43 @@ TEST_F(WrittenTrial, CountsWhatFurtherExperimentsResolve) {
   EXPECT_EQ(std::pair(by_chance.hits, by_chance.of), std::pair(std::size_t{0}, std::size_t{1}));
 }
 
+TEST_F(WrittenTrial, CountsTheGapThatStandsOutOfTheNoiseOfItsOwnRecords) {
+  const json delay = {{{"id", "delay"}, {"size", 1e-3}, {"limit", 1e-4}}};
+  const auto record = [](const char* name, double before, double after) {
+    return json{{"record", name},
+                {"nrmse_before", before},
+                {"nrmse_after", after},
+                {"noise_floor_nrmse", 0.1}};
+  };
+  json closed = answer("delay", 0.9);
+  json& held_out = closed["diagnosis"]["ranking"][0]["held_out"];
+  // Of 0.24 above the floor 0.06 is left.
+  held_out = {
+      {"not_foretold", json::array()},
+      {"records", {record("held_out", 0.5, std::sqrt(0.07)), record("other_level", 0.11, 0.12)}}};
+  add("single", delay, closed);
+  held_out["records"] = {record("held_out", 0.11, 0.2), record("other_level", 0.5, 0.1)};
+  add("single", delay, closed);
+  const TrialScore score = score_trial(trial_, labels_);
+  EXPECT_NEAR(score.figures.at("gap closed, 5th percentile"), 0.75, 1e-9);
+  EXPECT_NEAR(score.figures.at("gap closed at another level and wind, median"), 1., 1e-9);
+}
+
+TEST_F(WrittenTrial, SetsTheConfusionBesideTheExpectedOne) {
+  json doubtful = answer("sensor_lowpass", 0.6);
+  doubtful["diagnosis"]["ranking"].push_back({{"effect", "delay"},
+                                              {"probability", 0.25},
+                                              {"parameters", json::array()},
+                                              {"held_out", nullptr}});
+  const json delay = {{{"id", "delay"}, {"size", 1e-3}, {"limit", 1e-4}}};
+  const json lowpass = {{{"id", "sensor_lowpass"}, {"size", 60.}, {"limit", 6.}}};
+  add("single", delay, doubtful);
+  add("single", lowpass, doubtful);
+  add("single", lowpass, doubtful);
+  EXPECT_EQ(confusion_table(score_trial(trial_, labels_)).to_csv(),
+            "truth,verdict,cases,expected\ndelay,sensor_lowpass,1,0.75\n");
+}
+
 TEST_F(WrittenTrial, SaysWhatHasNoAnswerYet) {
   add("none", json::array(), answer("none", 0.9));
   trial_.cases.push_back({"case77", {}});
