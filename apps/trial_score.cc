@@ -136,8 +136,9 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
   out.links_right = out.truth == diagnosis::outside_catalogue ||
                     links_are_right(out.truth, diagnosis.at("location").at("links"));
   const json& held_out = ranking[0].at("held_out");
-  // Noise of its own no answer closes.
-  if (out.right && !held_out.is_null() && held_out.at("not_foretold").empty()) {
+  // Noise of its own no answer closes, and without a name nothing is added to the model.
+  if (out.right && out.verdict != diagnosis::outside_catalogue && !held_out.is_null() &&
+      held_out.at("not_foretold").empty()) {
     out.gap_closed = gap_closed(held_out, false);
     out.transfer_gap_closed = gap_closed(held_out, true);
   }

@@ -162,6 +162,10 @@ TEST_F(WrittenTrial, CountsTheGapThatStandsOutOfTheNoiseOfItsOwnRecords) {
   add("single", delay, closed);
   held_out["records"] = {record("held_out", 0.11, 0.2), record("other_level", 0.5, 0.1)};
   add("single", delay, closed);
+  json nameless = answer("outside_catalogue", 0.9);
+  nameless["diagnosis"]["ranking"][0]["held_out"] = {{"not_foretold", json::array()},
+                                                     {"records", {record("held_out", 0.5, 0.8)}}};
+  add("nameless", {{{"id", "x"}, {"size", 1.}, {"limit", 0.1}}}, nameless);
   const TrialScore score = score_trial(trial_, labels_);
   EXPECT_NEAR(score.figures.at("gap closed, 5th percentile"), 0.75, 1e-9);
   EXPECT_NEAR(score.figures.at("gap closed at another level and wind, median"), 1., 1e-9);

@@ -259,12 +259,15 @@ TEST_F(RubberBar, FallsFreelyUnderAConstantBodyForceToMachinePrecision) {
   stepper.start(skewed.make_vector(), skewed.make_vector(), force);
   for (int n = 0; n < 20; ++n) stepper.step(force);
   const double t = 20. * dt;
+  // Sound passes some three hundred cells in a step: the tangent's condition, its square, makes up
+  // to 1e-11 of a rounding of 1e-16.
+  constexpr double rounding = 1e-11;
   Vector expected(field);
   expected *= 0.5 * t * t;
-  EXPECT_LT(distance(stepper.state().displacement, expected), 1e-12 * expected.l2_norm());
+  EXPECT_LT(distance(stepper.state().displacement, expected), rounding * expected.l2_norm());
   expected = field;
   expected *= t;
-  EXPECT_LT(distance(stepper.state().velocity, expected), 1e-12 * expected.l2_norm());
+  EXPECT_LT(distance(stepper.state().velocity, expected), rounding * expected.l2_norm());
   EXPECT_LT(distance(stepper.state().acceleration, field), 1e-9 * field.l2_norm());
 }
 
