@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "apps/blas_kernel.h"
@@ -52,17 +53,17 @@ Check check_mpi() {
 
 Check check_memory() {
   std::ifstream in("/proc/meminfo");
-  double available_gib = -1.;
+  std::optional<double> available_gib;
   for (std::string name, unit; in >> name;) {
     double value = 0.;
     if (!(in >> value)) break;
     std::getline(in, unit);
     if (name == "MemAvailable:") available_gib = value / (1024. * 1024.);
   }
-  if (available_gib < 0.) return {"memory", "not known: /proc/meminfo says nothing", ""};
-  const std::string found = report::Cell(available_gib).rounded(3) + " GiB free";
+  if (!available_gib) return {"memory", "not known: /proc/meminfo says nothing", ""};
+  const std::string found = report::Cell(*available_gib).rounded(3) + " GiB free";
   constexpr double for_default_case_gib = 2.;
-  if (available_gib >= for_default_case_gib) return {"memory", found, ""};
+  if (*available_gib >= for_default_case_gib) return {"memory", found, ""};
   return {"memory", found,
           "the built-in case needs 2 GiB: close something, or take Mesh resolution = 1"};
 }

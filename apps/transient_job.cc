@@ -32,7 +32,6 @@ namespace vibrissa::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
 constexpr const char* checkpoint_name = "checkpoint.h5";
 
 std::string sha256_of(const Inputs& inputs) {

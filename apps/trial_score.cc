@@ -120,8 +120,6 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
   out.probability_of_tried = diagnosis.value("probability_of_tried", 1.);
   for (std::size_t i = 0; i < ranking.size(); ++i) {
     const std::string name = ranking[i].at("effect");
-    if (name == diagnosis::outside_catalogue)
-      out.outside_probability = ranking[i].at("probability");
     if (i < 3) out.in_top_three |= is_right(out.kind, out.truth, name);
     out.probabilities[name] = ranking[i].at("probability");
   }
@@ -213,6 +211,12 @@ void count(TrialScore& out, const ScoredCase& c) {
     out.shares["undecided, another one resolves"].add(*c.resolved_by_chance);
 }
 
+/// Probability that a case's answer gives to a name.
+double said_of(const ScoredCase& c, const std::string& name) {
+  const auto found = c.probabilities.find(name);
+  return found == c.probabilities.end() ? 0. : found->second;
+}
+
 /// Is there an answer that odds can be right about?
 bool counts_for_odds(const ScoredCase& c) {
   return c.exit_status == 0 && c.kind != "wrong_metadata" && c.kind != "below_limit";
@@ -245,7 +249,7 @@ void measure(TrialScore& out) {
     set_sizes.push_back(static_cast<double>(c.confidence_set_size));
     const bool is_outside = c.kind == "nameless" || c.kind == "left_out";
     if (!counts_for_odds(c)) continue;
-    (is_outside ? outside : known).push_back(c.outside_probability);
+    (is_outside ? outside : known).push_back(said_of(c, diagnosis::outside_catalogue));
     answers.emplace_back(c.probability, c.right);
   }
   out.reliability = reliability(answers);

@@ -19,7 +19,7 @@ struct ScoredCase {
   std::string effects{};                   // what the generator calls them
   double size_in_limits = 0.;              // of the smallest effect; 0 without one
   int exit_status = 0;
-  double probability = 0., outside_probability = 0., seconds = 0.;
+  double probability = 0., seconds = 0.;
   double probability_of_tried = 1.;               // of any answer that was tried
   std::map<std::string, double> probabilities{};  // of all answers that are listed
   bool right = false, right_within_set = false, in_top_three = false, in_confidence_set = false;

@@ -8,7 +8,6 @@
 
 #include "separation/identify_frequency.h"
 #include "separation/output_error.h"
-#include "separation/simulation.h"
 #include "signals/error.h"
 
 namespace vibrissa::diagnosis {
@@ -87,30 +86,23 @@ std::vector<separation::Segment> segments_of(const Entries& entries) {
   return segments;
 }
 
-double relative_misfit(const Bvrm& model, std::span<const separation::Segment> segments,
-                       const double rate_hz) {
-  double error = 0., power = 0.;
+double mean_square_moment(std::span<const separation::Segment> segments) {
+  double sum = 0., n = 0.;
   for (const separation::Segment& segment : segments) {
-    const std::vector<double> fitted =
-        separation::simulate_like(model, segment.base_acceleration, segment.base_moment, rate_hz,
-                                  separation::Hold::band_limited);
-    for (std::size_t i = 0; i < fitted.size(); ++i) {
-      error += std::pow(fitted[i] - segment.base_moment[i], 2);
-      power += std::pow(segment.base_moment[i], 2);
-    }
+    for (const double moment : segment.base_moment) sum += moment * moment;
+    n += static_cast<double>(segment.base_moment.size());
   }
-  return std::sqrt(error / power);
+  return sum / n;
 }
 
 /// Welch's window widens a resonance; the records themselves do not.
 std::optional<Candidate> refined(const Bvrm& start, const Entries& entries) {
   const std::vector<separation::Segment> segments = segments_of(entries);
-  const double rate_hz = entries.front()->record.sampling_rate_hz();
   try {
-    const Bvrm model = separation::refine_output_error(start, segments, rate_hz,
-                                                       {.hold = separation::Hold::band_limited})
-                           .model;
-    return Candidate{model, relative_misfit(model, segments, rate_hz)};
+    const separation::FittedBvrm fit =
+        separation::refine_output_error(start, segments, entries.front()->record.sampling_rate_hz(),
+                                        {.hold = separation::Hold::band_limited});
+    return Candidate{fit.model, std::sqrt(fit.residual_variance / mean_square_moment(segments))};
   } catch (const signals::UserError&) {
     return std::nullopt;  // an order too high for these records
   }

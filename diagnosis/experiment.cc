@@ -227,9 +227,7 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   if (!frame.axial.empty())
     prepare_acceleration(out, entry, frame.axial, acceleration_noise, excited, treatment);
   if (!out.noise_share.empty())
-    out.bin_noise_share = out.n_judged + 1 < out.n_samples
-                              ? share_at_bins(out.noise_share, out.n_samples, out.n_judged)
-                              : std::vector(out.noise_share.begin() + 1, out.noise_share.end() - 1);
+    out.bin_noise_share = share_at_bins(out.noise_share, out.n_samples, out.n_judged);
   if (!frame.cross.empty()) out.cross_acceleration = spectrum_of(frame.cross);
   if (entry.excitation.wind) {
     const auto wind = entry.record.channel(channel::wind_speed);

@@ -16,6 +16,7 @@ double sinc_squared(const double x) {
 
 std::vector<double> share_at_bins(std::span<const double> share_at_lines,
                                   const std::size_t n_samples, const std::size_t n_judged) {
+  if (n_judged + 1 >= n_samples) return {share_at_lines.begin() + 1, share_at_lines.end() - 1};
   constexpr double reach = 12.;  // lines; what lies beyond is less than a hundredth
   const double bin_per_line = static_cast<double>(n_judged) / static_cast<double>(n_samples);
   std::vector<double> bins(n_judged / 2 - 1);

@@ -10,7 +10,8 @@ namespace vibrissa::diagnosis {
 /// share, of noise that has these shares at the lines 0 .. n_samples/2 of the whole record. A part
 /// that is no multiple of a line's period sees the line at several of its bins:
 ///   bin(b) = sum_k share(k) sinc^2(d_k) / sum_k sinc^2(d_k),   d_k = k n_judged / n_samples - b.
-/// Proven by tests/diagnosis/noise_at_bins_test.cc.
+/// Of a part that is the whole record (of its even length) bin and line are one. Proven by
+/// tests/diagnosis/noise_at_bins_test.cc.
 std::vector<double> share_at_bins(std::span<const double> share_at_lines, std::size_t n_samples,
                                   std::size_t n_judged);
 

@@ -83,10 +83,9 @@ def run(*command):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program")
-    parser.add_argument("--keep", help="folder for the files")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="vibrissa_load_") as scratch:
-        folder = pathlib.Path(options.keep or scratch)
+        folder = pathlib.Path(scratch)
         write_dataset(folder / "sim", Bench(1.0, 0.0, 2), BLOCK_S)
         write_dataset(folder / "real", Bench(0.8, 1.0, 3), HOUR_S)
         wrong = []

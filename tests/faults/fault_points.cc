@@ -5,12 +5,14 @@
 //
 // FAULT_PROGRAM  name of the program that is meant; others (its children) run undisturbed
 // FAULT_COMMAND  its first argument
-// FAULT_WITH     a variable that must be set, if given: only a child that has got a display is
-// meant FAULT_FOLDER   files below it are meant; reading elsewhere is not FAULT_TALK descriptors of
-// a judge (fault_child.h) FAULT_EVERY    with a judge: only each Nth call of a kind, default 1,
-// beginning with half of it FAULT_KIND     open | write | rename | memory | fork FAULT_NUMBER   1
-// for the first call of this kind FAULT_LARGE    bytes from which on an allocation counts (default
-// 1 MiB) FAULT_COUNTS   file that gets "kind count" lines when the program ends
+// FAULT_WITH     a variable that must be set, if given, as DISPLAY: the child that has got one
+// FAULT_FOLDER   files below it are meant; reading elsewhere is not
+// FAULT_TALK     descriptors of a judge (fault_child.h)
+// FAULT_EVERY    with a judge: each Nth call of a kind, beginning with half of it (default 1)
+// FAULT_KIND     open | write | rename | memory | fork
+// FAULT_NUMBER   1 for the first call of this kind
+// FAULT_LARGE    bytes from which on an allocation counts (default 1 MiB)
+// FAULT_COUNTS   file that gets "kind count" lines when the program ends
 
 #include <dlfcn.h>
 #include <fcntl.h>

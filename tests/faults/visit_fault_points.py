@@ -59,7 +59,7 @@ def complaints(status, said, out, whole):
     if status not in (0, 1, 2):
         how = f"ended by signal {status - SIGNALLED}" if status > SIGNALLED else f"status {status}"
         yield f"{how}: {said[-300:]}"
-    if status != 0 and "vibrissa: " not in said:
+    if status != 0 and not any(line.startswith("vibrissa: ") for line in said.splitlines()):
         yield f"status {status} without an error in words: {said[-300:]!r}"
     for name, file in found.items():
         wrong = half_file(name, file, whole)
