@@ -1,0 +1,26 @@
+// Any bytes as a case file: a case whose resolved text reads back to the same, or a UserError;
+// nothing else.
+#include <cstdlib>
+#include <string>
+
+#include "apps/case_file.h"
+#include "signals/error.h"
+#include "tests/fuzz/file_of_bytes.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace vibrissa;
+  const fuzz::FileOfBytes file(data, size);
+  std::string text;
+  try {
+    apps::CaseFile read(file.path());
+    read.read();
+    text = read.resolved();
+  } catch (const signals::UserError&) {
+    return 0;
+  }
+  const fuzz::FileOfBytes written(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  apps::CaseFile again(written.path());
+  again.read();
+  if (again.resolved() != text) std::abort();
+  return 0;
+}
