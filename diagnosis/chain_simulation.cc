@@ -83,7 +83,7 @@ ChainSimulator::Begun ChainSimulator::begin(std::span<const PreparedRecord> reco
     const std::vector<LinearPart>& lines = response_.lines(records[r]);
     out.places.push_back(r);
     std::vector<Complex>& elastic =
-        out.task.elastic.emplace_back(&records[r], out.moments[r]).spectrum;
+        out.task.elastic.emplace_back(ElasticMoment{&records[r], out.moments[r]}).spectrum;
     for (std::size_t k = 0; k < lines.size(); ++k) elastic[k] *= lines[k].elastic;
   }
   return out;

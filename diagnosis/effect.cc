@@ -147,7 +147,9 @@ Chain probe(const Effect& effect, const NominalModel& structure) {
 
 bool is_nonlinear(const Effect& effect) {
   const Chain chain = probe(effect);
-  return !chain.joint.empty() || !chain.readout.empty() || chain.relative_wind.on;
+  // Samples that are taken twice fold lines onto others.
+  const bool folds = chain.renewed_share > 0.;
+  return !chain.joint.empty() || !chain.readout.empty() || chain.relative_wind.on || folds;
 }
 
 const Effect& find_effect(const std::string& id) {

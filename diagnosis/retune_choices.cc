@@ -66,18 +66,20 @@ double spread_of_range(const Prior& prior) {
   return (prior.high - prior.low) / std::sqrt(12.);
 }
 
-/// Log densities of figures that may lie anywhere in their range, over those of normal
-/// distributions of the same spread. What lies beyond its range by more than its deviation is
-/// unlikely.
+/// Log densities of figures that may lie anywhere in their range, or are small, over those of
+/// normal distributions of the range's spread. What lies beyond its range by more than its
+/// deviation is unlikely.
 double ranges_for_normals(const HypothesisFit& fit, const RetunedPosterior& posterior,
                           const std::vector<Eigen::Index>& named) {
   double sum = 0.;
   for (const Eigen::Index place : named) {
     const Prior& range = fit.figures[static_cast<std::size_t>(place)].description.prior;
-    const double x = posterior.x(place), spread = spread_of_range(range), z = x / spread,
+    const double x = posterior.x(place), variance = posterior.covariance(place, place),
+                 spread = spread_of_range(range), z = x / spread,
                  beyond = std::max({0., range.low - x, x - range.high});
     sum += 0.5 * z * z + 0.5 * std::log(2. * std::numbers::pi / 12.) -
-           0.5 * beyond * beyond / posterior.covariance(place, place);
+           0.5 * beyond * beyond / variance +
+           log_any_magnitude(0.5 * (range.high - range.low), x, variance);
   }
   return sum;
 }
@@ -88,6 +90,12 @@ double log_mean(double a, double b) {
 }
 
 }  // namespace
+
+double log_any_magnitude(const double top, const double x, const double variance) {
+  constexpr double least_of_top = 1e-3;
+  const double size = std::sqrt(x * x + variance) + least_of_top * top;
+  return std::log(0.5 + 0.5 * top / (size * std::log1p(1. / least_of_top)));
+}
 
 std::vector<Eigen::Index> retunes_but(const HypothesisFit& fit,
                                       const std::vector<std::string>& ids) {

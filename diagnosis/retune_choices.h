@@ -24,6 +24,13 @@ struct RetunedPosterior {
 RetunedPosterior retuned_posterior(const HypothesisFit& fit,
                                    const std::vector<Eigen::Index>& named);
 
+/// Log of what a retune's density gains over one that is even in its range, [-top, top], where half
+/// of what is off is so by any order of magnitude: even in ln |x| from a thousandth of top up. x
+/// from nominal, and its variance: what is not told from nominal has the density of its deviation.
+/// An effect whose strength goes by its logarithm would be likelier than a small retune that does
+/// the same, for that alone. Proven by tests/diagnosis/retune_choices_test.cc.
+double log_any_magnitude(double top, double x, double variance);
+
 /// Evidence of every set of nuisances that may differ from nominal, the others nominal, best first:
 /// by Savage's and Dickey's ratio from the posterior with all of them free. A shift within what the
 /// nominal form misses of the simulation, or within what form errors of the effects may bring,

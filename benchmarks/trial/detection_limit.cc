@@ -95,7 +95,7 @@ std::optional<double> detection_limit(const LikelihoodRatio& test, const Unknown
     const double factor = std::pow(half_power_at_one_percent / std::max(now, 1e-12), 1. / power);
     size = std::min(unknown.largest, size * std::clamp(factor, 0.02, 50.));
   }
-  return size;
+  return unknown.hidden_below ? std::max(size, unknown.hidden_below(test.plain())) : size;
 }
 
 }  // namespace vibrissa::trial

@@ -35,8 +35,8 @@ class LikelihoodRatio {
 };
 
 /// Size at which that test finds an unknown in half of all cases at one false alarm in a hundred
-/// (non-centrality 6.63 for one parameter). Nothing where even the largest stays below. Proven by
-/// tests/benchmarks/trial/detection_limit_test.cc.
+/// (non-centrality 6.63 for one parameter), and that benches' own spread does not hide. Nothing
+/// where even the largest stays below. Proven by tests/benchmarks/trial/detection_limit_test.cc.
 std::optional<double> detection_limit(const LikelihoodRatio& test, const Unknown& unknown,
                                       double sign, double shape);
 

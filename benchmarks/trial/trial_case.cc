@@ -29,7 +29,8 @@ World plain_world(std::mt19937_64& random) {
   World world;
   world.joint.scale = 9.4e-3;
   world.moment_noise = quietest_moment * std::pow(loudest_in_quietest, uniform(random));
-  world.acceleration_noise = 0.03 + 0.03 * uniform(random);
+  world.acceleration_noise =
+      quietest_accelerometer + (loudest_accelerometer - quietest_accelerometer) * uniform(random);
   world.noise_colour = 0.15 * uniform(random);
   return world;
 }

@@ -1,5 +1,6 @@
 #include "benchmarks/trial/unknowns.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "signals/error.h"
@@ -144,7 +145,13 @@ std::vector<Unknown> of_the_reference() {
        .start = 0.05,
        .largest = 1.,
        .random = true,
-       .apply = [](World& w, double s, double) { w.reference_noise = s; }},
+       .apply = [](World& w, double s, double) { w.reference_noise = s; },
+       // A quiet accelerometer that was made noisier, up to the loudest that is usual.
+       .hidden_below =
+           [](const World& plain) {
+             const double loudest = loudest_accelerometer, usual = plain.acceleration_noise;
+             return std::sqrt(std::max(0., loudest * loudest - usual * usual));
+           }},
       {.id = "reference_highpass",
        .unit = "Hz",
        .start = 0.2,

@@ -19,6 +19,9 @@ struct Unknown {
   bool random = false;      // changes variances, not means
   bool fixed_size = false;  // is there or not
   std::function<void(World&, double size, double shape)> apply;
+  /// Size below which it cannot be told from what benches differ by, though a test that knew the
+  /// bench would tell; nothing: 0.
+  std::function<double(const World& plain)> hidden_below{};
 };
 
 /// Those that have a name, in the words of effects.md.

@@ -6,6 +6,10 @@
 
 namespace vibrissa::trial {
 
+/// Benches' accelerometers differ in their noise [m/s^2]. A diagnosis is not told which one there
+/// is.
+inline constexpr double quietest_accelerometer = 0.03, loudest_accelerometer = 0.06;
+
 /// The hinge of the silicone beyond its linear spring. phi: turn of the hinge.
 struct JointWorld {
   double stiffening = 0.;       // k phi_s (sinh(phi/phi_s) - phi/phi_s), phi_s = scale/sqrt(6 this)

@@ -55,6 +55,26 @@ TEST(RetuneChoices, AGainBeyondItsRangeIsNotNamedAlone) {
             evidence(fit, {"sensor_gain"}));
 }
 
+TEST(LogAnyMagnitude, MakesADensityOfADensity) {
+  constexpr double top = 0.4, step = 1e-3, least = 1e-9;
+  double area = 0.;
+  // Even steps of ln x resolve the peak at nothing.
+  for (double u = std::log(least * top); u < std::log(top); u += step) {
+    const double x = std::exp(u + 0.5 * step);
+    area += 2. * x * step * std::exp(log_any_magnitude(top, x, 0.)) / (2. * top);
+  }
+  EXPECT_NEAR(area, 1., 1e-3);
+}
+
+TEST(LogAnyMagnitude, GivesEveryDecadeAsMuch) {
+  const auto even = [](double x) { return std::exp(log_any_magnitude(1., x, 0.)) - 0.5; };
+  EXPECT_NEAR(even(0.02) * 0.02, even(0.2) * 0.2, 0.05 * even(0.2) * 0.2);
+}
+
+TEST(LogAnyMagnitude, OfWhatIsNotToldFromNominalGoesByItsDeviation) {
+  EXPECT_NEAR(log_any_magnitude(1., 0., 0.09), log_any_magnitude(1., 0.3, 0.), 1e-12);
+}
+
 TEST(RetunedPosterior, OfNothingNamedIsTheFit) {
   const HypothesisFit fit = fit_of_gain(1.1);
   const RetunedPosterior same = retuned_posterior(fit, {});

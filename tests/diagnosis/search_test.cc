@@ -43,6 +43,16 @@ TEST(Search, NamesARetuneThatIsFarOff) {
   EXPECT_EQ(search(experiment_of(rig, {.wind = true})).candidates.front().name, "drag_error");
 }
 
+TEST(Search, NamesASmallRetuneThatIsClear) {
+  // Of the size that any order of magnitude has; softening from the first small amplitude on does
+  // the same, and would be no likelier only because its range goes by its logarithm.
+  test::OneModeRig rig = test::noisy_rig();
+  rig.moment_noise *= 0.3;
+  rig.stiffness = 0.996;
+  EXPECT_EQ(search(experiment_of(rig, {.wind = true}), {.max_effects = 1}).candidates.front().name,
+            "stiffness");
+}
+
 TEST(Search, FindsAWeakNarrowModeWhereverItLies) {
   // A thirtieth as strong as any start of a fit, at ten times its detection limit all the same.
   for (const double hz : {57., 71.5, 96.}) {
