@@ -20,11 +20,11 @@ AnswerKind answer_kind(const std::string& answer) {
 Trust trust_in(const AnswerKind kind) {
   switch (kind) {
     case AnswerKind::none:
-      return {-0.075, 0.1};
+      return {-1.07, 0.82};
     case AnswerKind::single:
-      return {-0.525, 0.5875};
+      return {-0.58, 0.69};
     case AnswerKind::several:
-      return {-1.25, 0.2375};
+      return {-0.70, 0.30};
     case AnswerKind::outside:
       break;
   }

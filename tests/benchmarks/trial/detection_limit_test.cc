@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "benchmarks/trial/trial_case.h"
 
 namespace vibrissa::trial {
@@ -47,6 +49,15 @@ TEST(DetectionLimit, GoesWithTheNoise) {
   const auto loud = detection_limit(LikelihoodRatio(louder, usual()), delay, 1., 0.5);
   ASSERT_TRUE(quiet && loud);
   EXPECT_NEAR(*loud / *quiet, 3., 0.4);
+}
+
+TEST(DetectionLimit, OfANoisyAccelerometerIsBeyondTheLoudestUsualOne) {
+  const Unknown& unknown = find_unknown("reference_noise");
+  World quiet = noisy();
+  quiet.acceleration_noise = quietest_accelerometer;
+  const auto limit = detection_limit(LikelihoodRatio(quiet, usual()), unknown, 1., 0.5);
+  ASSERT_TRUE(limit);
+  EXPECT_GE(std::hypot(*limit, quietest_accelerometer), loudest_accelerometer * (1. - 1e-12));
 }
 
 TEST(DrawCase, IsTheSameForTheSameSeed) {
