@@ -53,9 +53,10 @@ TEST(Search, PrefersASmallRetuneToWhatImitatesIt) {
   const Candidate& best = result.candidates.front();
   EXPECT_EQ(best.name, "stiffness");
   constexpr double sixty_times = 4.1;
-  for (const Candidate& other : result.candidates)
-    if (other.name.find("stiffness") == std::string::npos)
-      EXPECT_GT(best.log_posterior - other.log_posterior, sixty_times) << other.name;
+  for (const Candidate& other : result.candidates) {
+    if (other.name.find("stiffness") != std::string::npos) continue;
+    EXPECT_GT(best.log_posterior - other.log_posterior, sixty_times) << other.name;
+  }
 }
 
 TEST(Search, FindsAWeakNarrowModeWhereverItLies) {
