@@ -151,6 +151,13 @@ TEST(EffectCatalogue, HoldsEachIdOfTheListOnce) {
   EXPECT_THAT(unique, testing::IsSupersetOf(ids_of_effects_md));
 }
 
+TEST(EffectCatalogue, TellsWhatActsLineByLineFromWhatDoesNot) {
+  for (const char* id : {"delay", "stiffness", "viscoelastic", "hum"})
+    EXPECT_FALSE(is_nonlinear(find_effect(id))) << id;
+  for (const char* id : {"hardening", "joint_friction", "sensor_nonlinearity", "sample_repeat"})
+    EXPECT_TRUE(is_nonlinear(find_effect(id))) << id;
+}
+
 TEST(EffectCatalogue, ListsTheKnownIdsForAnUnknownOne) {
   try {
     find_effect("stifness");
