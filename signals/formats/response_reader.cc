@@ -219,7 +219,12 @@ FrequencyResponse read_response(const std::filesystem::path& file, const Respons
                                          ? from_universal_file(file, name)
                                          : from_table(file, name);
   check_frequencies(response.frequency_hz, file.string());
-  return rising_lines(response);
+  FrequencyResponse lines = rising_lines(response);
+  if (lines.value.empty())
+    throw UserError(file.string() +
+                    ": holds no line of a frequency response above zero frequency; write at least "
+                    "one");
+  return lines;
 }
 
 }  // namespace vibrissa::signals::formats

@@ -106,6 +106,8 @@ TEST_F(ResponseReader, RefusesWhatItCannotChooseOrConvert) {
   expect_refusal(write("c.csv", "f,real,imaginary\n1,1,1\n0.5,2,2\n"), {}, "c.csv: frequency 2",
                  "below");
   expect_refusal(write("d.csv", "f,real,imaginary\n1,1,1\n2,2,2\n"), {"H"}, "H_real", "has: f");
+  for (const char* nothing : {"f,real,imaginary\n", "f,real,imaginary\n0,1,1\n"})
+    expect_refusal(write("e.csv", nothing), {}, "e.csv", "no line of a frequency response");
 }
 
 }  // namespace
