@@ -23,6 +23,8 @@ class FileOfBytes {
       done += static_cast<std::size_t>(n);
     }
   }
+  explicit FileOfBytes(const std::string& text)
+      : FileOfBytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()) {}
   ~FileOfBytes() { ::close(descriptor_); }
   FileOfBytes(const FileOfBytes&) = delete;
   FileOfBytes& operator=(const FileOfBytes&) = delete;

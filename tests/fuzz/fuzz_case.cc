@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const signals::UserError&) {
     return 0;
   }
-  const fuzz::FileOfBytes written(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  const fuzz::FileOfBytes written(text);
   apps::CaseFile again(written.path());
   again.read();
   if (again.resolved() != text) std::abort();

@@ -9,14 +9,14 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vibrissa;
   const fuzz::FileOfBytes file(data, size);
+  std::string text;
   try {
-    const std::string text =
-        diagnosis::mended_model_json(diagnosis::read_mended_model(file.path()));
-    const fuzz::FileOfBytes written(reinterpret_cast<const std::uint8_t*>(text.data()),
-                                    text.size());
-    if (diagnosis::mended_model_json(diagnosis::read_mended_model(written.path())) != text)
-      std::abort();
+    text = diagnosis::mended_model_json(diagnosis::read_mended_model(file.path()));
   } catch (const signals::UserError&) {
+    return 0;
   }
+  const fuzz::FileOfBytes written(text);
+  if (diagnosis::mended_model_json(diagnosis::read_mended_model(written.path())) != text)
+    std::abort();
   return 0;
 }

@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   signals::check(model);
   const std::string text =
       signals::to_json(model).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-  const fuzz::FileOfBytes written(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  const fuzz::FileOfBytes written(text);
   const auto again = signals::to_json(signals::read_reduced_model(written.path()));
   if (again.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) != text) std::abort();
   return 0;
