@@ -57,16 +57,25 @@ double joint_share_deviation(const Experiment& experiment, const HypothesisFit& 
                   std::sqrt(fit.covariance(place, place)));
 }
 
-/// Scores of the first few answers; answers that share a fit share its score.
+/// Scores of a fit on records that it has not seen, for an answer of its own.
+void score_answer(RankedAnswer& answer, const HypothesisFit& fit, const Experiment& experiment,
+                  const Experiment& held_out, const DiagnoseOptions& options) {
+  answer.held_out = score_held_out(experiment, held_out, fit, options.held_out);
+  if (!fit.hypothesis.is_discrepancy()) answer.left_over = left_over(experiment, held_out, fit);
+}
+
+/// Of the first few answers; answers that share a fit share its scores.
 void score_answers(Diagnosis& out, const SearchResult& result, const Experiment& experiment,
                    const Experiment& held_out, const DiagnoseOptions& options) {
   for (std::size_t i = 0; i < std::min(options.n_scored, out.ranking.size()); ++i) {
+    RankedAnswer& answer = out.ranking[i];
     const std::size_t fit = result.candidates[i].fit;
-    for (std::size_t j = 0; j < i && !out.ranking[i].held_out; ++j)
-      if (result.candidates[j].fit == fit) out.ranking[i].held_out = out.ranking[j].held_out;
-    if (!out.ranking[i].held_out)
-      out.ranking[i].held_out =
-          score_held_out(experiment, held_out, result.fits[fit], options.held_out);
+    for (std::size_t j = 0; j < i && !answer.held_out; ++j)
+      if (result.candidates[j].fit == fit) {
+        answer.held_out = out.ranking[j].held_out;
+        answer.left_over = out.ranking[j].left_over;
+      }
+    if (!answer.held_out) score_answer(answer, result.fits[fit], experiment, held_out, options);
   }
 }
 
@@ -78,18 +87,31 @@ std::optional<RankedAnswer> nearest_known(const SearchResult& result, const Expe
     const HypothesisFit& fit = result.fits[candidate.fit];
     RankedAnswer answer{.name = candidate.name,
                         .parameters = parameter_estimates(fit, candidate.name)};
-    if (has_moving(held_out))
-      answer.held_out = score_held_out(experiment, held_out, fit, options.held_out);
+    if (has_moving(held_out)) score_answer(answer, fit, experiment, held_out, options);
     return answer;
   }
   return std::nullopt;
 }
 
+/// The same where the held-out records themselves refuted what comes nearest.
+std::optional<Finding> refuted_by_held_out(const Diagnosis& diagnosis) {
+  if (!diagnosis.nearest_known || !diagnosis.nearest_known->left_over) return std::nullopt;
+  const LeftOver& left = *diagnosis.nearest_known->left_over;
+  if (!contradicts(left)) return std::nullopt;
+  return Finding{.kind = FindingKind::not_confirmed,
+                 .record = left.record,
+                 .message = "what explains the fit records best, " + diagnosis.nearest_known->name +
+                            ", does not carry over to this one"};
+}
+
 /// A cause that does not carry over to records that it has not seen is not understood.
 std::optional<Finding> contradiction(const Diagnosis& diagnosis) {
   const RankedAnswer& best = diagnosis.ranking.front();
-  if (diagnosis.verdict == "none" || diagnosis.verdict == outside_catalogue) return std::nullopt;
+  if (diagnosis.verdict == outside_catalogue) return refuted_by_held_out(diagnosis);
+  if (diagnosis.verdict == "none") return std::nullopt;
   if (!best.held_out || !best.held_out->overall.gap_closed_ci95) return std::nullopt;
+  // Of what cannot be foretold nothing closes; it is borne out by its power.
+  if (!best.held_out->not_foretold.empty()) return std::nullopt;
   if ((*best.held_out->overall.gap_closed_ci95)[1] >= 0.5) return std::nullopt;
   return Finding{.kind = FindingKind::not_confirmed,
                  .message =
@@ -194,14 +216,15 @@ Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& record
       prepare_experiment(simulation, real, signals::Split::fit, InputNoise::reduced);
   out.untested = untested_effects(experiment);
   out.location = locate_gap(experiment);
-  const SearchResult result = search(experiment, options.search);
+  SearchResult result = search(experiment, options.search);
+  const Experiment held_out =
+      prepare_experiment(simulation, real, signals::Split::held_out, InputNoise::as_measured);
+  if (has_moving(held_out)) refute_contradicted(result, experiment, held_out);
   const Candidate& best = result.candidates.front();
   out.verdict = best.name;
   out.location.links = likely_links(result);
   rank(out, result, nominal, options);
   out.confidence_set = confidence_set(result.candidates, 0.95);
-  const Experiment held_out =
-      prepare_experiment(simulation, real, signals::Split::held_out, InputNoise::as_measured);
   if (has_moving(held_out)) {
     score_answers(out, result, experiment, held_out, options);
     out.ranking.front().shares = effect_shares(experiment, held_out, result, result.fits[best.fit]);

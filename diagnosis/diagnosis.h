@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/carry_over.h"
 #include "diagnosis/comparison.h"
 #include "diagnosis/data_checks.h"
 #include "diagnosis/held_out.h"
@@ -41,6 +42,7 @@ struct RankedAnswer {
   /// Of stiffness and mass in the finite-element model's own parameters (material_estimates.h).
   std::vector<ParameterEstimate> materials{};
   std::optional<HeldOutScore> held_out{};  // of the first few
+  std::optional<LeftOver> left_over{};     // of the same
   std::vector<EffectShare> shares{};       // of the first, when it is a combination
 };
 

@@ -74,6 +74,12 @@ json held_out_json(const HeldOutScore& score) {
   return out;
 }
 
+json left_over_json(const LeftOver& left) {
+  return {{"record", left.record},
+          {"excess_power", json_number(left.excess)},
+          {"deviations", json_number(left.n_deviations)}};
+}
+
 json estimates_json(const std::vector<ParameterEstimate>& estimates) {
   json out = json::array();
   for (const ParameterEstimate& estimate : estimates)
@@ -94,7 +100,8 @@ json answer_json(const RankedAnswer& answer) {
           {"parameters", estimates_json(answer.parameters)},
           {"in_the_models_parameters", estimates_json(answer.materials)},
           {"shapley_shares", shares},
-          {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)}};
+          {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)},
+          {"left_over", answer.left_over ? left_over_json(*answer.left_over) : json(nullptr)}};
 }
 
 std::string verdict_line(const Diagnosis& diagnosis) {
@@ -191,6 +198,9 @@ std::string nearest_line(const Diagnosis& diagnosis) {
   std::string text = "Nearest: " + nearest.name;
   if (nearest.held_out && nearest.held_out->overall.gap_closed)
     text += " closes " + percent(*nearest.held_out->overall.gap_closed) + " of the gap";
+  if (nearest.left_over && contradicts(*nearest.left_over))
+    return text + ", but leaves " + three_digits(1. + nearest.left_over->excess) +
+           " times the power that noise and its form allow in " + nearest.left_over->record;
   return text + ", but leaves more than noise";
 }
 

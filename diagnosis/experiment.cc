@@ -9,11 +9,10 @@
 #include <numeric>
 #include <optional>
 
+#include "diagnosis/accelerometer_noise.h"
 #include "diagnosis/judged_samples.h"
 #include "diagnosis/noise_at_bins.h"
-#include "diagnosis/repeated_samples.h"
 #include "diagnosis/spectrum.h"
-#include "diagnosis/uneven_ages.h"
 #include "signals/error.h"
 
 namespace vibrissa::diagnosis {
@@ -156,32 +155,26 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
                           const std::span<const double> reading, const double noise,
                           const ExcitedHarmonics& excited, const InputNoise treatment) {
   out.acceleration = spectrum_of(reading);
-  std::vector<Complex> noisy = out.acceleration;
-  if (entry.excitation.base && is_polled(reading)) {
-    out.renewed = spectrum_of(renewed_series(reading));
-  } else if (const auto even = entry.excitation.base ? evened_series(reading, out.sampling_rate_hz)
-                                                     : std::nullopt) {
-    out.renewed = spectrum_of(*even);
-    noisy = out.renewed;  // images are none
-  }
+  const NoiseLines noise_of = noise_lines(reading, out.sampling_rate_hz, entry.excitation.base);
+  if (entry.excitation.base && noise_of.of_source) out.renewed = noise_of.spectrum;
   const double n = static_cast<double>(out.n_samples);
   if (treatment == InputNoise::as_measured) {
     out.noise_share.assign(out.acceleration.size(), 1.);
     return;
   }
   if (!entry.excitation.base) {
-    for (std::size_t k = 1; k + 1 < out.acceleration.size(); ++k)
-      out.acceleration_noise_power += std::norm(out.acceleration[k]);
-    out.n_acceleration_noise = out.acceleration.size() - 2;
+    for (std::size_t k = 1; k + 1 < noise_of.end; ++k)
+      out.acceleration_noise_power += std::norm(noise_of.spectrum[k]);
+    out.n_acceleration_noise = noise_of.end - 2;
     out.acceleration.assign(out.acceleration.size(), 0.);
     out.noise_share.assign(out.acceleration.size(), 0.);
     return;
   }
   if (out.periodic) {
     const std::size_t n_periods = out.n_samples / entry.period_samples;
-    for (std::size_t k = 1; k + 1 < out.acceleration.size(); ++k)
+    for (std::size_t k = 1; k + 1 < noise_of.end; ++k)
       if (k % n_periods != 0) {
-        out.acceleration_noise_power += std::norm(noisy[k]);
+        out.acceleration_noise_power += std::norm(noise_of.spectrum[k]);
         ++out.n_acceleration_noise;
       }
     average_periods(out.acceleration, n_periods);
@@ -356,12 +349,13 @@ double quietest_power(const std::vector<Complex>& spectrum) {
   return least;
 }
 
-/// Samples of a channel; what uneven ages of the accelerometer's make of a motion is no noise.
-std::vector<double> without_images(const DatasetRecord& entry, const std::string& name) {
+/// Lines of a channel that tell its noise.
+NoiseLines lines_of(const DatasetRecord& entry, const std::string& name) {
   const auto x = entry.record.channel(name);
-  if (entry.excitation.base && name == channel::base_acceleration)
-    if (auto even = evened_series(x, entry.record.sampling_rate_hz())) return *std::move(even);
-  return {x.begin(), x.end()};
+  if (name == channel::base_acceleration)
+    return noise_lines(x, entry.record.sampling_rate_hz(), entry.excitation.base);
+  const std::vector<Complex> spectrum = spectrum_of(x);
+  return {spectrum, spectrum.size()};
 }
 
 /// Of all fit records the least.
@@ -384,15 +378,15 @@ ChannelNoise channel_noise(const signals::Dataset& dataset) {
     const double n = static_cast<double>(entry.record.n_samples());
     const auto add = [&](const std::string& name, double& sum, double& count, bool still) {
       if (!entry.record.has(name)) return;
-      const std::vector<Complex> x = spectrum_of(without_images(entry, name));
+      const NoiseLines lines = lines_of(entry, name);
       const std::size_t period = entry.period_samples;
       const std::size_t n_periods = period > 0 && entry.record.n_samples() % period == 0
                                         ? entry.record.n_samples() / period
                                         : 1;
       // The upper half of the spectrum: slow drift is no noise of the samples.
-      for (std::size_t k = x.size() / 2; k + 1 < x.size(); ++k)
+      for (std::size_t k = lines.end / 2; k + 1 < lines.end; ++k)
         if (still || (n_periods > 1 && k % n_periods != 0)) {
-          sum += std::norm(x[k]) / n;
+          sum += std::norm(lines.spectrum[k]) / n;
           count += 1.;
         }
     };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "diagnosis/accelerometer_noise.h"
 #include "diagnosis/spectrum.h"
 #include "signals/local_polynomial.h"
 
@@ -90,17 +91,28 @@ NoiseColour noise_colour(const std::span<const NoiseLine> measured) {
 namespace {
 
 /// Lines k of which n_periods is no divisor; all of them where there is one period.
-void add_lines(std::vector<NoiseLine>& out, const signals::Record& record, const std::string& name,
+void add_lines(std::vector<NoiseLine>& out, const signals::Record& record, const NoiseLines& lines,
                const std::size_t n_periods) {
-  if (!record.has(name)) return;
-  const std::vector<Complex> spectrum = spectrum_of(record.channel(name));
   const double n = static_cast<double>(record.n_samples());
-  for (std::size_t k = 1; k + 1 < spectrum.size(); ++k) {
+  for (std::size_t k = 1; k + 1 < lines.end; ++k) {
     const double f = static_cast<double>(k) * record.sampling_rate_hz() / n;
-    const bool upper = k >= spectrum.size() / 2;
+    const bool upper = k >= lines.end / 2;
     if (n_periods > 1 && (k % n_periods == 0 || (f > below_modes_hz && !upper))) continue;
-    out.push_back({f, std::norm(spectrum[k]) / n, upper});
+    out.push_back({f, std::norm(lines.spectrum[k]) / n, upper});
   }
+}
+
+void add_moment(std::vector<NoiseLine>& out, const signals::Record& record,
+                const std::size_t n_periods) {
+  if (!record.has(signals::channel::base_moment)) return;
+  const std::vector<Complex> spectrum = spectrum_of(record.channel(signals::channel::base_moment));
+  add_lines(out, record, {spectrum, spectrum.size()}, n_periods);
+}
+
+void add_still_acceleration(std::vector<NoiseLine>& out, const signals::Record& record) {
+  if (!record.has(signals::channel::base_acceleration)) return;
+  const auto x = record.channel(signals::channel::base_acceleration);
+  add_lines(out, record, noise_lines(x, record.sampling_rate_hz(), false), 1);
 }
 
 /// Mean power of what the response leaves, by band; empty where the record cannot tell.
@@ -166,9 +178,8 @@ ChannelColours channel_colours(const signals::Dataset& dataset, const double nar
         period > 0 && record.n_samples() % period == 0 ? record.n_samples() / period : 1;
     const bool still = entry.excitation == signals::Excitation{};
     if (still || (n_periods > 1 && !entry.excitation.wind))
-      add_lines(moment, record, signals::channel::base_moment, still ? 1 : n_periods);
-    if (!entry.excitation.base)
-      add_lines(acceleration, record, signals::channel::base_acceleration, 1);
+      add_moment(moment, record, still ? 1 : n_periods);
+    if (!entry.excitation.base) add_still_acceleration(acceleration, record);
   }
   return {
       moment.empty() ? colour_beside_response(dataset, narrowest_mode_hz) : noise_colour(moment),

@@ -390,19 +390,6 @@ class Searcher {
     return out;
   }
 
-  static void set_probabilities(SearchResult& result) {
-    std::vector<Candidate>& list = result.candidates;
-    for (Candidate& c : list)
-      c.probability = std::exp(c.log_posterior - list.front().log_posterior);
-    double others = 0.;
-    for (std::size_t i = 1; i < list.size(); ++i) others += list[i].probability;
-    result.odds_against_best = others;
-    const double best = 1. / (1. + calibrated_odds(others));
-    list.front().probability = best;
-    if (others > 0.)
-      for (std::size_t i = 1; i < list.size(); ++i) list[i].probability *= (1. - best) / others;
-  }
-
   void add_choices(std::map<std::string, Candidate>& by_name, std::size_t i) const {
     const HypothesisFit& fit = fits_[i];
     for (const RetuneChoice& choice : fit.choices) {
@@ -429,6 +416,18 @@ class Searcher {
 };
 
 }  // namespace
+
+void set_probabilities(SearchResult& result) {
+  std::vector<Candidate>& list = result.candidates;
+  for (Candidate& c : list) c.probability = std::exp(c.log_posterior - list.front().log_posterior);
+  double others = 0.;
+  for (std::size_t i = 1; i < list.size(); ++i) others += list[i].probability;
+  result.odds_against_best = others;
+  const double best = 1. / (1. + calibrated_odds(others));
+  list.front().probability = best;
+  if (others > 0.)
+    for (std::size_t i = 1; i < list.size(); ++i) list[i].probability *= (1. - best) / others;
+}
 
 SearchResult search(const Experiment& experiment, const SearchOptions& options) {
   return Searcher(experiment, options).run();

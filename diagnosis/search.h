@@ -37,6 +37,10 @@ struct SearchOptions {
 /// choice of retune effects; its prior pays for every effect named.
 SearchResult search(const Experiment& experiment, const SearchOptions& options = {});
 
+/// Probabilities of the candidates, the best of which comes first, from their posteriors; and the
+/// odds against it.
+void set_probabilities(SearchResult& result);
+
 /// Shortest list of candidates, most probable first, whose probabilities reach the level.
 std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates, double level);
 

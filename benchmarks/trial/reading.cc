@@ -103,7 +103,10 @@ signals::Record read_out(const World& world, const Structure& structure, const F
   std::vector<double> a(n), across(n), wind(n), moment(n);
   for (std::size_t k = 0; k < n; ++k) {
     const double t = static_cast<double>(k) / rate_hz;
-    a[k] = signal(reference).at(reference_at[k]) + axial.next(random);
+    // What is read again is the conversion that was there, noise and all.
+    a[k] = k > 0 && reference_at[k] == reference_at[k - 1]
+               ? a[k - 1]
+               : signal(reference).at(reference_at[k]) + axial.next(random);
     across[k] = signal(fine.across).at(t) + cross.next(random);
     wind[k] = signal(fine.wind).at(t);
     moment[k] =

@@ -31,9 +31,13 @@ Effect viscoelastic() {
       .form_error = 0.08,
       .needs = {.base = true},
       .parameters = {log_uniform("strength", "1", 2e-4, 1.5, 0.),
-                     log_uniform("tau", "s", 1e-3, 10., 0.01), uniform("decades", "1", 0., 3., 0.)},
-      .starts =
-          {{0.1, 3e-3, 1.}, {0.1, 0.05, 1.}, {0.3, 1.5e-3, 1.}, {0.5, 3e-3, 1.}, {0.5, 3e-3, 2.5}},
+                     log_uniform("tau", "s", 1e-3, 10., 0.01), uniform("decades", "1", 0., 5., 0.)},
+      .starts = {{0.1, 3e-3, 1.},
+                 {0.1, 0.05, 1.},
+                 {0.3, 1.5e-3, 1.},
+                 {0.5, 3e-3, 1.},
+                 {0.5, 3e-3, 2.5},
+                 {0.3, 0.03, 4.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         const std::optional<JointModel> joint = joint_of(chain);
         if (!joint) return;

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/nominal_identification.h"
 #include "one_mode_rig.h"
 #include "signals/error.h"
@@ -65,8 +66,11 @@ TEST(Diagnose, DoubtsACauseThatRecordsItHasNotSeenDoNotConfirm) {
   rig.stiffness = 1.1;
   dataset.records.back() = test::rig_dataset(rig).records.back();
   const Diagnosis diagnosis = diagnose(nominal, dataset, options);
-  EXPECT_EQ(diagnosis.verdict, "stiffness");
+  EXPECT_EQ(diagnosis.verdict, outside_catalogue);
+  ASSERT_TRUE(diagnosis.nearest_known);
+  EXPECT_EQ(diagnosis.nearest_known->name, "stiffness");
   EXPECT_THAT(diagnosis.findings, not_confirmed);
+  EXPECT_NE(verdict_text(diagnosis).find("does not carry over"), std::string::npos);
 }
 
 TEST(Diagnose, TellsWhatComesNearestWhereNothingKnownExplainsTheGap) {

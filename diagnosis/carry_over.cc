@@ -1,0 +1,102 @@
+#include "diagnosis/carry_over.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/ramp_share.h"
+#include "diagnosis/spectrum.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// The lowest bins hold what wanders from day to day.
+constexpr std::size_t first_bin = 4;
+
+/// A fit's figures with the noise that was measured, where that is less, and the whole bounds of
+/// form errors.
+Eigen::VectorXd sober_figures(const Experiment& experiment, const HypothesisFit& fit) {
+  Eigen::VectorXd x = fit.x;
+  const auto lower = [&](std::size_t place, double deviation) {
+    double& level = x(static_cast<Eigen::Index>(place));
+    level = std::min(level, std::log(deviation));
+  };
+  lower(place_moment_noise, experiment.moment_noise);
+  lower(place_acceleration_noise, experiment.acceleration_noise);
+  if (!fit.hypothesis.effects().empty()) x(x.size() - 1) = 1.;
+  return x;
+}
+
+LeftOver left_over(const PreparedRecord& record, const Prediction& prediction,
+                   const std::vector<double>& variance) {
+  std::vector<Complex> error = difference(record.moment, prediction.mean);
+  RampShare ramp(record, prediction.ramp_variance);
+  for (std::size_t b = 0; b < error.size(); ++b) ramp.add(b, error[b], variance[b]);
+  double power = 0., allowed = 0., square = 0.;
+  for (std::size_t b = first_bin; b < error.size(); ++b) {
+    if (ramp.on()) error[b] -= ramp.rise() * ramp.shape(b);
+    power += std::norm(error[b]);
+    allowed += variance[b];
+    square += variance[b] * variance[b];
+  }
+  return {record.name, power / allowed - 1., (power - allowed) / std::sqrt(square)};
+}
+
+}  // namespace
+
+LeftOver left_over(const Experiment& fitted_on, const Experiment& held_out,
+                   const HypothesisFit& fit) {
+  Experiment as_fitted = held_out;
+  as_fitted.nominal = fitted_on.nominal;
+  as_fitted.known = fitted_on.known;
+  as_fitted.scales = fitted_on.scales;
+  const Eigen::VectorXd x = sober_figures(fitted_on, fit);
+  FitPosterior posterior(as_fitted, fit.figures, fit.hypothesis);
+  const std::vector<Prediction> at = posterior.predict(x);
+  posterior.renew_slow_variance(x, at);
+  const double a_variance = posterior.acceleration_variance(x);
+  LeftOver worst;
+  for (std::size_t r = 0; r < at.size(); ++r) {
+    const PreparedRecord& record = as_fitted.records[r];
+    if (record.n_bins() <= first_bin) continue;
+    const LeftOver left = left_over(record, at[r], posterior.variance(x, at[r], r, a_variance));
+    if (worst.record.empty() || left.excess > worst.excess) worst = left;
+  }
+  return worst;
+}
+
+bool contradicts(const LeftOver& left) {
+  constexpr double most_excess = 0.4, most_deviations = 5.;
+  return left.excess > most_excess && left.n_deviations > most_deviations;
+}
+
+void refute_contradicted(SearchResult& result, const Experiment& fitted_on,
+                         const Experiment& held_out) {
+  constexpr std::size_t most_fits = 5;
+  constexpr double most_nats_behind = 4.6;  // one to a hundred
+  std::set<std::size_t> contradicted;
+  bool borne_out = false;
+  for (const Candidate& candidate : result.candidates) {
+    const HypothesisFit& fit = result.fits[candidate.fit];
+    const double behind = result.candidates.front().log_posterior - candidate.log_posterior;
+    if (fit.hypothesis.is_discrepancy() || behind > most_nats_behind) break;
+    if (contradicted.count(candidate.fit) != 0) continue;
+    if (contradicted.size() == most_fits) break;
+    borne_out = !contradicts(left_over(fitted_on, held_out, fit));
+    if (borne_out) break;
+    contradicted.insert(candidate.fit);
+  }
+  if (contradicted.empty()) return;
+  const auto is_refuted = [&](const Candidate& candidate) {
+    if (result.fits[candidate.fit].hypothesis.is_discrepancy()) return false;
+    return !borne_out || contradicted.count(candidate.fit) != 0;
+  };
+  for (const Candidate& candidate : result.candidates)
+    if (is_refuted(candidate)) result.refuted.push_back(candidate);
+  std::erase_if(result.candidates, is_refuted);
+  std::stable_sort(result.refuted.begin(), result.refuted.end(),
+                   [](const auto& a, const auto& b) { return a.log_posterior > b.log_posterior; });
+  set_probabilities(result);
+}
+
+}  // namespace vibrissa::diagnosis
