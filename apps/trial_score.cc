@@ -118,6 +118,7 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
   const json& ranking = diagnosis.at("ranking");
   out.probability = ranking.at(0).at("probability");
   out.probability_of_tried = diagnosis.value("probability_of_tried", 1.);
+  out.probability_of_outside = diagnosis.value("probability_of_outside", 0.);
   for (std::size_t i = 0; i < ranking.size(); ++i) {
     const std::string name = ranking[i].at("effect");
     if (i < 3) out.in_top_three |= is_right(out.kind, out.truth, name);
@@ -211,12 +212,6 @@ void count(TrialScore& out, const ScoredCase& c) {
     out.shares["undecided, another one resolves"].add(*c.resolved_by_chance);
 }
 
-/// Probability that a case's answer gives to a name.
-double said_of(const ScoredCase& c, const std::string& name) {
-  const auto found = c.probabilities.find(name);
-  return found == c.probabilities.end() ? 0. : found->second;
-}
-
 /// Is there an answer that odds can be right about?
 bool counts_for_odds(const ScoredCase& c) {
   return c.exit_status == 0 && c.kind != "wrong_metadata" && c.kind != "below_limit";
@@ -229,10 +224,13 @@ void learn_trust(TrialScore& out) {
       {diagnosis::AnswerKind::several, "several"},
       {diagnosis::AnswerKind::outside, "outside"}};
   std::map<std::string, std::vector<std::pair<double, bool>>> answers;
-  for (const ScoredCase& c : out.cases)
-    if (counts_for_odds(c))
-      answers[names.at(diagnosis::answer_kind(c.verdict))].emplace_back(
-          diagnosis::log_odds(c.probability / c.probability_of_tried), c.right);
+  for (const ScoredCase& c : out.cases) {
+    if (!counts_for_odds(c)) continue;
+    const std::string& kind = names.at(diagnosis::answer_kind(c.verdict));
+    answers[kind].emplace_back(diagnosis::log_odds(c.probability / c.probability_of_tried),
+                               c.right);
+    if (!c.right) out.unknown[kind].add(c.truth == diagnosis::outside_catalogue);
+  }
   for (const auto& [kind, of_kind] : answers)
     out.trust[kind] = {logistic_line(of_kind), of_kind.size()};
 }
@@ -249,7 +247,7 @@ void measure(TrialScore& out) {
     set_sizes.push_back(static_cast<double>(c.confidence_set_size));
     const bool is_outside = c.kind == "nameless" || c.kind == "left_out";
     if (!counts_for_odds(c)) continue;
-    (is_outside ? outside : known).push_back(said_of(c, diagnosis::outside_catalogue));
+    (is_outside ? outside : known).push_back(c.probability_of_outside);
     answers.emplace_back(c.probability, c.right);
   }
   out.reliability = reliability(answers);
@@ -299,12 +297,16 @@ json to_json(const TrialScore& score) {
   for (const auto& [kind, learnt] : score.trust)
     trust[kind] = {
         {"offset", learnt.first.offset}, {"slope", learnt.first.slope}, {"n", learnt.second}};
+  json unknown = json::object();
+  for (const auto& [kind, share] : score.unknown)
+    unknown[kind] = {{"share", share.value()}, {"of", share.of}};
   return {{"schema", "vibrissa-trial-score-1"},
           {"unanswered", score.unanswered},
           {"shares", shares},
           {"figures", figures},
           {"reliability", bins},
-          {"trust", trust}};
+          {"trust", trust},
+          {"unknown", unknown}};
 }
 
 report::Table case_table(const TrialScore& score) {

@@ -21,6 +21,7 @@ struct ScoredCase {
   int exit_status = 0;
   double probability = 0., seconds = 0.;
   double probability_of_tried = 1.;               // of any answer that was tried
+  double probability_of_outside = 0.;             // of no known effect
   std::map<std::string, double> probabilities{};  // of all answers that are listed
   bool right = false, right_within_set = false, in_top_three = false, in_confidence_set = false;
   bool links_right = false;
@@ -40,6 +41,8 @@ struct TrialScore {
   std::vector<ReliabilityBin> reliability;
   /// What diagnosis/calibration.h would learn from these answers, by their kind, and their number.
   std::map<std::string, std::pair<LogisticLine, std::size_t>> trust;
+  /// And of the wrong ones of a kind, how often no known effect stood behind them.
+  std::map<std::string, Share> unknown;
 };
 
 /// Compares answers with opened labels. Proven by tests/apps/trial_test.cc.

@@ -31,6 +31,20 @@ Trust trust_in(const AnswerKind kind) {
   return {0.25, 0.1875};
 }
 
+double unknown_share(const AnswerKind kind) {
+  switch (kind) {
+    case AnswerKind::none:
+      return 0.23;
+    case AnswerKind::single:
+      return 0.43;
+    case AnswerKind::several:
+      return 0.25;
+    case AnswerKind::outside:
+      break;
+  }
+  return 0.;
+}
+
 double log_odds(const double probability) {
   constexpr double surest = 1. - 1e-4;
   const double p = std::clamp(probability, 1. - surest, surest);

@@ -26,6 +26,10 @@ struct Trust {
 };
 Trust trust_in(AnswerKind kind);
 
+/// Of what is left to a kind's answers to be wrong, the share behind which no known effect stood in
+/// blind trials: learnt like their trust.
+double unknown_share(AnswerKind kind);
+
 /// Of a probability; beyond one in ten thousand, on either side, they tell no more.
 double log_odds(double probability);
 

@@ -66,7 +66,7 @@ LeftOver left_over(const Experiment& fitted_on, const Experiment& held_out,
 }
 
 bool contradicts(const LeftOver& left) {
-  constexpr double most_excess = 0.4, most_deviations = 5.;
+  constexpr double most_excess = 0.2, most_deviations = 6.;
   return left.excess > most_excess && left.n_deviations > most_deviations;
 }
 

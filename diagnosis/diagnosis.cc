@@ -138,7 +138,12 @@ void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nomina
           const DiagnoseOptions& options) {
   const Candidate& best = result.candidates.front();
   out.probability_of_tried = probability_of_tried(answer_kind(best.name), best.probability);
-  double listed = 0.;
+  double outside = 0., listed = 0.;
+  for (const Candidate& candidate : result.candidates)
+    if (candidate.name == outside_catalogue) outside = candidate.probability;
+  out.probability_of_outside =
+      out.probability_of_tried * outside +
+      (1. - out.probability_of_tried) * unknown_share(answer_kind(best.name));
   for (std::size_t i = 0; i < std::min(options.n_ranked, result.candidates.size()); ++i) {
     const Candidate& candidate = result.candidates[i];
     out.ranking.push_back(

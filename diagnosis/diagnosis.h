@@ -61,6 +61,9 @@ struct Diagnosis {
   /// Of any answer that was tried, listed or not; what is left to 1 is something that these records
   /// do not show, or that was not tried (calibration.h).
   double probability_of_tried = 1.;
+  /// Of no known effect: outside_catalogue as it was tried, and its share of what is left
+  /// (unknown_share()).
+  double probability_of_outside = 0.;
   /// The known answer that comes nearest, where the verdict is outside_catalogue.
   std::optional<RankedAnswer> nearest_known{};
   /// Fewest answers that together have 95 %.

@@ -215,6 +215,8 @@ std::string others_line(const Diagnosis& diagnosis) {
   if (untold >= 0.005)
     text +=
         (text.empty() ? "Else: " : "; ") + ("what these records do not show " + percent(untold));
+  if (diagnosis.verdict != outside_catalogue && diagnosis.probability_of_outside >= 0.005)
+    text += "; of all that no known effect " + percent(diagnosis.probability_of_outside);
   return text;
 }
 
@@ -240,6 +242,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
       {"ranking", ranking},
       {"probability_of_unlisted", json_number(diagnosis.probability_of_unlisted)},
       {"probability_of_tried", json_number(diagnosis.probability_of_tried)},
+      {"probability_of_outside", json_number(diagnosis.probability_of_outside)},
       {"nearest_known",
        diagnosis.nearest_known ? answer_json(*diagnosis.nearest_known) : json(nullptr)},
       {"confidence_set", diagnosis.confidence_set},

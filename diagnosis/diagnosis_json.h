@@ -7,8 +7,9 @@
 namespace vibrissa::diagnosis {
 
 /// The answer as records.md fixes it, schema "vibrissa-diagnosis-1", with findings, guesses,
-/// untested effects, the gap map, probability_of_unlisted and probability_of_tried added. Numbers
-/// that are not finite become null. Proven by tests/diagnosis/diagnosis_json_test.cc.
+/// untested effects, the gap map, probability_of_unlisted, probability_of_tried and
+/// probability_of_outside added. Numbers that are not finite become null. Proven by
+/// tests/diagnosis/diagnosis_json_test.cc.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 
 /// Does the answer name mere parameter errors, so that the simulation wants recalibration and no

@@ -116,11 +116,30 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
   EXPECT_EQ(share("none, false alarm"), Pair(0, 1));
   EXPECT_EQ(score.trust.at("none").second, 2u);
   EXPECT_EQ(score.trust.at("single").second, 4u);
+  // Behind one of the two wrong names stood no known effect.
+  EXPECT_EQ(score.unknown.at("single").hits, 1u);
+  EXPECT_EQ(score.unknown.at("single").of, 2u);
   EXPECT_EQ(share("retune_only, false alarm"), Pair(0, 1));
   EXPECT_EQ(share("nameless, wrong name above 0.8"), Pair(1, 1));
   EXPECT_EQ(share("wrong name above 0.8"), Pair(1, 5));
   // The one delay that was found: 0.1 ms off, said to be known to 0.1 ms.
   EXPECT_NEAR(score.figures.at("parameter error over its deviation, median"), 1., 1e-6);
+}
+
+TEST_F(WrittenTrial, JudgesTheOpenSetByTheOddsOfNoKnownEffect) {
+  const auto with_odds = [](double outside) {
+    json out = answer("hum", 0.5);
+    out["diagnosis"]["probability_of_outside"] = outside;
+    return out;
+  };
+  const json hum = {{{"id", "hum"}, {"size", 1.}, {"limit", 0.1}}},
+             x = {{{"id", "x"}, {"size", 1.}, {"limit", 0.1}}};
+  add("single", hum, with_odds(0.2));
+  add("single", hum, with_odds(0.05));
+  add("nameless", x, with_odds(0.3));
+  add("left_out", hum, with_odds(0.1));
+  EXPECT_DOUBLE_EQ(
+      score_trial(trial_, labels_).figures.at("outside_catalogue, area under the curve"), 0.75);
 }
 
 TEST_F(WrittenTrial, CountsWhatFurtherExperimentsResolve) {

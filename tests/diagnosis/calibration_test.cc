@@ -42,6 +42,15 @@ TEST(Calibration, NoTrustMakesAnAnswerSurer) {
     }
 }
 
+TEST(Calibration, WhatIsLeftBelongsInPartToWhatIsUnknown) {
+  for (const AnswerKind kind : kinds) {
+    EXPECT_GE(unknown_share(kind), 0.);
+    EXPECT_LT(unknown_share(kind), 1.);
+  }
+  // An answer of no known effect has said so.
+  EXPECT_EQ(unknown_share(AnswerKind::outside), 0.);
+}
+
 TEST(Calibration, TheSurerTheFitsTheSurerTheAnswer) {
   for (const AnswerKind kind : kinds) {
     double before = 0.;

@@ -134,6 +134,15 @@ TEST(VerdictText, SaysFirstWhatMakesTheAnswerDoubtful) {
               testing::StartsWith("Doubtful: high: is clipped (and 1 more)\n"));
 }
 
+TEST(VerdictText, TellsTheOddsOfNoKnownEffect) {
+  Diagnosis diagnosis = example();
+  diagnosis.probability_of_tried = 0.7;
+  diagnosis.probability_of_outside = 0.1;
+  EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["probability_of_outside"], 0.1);
+  EXPECT_THAT(verdict_text(diagnosis),
+              HasSubstr("what these records do not show 30 %; of all that no known effect 10.0 %"));
+}
+
 TEST(VerdictText, TellsWhatComesNearest) {
   Diagnosis diagnosis = example();
   EXPECT_TRUE(nlohmann::json::parse(diagnosis_json(diagnosis))["nearest_known"].is_null());
@@ -143,6 +152,11 @@ TEST(VerdictText, TellsWhatComesNearest) {
             "delay+stiffness");
   EXPECT_THAT(verdict_text(diagnosis),
               HasSubstr("Nearest: delay+stiffness closes 98 % of the gap, but leaves more than"));
+  diagnosis.nearest_known->left_over = LeftOver{"other_level", 1.5, 30.};
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("but leaves 2.5 times"));
+  EXPECT_EQ(
+      nlohmann::json::parse(diagnosis_json(diagnosis))["nearest_known"]["left_over"]["record"],
+      "other_level");
 }
 
 TEST(DiagnosisJson, ProbabilitiesSumToOne) {

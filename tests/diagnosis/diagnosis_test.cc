@@ -84,6 +84,7 @@ TEST(Diagnose, TellsWhatComesNearestWhereNothingKnownExplainsTheGap) {
   ASSERT_TRUE(diagnosis.nearest_known->held_out);
   EXPECT_GT(diagnosis.nearest_known->held_out->overall.gap_closed.value_or(0.), 0.3);
   EXPECT_EQ(diagnosis.nearest_known->probability, 0.);
+  EXPECT_EQ(diagnosis.probability_of_outside, diagnosis.ranking.front().probability);
 }
 
 TEST(Diagnose, TellsASofterJointFromASofterSupportByTheRotation) {
@@ -127,6 +128,14 @@ TEST(Diagnose, ProbabilitiesSumToOneAndTheConfidenceSetHolds95Percent) {
   for (const RankedAnswer& answer : diagnosis.ranking) sum += answer.probability;
   EXPECT_NEAR(sum, 1., 1e-9);
   EXPECT_EQ(diagnosis.confidence_set.front(), diagnosis.verdict);
+}
+
+TEST(Diagnose, WhatIsLeftHoldsTheOddsOfNoKnownEffect) {
+  const Diagnosis diagnosis =
+      diagnose(test::nominal_of(test::OneModeRig{}, false), test::rig_dataset(test::noisy_rig()),
+               {.search = {.max_effects = 1}});
+  EXPECT_GT(diagnosis.probability_of_outside, 0.);
+  EXPECT_LT(diagnosis.probability_of_outside, 1. - diagnosis.probability_of_tried);
 }
 
 TEST(Diagnose, RefusesUnitsThatSpoilEverything) {
