@@ -13,6 +13,9 @@ namespace {
 /// The lowest bins hold what wanders from day to day.
 constexpr std::size_t first_bin = 4;
 
+/// Of an effect's own noise the power is known so well: gusts and wakes differ from day to day.
+constexpr double own_noise_margin = 1.5;
+
 /// A fit's figures with the noise that was measured, where that is less, and the whole bounds of
 /// form errors.
 Eigen::VectorXd sober_figures(const Experiment& experiment, const HypothesisFit& fit) {
@@ -28,7 +31,9 @@ Eigen::VectorXd sober_figures(const Experiment& experiment, const HypothesisFit&
 }
 
 LeftOver left_over(const PreparedRecord& record, const Prediction& prediction,
-                   const std::vector<double>& variance) {
+                   std::vector<double> variance) {
+  for (std::size_t b = 0; b < variance.size(); ++b)
+    variance[b] += (own_noise_margin - 1.) * prediction.own_noise[b];
   std::vector<Complex> error = difference(record.moment, prediction.mean);
   RampShare ramp(record, prediction.ramp_variance);
   for (std::size_t b = 0; b < error.size(); ++b) ramp.add(b, error[b], variance[b]);

@@ -11,7 +11,8 @@ struct LeftOver {
   std::string record{};
   /// Power of the residual over all that the fit allows for, less one:
   ///   sum |M - mean|^2 / sum S - 1,
-  /// S noise of both channels, the effects' own noise and the bounds of their form errors.
+  /// S noise of both channels, 1.5 times the effects' own noise and the bounds of their form
+  /// errors.
   double excess = 0.;
   /// The same in deviations of chance, sum (|M - mean|^2 - S) / sqrt(sum S^2).
   double n_deviations = 0.;

@@ -6,15 +6,14 @@ namespace {
 
 class Drift : public JointLaw {
  public:
-  Drift(double slope, const Lanes& offset, double loss_s)
+  Drift(const Lanes& slope, const Lanes& offset, double loss_s)
       : slope_(slope), offset_(offset), loss_s_(loss_s) {}
   Lanes moment(const Lanes& y, const Lanes& y_rate, const Lanes& t_s, double, bool) override {
     return (offset_ + slope_ * t_s) * (y + loss_s_ * y_rate);
   }
 
  private:
-  double slope_;
-  Lanes offset_;
+  Lanes slope_, offset_;
   double loss_s_;
 };
 
@@ -25,7 +24,8 @@ Effect temperature_drift() {
       .id = "temperature_drift",
       .link = Link::structure,
       .equation =
-          "k = k0 (1 + d t / T + e n), n the number of the record; c = c0 (1 + p (d t / T + e n))",
+          "k = k0 (1 + x), x = d exp(-n / N) t / T + e N (1 - exp(-n / N)), n the number of the "
+          "record; c = c0 (1 + p x)",
       .source = "effects.md",
       .confused_with = "sensor_drift; frequency moves here, offset there",
       .form_error = 0.05,
@@ -34,15 +34,17 @@ Effect temperature_drift() {
       .needs = {.base = true, .moved_s = 3.},
       .parameters = {uniform("within_record", "1", -0.4, 0.4, 0.),
                      normal("between_records", "1", 0., 0.005, -0.1, 0.1, 0.),
-                     normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.)},
-      .starts = {{0.02, 0., 0.}, {-0.02, 0., 0.}},
+                     normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.),
+                     log_uniform("settled_after", "records", 1., 100., 100.)},
+      .starts = {{0.02, 0., 0., 30.}, {-0.02, 0., 0., 30.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         const std::optional<JointModel> joint = joint_of(chain);
         if (!joint) return;
         const double loss_s = v[2] * joint->loss / joint->frequency_rad_s;
         chain.joint.push_back(
-            [slope = v[0] / scales.duration_s, jump = v[1], loss_s](const Lanes& number) {
-              return std::make_unique<Drift>(slope, jump * number, loss_s);
+            [slope = v[0] / scales.duration_s, jump = v[1], loss_s, n = v[3]](const Lanes& number) {
+              const Lanes to_go = (-number / n).exp();
+              return std::make_unique<Drift>(slope * to_go, jump * n * (1. - to_go), loss_s);
             });
       }};
 }
