@@ -142,17 +142,22 @@ bool has_retuned(const HypothesisFit& fit) {
   return false;
 }
 
+/// Figures with the nuisances fixed where they are nominal.
+std::vector<FreeFigure> with_nominal_retunes(std::vector<FreeFigure> figures) {
+  for (FreeFigure& figure : figures)
+    if (figure.nuisance) {
+      Prior& prior = figure.description.prior;
+      prior.low = prior.high = prior.centre;
+    }
+  return figures;
+}
+
 /// A climb on which the nuisances move last.
 Climb climb_before_nuisances(FitPosterior& posterior, const Experiment& experiment,
                              const std::vector<FreeFigure>& figures, const Hypothesis& hypothesis,
                              const HypothesisFit* start, const FitOptions& options) {
   constexpr int n_alone = 12;
-  std::vector<FreeFigure> held = figures;
-  for (FreeFigure& figure : held)
-    if (figure.nuisance) {
-      Prior& prior = figure.description.prior;
-      prior.low = prior.high = prior.centre;
-    }
+  const std::vector<FreeFigure> held = with_nominal_retunes(figures);
   FitPosterior posterior_of_held(experiment, held, hypothesis);
   Climb climb = best_start(posterior_of_held, held,
                            start_vectors(experiment, figures, hypothesis, start, true), options);
@@ -161,6 +166,64 @@ Climb climb_before_nuisances(FitPosterior& posterior, const Experiment& experime
   climb.derivatives.reset();
   climb_on(posterior, figures, climb, n_alone, options);
   return climb;
+}
+
+/// Retunes within what is negligible, and what they do beside their ratio left alone.
+std::vector<FreeFigure> with_negligible_retunes(const NominalModel& nominal,
+                                                std::vector<FreeFigure> figures) {
+  for (FreeFigure& figure : figures) {
+    if (!figure.nuisance) continue;
+    Prior& prior = figure.description.prior;
+    if (figure.parameter == 0)
+      prior.scale = negligible_retune(nominal, figure.effect->id);
+    else
+      prior = {.kind = Prior::Kind::normal,
+               .centre = prior.centre,
+               .low = prior.centre,
+               .high = prior.centre};
+  }
+  return figures;
+}
+
+/// A shift of a retune that moves the prediction no more than the effects' form errors may stem
+/// from them: its prior becomes as wide. Was any much too narrow?
+bool loosen_by_forms(HypothesisFit& fit) {
+  constexpr double much = 1.5;
+  bool was_narrow = false;
+  for (const Eigen::Index i : retunes_but(fit, {})) {
+    FreeFigure& figure = fit.figures[static_cast<std::size_t>(i)];
+    double& scale = figure.description.prior.scale;
+    const double of_data = fit.information(i, i) - 1. / (scale * scale);
+    if (!(of_data > 0.)) continue;
+    const double wider = std::sqrt(scale * scale + 0.5 * fit.form_energy(figure.effect) / of_data);
+    was_narrow |= wider > much * scale;
+    scale = wider;
+  }
+  return was_narrow;
+}
+
+/// What a fit is where its climb has ended; the choices are left.
+void set_at(HypothesisFit& fit, const Experiment& experiment, FitPosterior& posterior,
+            Climb& climb) {
+  fit.x = climb.x;
+  fit.n_iterations = climb.n_iterations;
+  fit.log_posterior = climb.log_posterior;
+  posterior.renew_slow_variance(fit.x, climb.predictions);
+  if (!climb.derivatives) climb.derivatives = posterior.derivatives(fit.x, climb.predictions);
+  Eigen::VectorXd gradient;
+  posterior.linearise(fit.x, climb.predictions, *climb.derivatives, gradient, fit.information);
+  const std::vector<EffectAction> actions = posterior.actions(fit.x, climb.predictions);
+  fit.effect_energy.clear();
+  for (const EffectAction& action : actions)
+    fit.effect_energy.emplace_back(action.effect, action.energy);
+  double log_determinant = 0.;
+  fit.covariance = inverse(fit.information, log_determinant);
+  fit.log_likelihood = posterior.log_likelihood(fit.x, climb.predictions);
+  fit.log_evidence = fit.log_likelihood + posterior.log_prior(fit.x) - 0.5 * log_determinant +
+                     0.5 * static_cast<double>(fit.x.size()) * std::log(2. * std::numbers::pi);
+  if (!std::isfinite(fit.log_evidence)) fit.log_evidence = -std::numeric_limits<double>::infinity();
+  fit.records = fitted_records(experiment, posterior, fit, climb.predictions, actions);
+  fit.goodness = goodness_of_fit(experiment, whitened_residual(experiment, fit));
 }
 
 }  // namespace
@@ -220,25 +283,37 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
     if (other.log_posterior > climb.log_posterior) climb = std::move(other);
   }
   climb_on(posterior, fit.figures, climb, options.max_iterations, options);
-  fit.x = climb.x;
-  fit.n_iterations = climb.n_iterations;
-  fit.log_posterior = climb.log_posterior;
-  posterior.renew_slow_variance(fit.x, climb.predictions);
-  if (!climb.derivatives) climb.derivatives = posterior.derivatives(fit.x, climb.predictions);
-  Eigen::VectorXd gradient;
-  posterior.linearise(fit.x, climb.predictions, *climb.derivatives, gradient, fit.information);
-  const std::vector<EffectAction> actions = posterior.actions(fit.x, climb.predictions);
-  for (const EffectAction& action : actions)
-    fit.effect_energy.emplace_back(action.effect, action.energy);
-  double log_determinant = 0.;
-  fit.covariance = inverse(fit.information, log_determinant);
-  fit.log_likelihood = posterior.log_likelihood(fit.x, climb.predictions);
-  fit.log_evidence = fit.log_likelihood + posterior.log_prior(fit.x) - 0.5 * log_determinant +
-                     0.5 * static_cast<double>(fit.x.size()) * std::log(2. * std::numbers::pi);
-  if (!std::isfinite(fit.log_evidence)) fit.log_evidence = -std::numeric_limits<double>::infinity();
+  set_at(fit, experiment, posterior, climb);
   fit.choices = retune_choices(experiment.nominal, fit);
-  fit.records = fitted_records(experiment, posterior, fit, climb.predictions, actions);
-  fit.goodness = goodness_of_fit(experiment, whitened_residual(experiment, fit));
+  return fit;
+}
+
+HypothesisFit fit_as_simulated(const Experiment& experiment, const HypothesisFit& free,
+                               const FitOptions& options) {
+  constexpr int n_with_retunes = 5;
+  HypothesisFit fit;
+  fit.hypothesis = free.hypothesis;
+  fit.as_simulated = true;
+  const std::vector<FreeFigure> held = with_nominal_retunes(free.figures);
+  FitPosterior of_held(experiment, held, fit.hypothesis);
+  std::vector<Eigen::VectorXd> starts =
+      start_vectors(experiment, held, fit.hypothesis, nullptr, true);
+  for (Eigen::VectorXd& x : starts) x.head(n_noise_figures) = free.x.head(n_noise_figures);
+  starts.push_back(free.x);
+  clamp(held, starts.back());
+  Climb climb = best_start(of_held, held, starts, options);
+  climb_on(of_held, held, climb, options.max_iterations, options);
+  fit.figures = with_negligible_retunes(experiment.nominal, free.figures);
+  bool ends = false;
+  for (int pass = 0; pass < 2 && !ends; ++pass) {
+    FitPosterior posterior(experiment, fit.figures, fit.hypothesis);
+    climb.derivatives.reset();
+    climb.ended = false;
+    climb_on(posterior, fit.figures, climb, n_with_retunes, options);
+    set_at(fit, experiment, posterior, climb);
+    ends = pass > 0 || !loosen_by_forms(fit);
+  }
+  fit.choices = {as_simulated_choice(fit)};
   return fit;
 }
 

@@ -38,6 +38,7 @@ struct FittedRecord {
 /// A hypothesis at its most probable parameters. Figures in their coordinates x.
 struct HypothesisFit {
   Hypothesis hypothesis;
+  bool as_simulated = false;  // but for the effects: see fit_as_simulated()
   std::vector<FreeFigure> figures;
   Eigen::VectorXd x;
   Eigen::MatrixXd information;  // Fisher's, with the priors' curvature
@@ -77,6 +78,13 @@ struct FurtherStart {
 HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hypothesis,
                              const HypothesisFit* start = nullptr, const FitOptions& options = {},
                              const std::optional<FurtherStart>& further = std::nullopt);
+
+/// The same with retunes that are as simulated, no further off than the simulation and the effects'
+/// forms are known: where free ones take up what an effect does as well, the half of all sensors
+/// that are as simulated is not seen from there. free: that fit. Its one choice names no retune.
+/// Proven by tests/diagnosis/fit_as_simulated_test.cc.
+HypothesisFit fit_as_simulated(const Experiment& experiment, const HypothesisFit& free,
+                               const FitOptions& options = {});
 
 /// All records in turn, without the most probable line of a drift.
 std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,

@@ -9,15 +9,6 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A retune parameter within this of nominal is nominal: the simulation is not known better than
-/// its form follows its own records.
-double negligible(const NominalModel& nominal, const std::string& id) {
-  constexpr double least = 1e-4, damping_factor = 5.;
-  const double misfit =
-      std::max(least, id == "drag_error" ? nominal.wind_misfit : nominal.base_misfit);
-  return id == "damping" ? damping_factor * misfit : misfit;
-}
-
 /// A posterior given that some of its figures are nominal, or negligibly off, and the log density
 /// that it had there.
 struct AtNominal {
@@ -33,7 +24,7 @@ AtNominal at_nominal(const NominalModel& nominal, const HypothesisFit& fit,
   Eigen::MatrixXd covariance = posterior.covariance(places, places);
   for (Eigen::Index i = 0; i < n; ++i) {
     const FreeFigure& figure = fit.figures[static_cast<std::size_t>(places[i])];
-    const double width = negligible(nominal, figure.effect->id);
+    const double width = negligible_retune(nominal, figure.effect->id);
     // A shift that moves the prediction no more than the effects' form errors may stem from them.
     const double information = fit.information(places[i], places[i]);
     covariance(i, i) += width * width + 0.5 * fit.form_energy(figure.effect) / information;
@@ -91,6 +82,13 @@ double log_mean(double a, double b) {
 
 }  // namespace
 
+double negligible_retune(const NominalModel& nominal, const std::string& id) {
+  constexpr double least = 1e-4, damping_factor = 5.;
+  const double misfit =
+      std::max(least, id == "drag_error" ? nominal.wind_misfit : nominal.base_misfit);
+  return id == "damping" ? damping_factor * misfit : misfit;
+}
+
 double log_any_magnitude(const double top, const double x, const double variance) {
   constexpr double least_of_top = 1e-3;
   const double size = std::sqrt(x * x + variance) + least_of_top * top;
@@ -137,6 +135,10 @@ RetunedPosterior retuned_posterior(const HypothesisFit& fit,
   return out;
 }
 
+RetuneChoice as_simulated_choice(const HypothesisFit& fit) {
+  return {.log_evidence = fit.log_evidence - std::numbers::ln2};
+}
+
 std::vector<RetuneChoice> retune_choices(const NominalModel& nominal, const HypothesisFit& fit) {
   std::vector<Eigen::Index> ratios;
   if (!fit.hypothesis.is_discrepancy()) ratios = retunes_but(fit, {});
@@ -160,7 +162,8 @@ std::vector<RetuneChoice> retune_choices(const NominalModel& nominal, const Hypo
     const double as_built = posterior.log_evidence + ranges_for_normals(fit, posterior, named),
                  exact = posterior.log_evidence - tolerance_at_nominal + exactly.log_density +
                          ranges_for_normals(fit, exactly.posterior, named);
-    choice.log_evidence = log_mean(exact, as_built);
+    const bool leaves_exact = named.empty() && !fit.hypothesis.is_discrepancy();
+    choice.log_evidence = leaves_exact ? as_built - std::numbers::ln2 : log_mean(exact, as_built);
     // Where the retuned sensor is unstable there is no answer.
     if (!std::isfinite(choice.log_evidence))
       choice.log_evidence = -std::numeric_limits<double>::infinity();

@@ -34,7 +34,13 @@ double log_any_magnitude(double top, double x, double variance);
 /// Evidence of every set of nuisances that may differ from nominal, the others nominal, best first:
 /// by Savage's and Dickey's ratio from the posterior with all of them free. A shift within what the
 /// nominal form misses of the simulation, or within what form errors of the effects may bring,
-/// counts as nominal.
+/// counts as nominal. That nothing is named and all is as simulated is left to fit_as_simulated().
 std::vector<RetuneChoice> retune_choices(const NominalModel& nominal, const HypothesisFit& fit);
+/// The one choice of such a fit.
+RetuneChoice as_simulated_choice(const HypothesisFit& fit);
+
+/// A retune within this of nominal is nominal: the simulation is not known better than its form
+/// follows its own records.
+double negligible_retune(const NominalModel& nominal, const std::string& id);
 
 }  // namespace vibrissa::diagnosis

@@ -61,6 +61,10 @@ Hypothesis without_retunes(Hypothesis hypothesis) {
   return hypothesis;
 }
 
+bool has_free_retunes(const HypothesisFit& fit) {
+  return !fit.hypothesis.is_discrepancy() && !fit.as_simulated;
+}
+
 /// Does the effect say more of the accelerometer's noise?
 bool tells_noise(const Effect& effect) {
   return probe(effect).reference_variance > 0.;
@@ -157,6 +161,7 @@ class Searcher {
     return order;
   }
 
+  /// Each with free retunes; then each as simulated.
   void fit_all(const std::vector<Task>& tasks) {
     const std::size_t first = fits_.size();
     fits_.resize(first + tasks.size());
@@ -179,7 +184,20 @@ class Searcher {
       known_[tasks[i].hypothesis.name()] = first + i;
       best_log_posterior_ = std::max(best_log_posterior_, fits_[first + i].log_posterior);
     }
+    fit_as_simulated_from(first);
     weigh_hidden_gains();
+  }
+
+  /// Those of which the fits from one on, with free retunes, do not lie hopelessly behind.
+  void fit_as_simulated_from(const std::size_t first) {
+    std::vector<std::size_t> of;
+    for (std::size_t i = first; i < fits_.size(); ++i)
+      if (!fits_[i].hypothesis.is_discrepancy() && nats_behind(i) < far_nats) of.push_back(i);
+    const std::size_t there = fits_.size();
+    fits_.resize(there + of.size());
+    for_each_parallel(of.size(), options_.n_threads, [&](std::size_t i) {
+      fits_[there + i] = fit_as_simulated(experiment_, fits_[of[i]]);
+    });
   }
 
   std::optional<Further> further(std::size_t without, const std::vector<WhitenedRecord>& residual,
@@ -224,10 +242,14 @@ class Searcher {
         order.push_back(i);
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return best_posterior(a) > best_posterior(b); });
+    // One fit of a hypothesis: with free retunes, or as simulated.
+    std::set<std::string> names;
+    std::erase_if(order,
+                  [&](std::size_t i) { return !names.insert(fits_[i].hypothesis.name()).second; });
     return order;
   }
 
-  /// Fits that hold this one effect less. Retunes are free in all fits: one that they alone tell
+  /// Fits that hold this one effect less. Retunes are free in all of them: one that they alone tell
   /// apart has as much to gain as another.
   std::vector<std::size_t> fits_without(const Hypothesis& hypothesis, const Effect& effect) const {
     const Hypothesis fewer = hypothesis.without(effect);
@@ -239,20 +261,20 @@ class Searcher {
     }
     const std::string wanted = without_retunes(fewer).name();
     for (std::size_t i = 0; i < fits_.size(); ++i)
-      if (!fits_[i].hypothesis.is_discrepancy() &&
-          without_retunes(fits_[i].hypothesis).name() == wanted)
+      if (has_free_retunes(fits_[i]) && without_retunes(fits_[i].hypothesis).name() == wanted)
         out.push_back(i);
     return out;
   }
 
   /// A fit with one effect more may gain what the form errors of the smaller one explain as well:
-  /// the smaller one is given it.
+  /// the smaller one is given it, with free retunes and as simulated.
   void weigh_hidden_gains() {
     std::vector<std::pair<std::size_t, std::size_t>> steps;  // (fewer, more)
     for (std::size_t i = 0; i < fits_.size(); ++i)
-      for (const Effect* effect : fits_[i].hypothesis.effects())
-        for (const std::size_t fewer : fits_without(fits_[i].hypothesis, *effect))
-          steps.emplace_back(fewer, i);
+      if (has_free_retunes(fits_[i]))
+        for (const Effect* effect : fits_[i].hypothesis.effects())
+          for (const std::size_t fewer : fits_without(fits_[i].hypothesis, *effect))
+            steps.emplace_back(fewer, i);
     std::vector<double> gains(steps.size());
     for_each_parallel(steps.size(), options_.n_threads, [&](std::size_t i) {
       gains[i] = hidden_gain(experiment_, fits_[steps[i].second], fits_[steps[i].first]);
@@ -260,6 +282,8 @@ class Searcher {
     hidden_.assign(fits_.size(), 0.);
     for (std::size_t i = 0; i < steps.size(); ++i)
       hidden_[steps[i].first] = std::max(hidden_[steps[i].first], gains[i]);
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      if (fits_[i].as_simulated) hidden_[i] = hidden_[known_.at(fits_[i].hypothesis.name())];
   }
 
   double posterior_of(std::size_t i, const RetuneChoice& choice) const {
