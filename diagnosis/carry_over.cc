@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
+#include "diagnosis/chain_simulation.h"
 #include "diagnosis/ramp_share.h"
 #include "diagnosis/spectrum.h"
 
@@ -30,21 +32,23 @@ Eigen::VectorXd sober_figures(const Experiment& experiment, const HypothesisFit&
   return x;
 }
 
-LeftOver left_over(const PreparedRecord& record, const Prediction& prediction,
-                   std::vector<double> variance) {
+LeftOver left_over(const PreparedRecord& record, const std::vector<Complex>& nominal,
+                   const Prediction& prediction, std::vector<double> variance) {
   for (std::size_t b = 0; b < variance.size(); ++b)
     variance[b] += (own_noise_margin - 1.) * prediction.own_noise[b];
   std::vector<Complex> error = difference(record.moment, prediction.mean);
   RampShare ramp(record, prediction.ramp_variance);
   for (std::size_t b = 0; b < error.size(); ++b) ramp.add(b, error[b], variance[b]);
-  double power = 0., allowed = 0., square = 0.;
+  double power = 0., before = 0., allowed = 0., square = 0.;
   for (std::size_t b = first_bin; b < error.size(); ++b) {
     if (ramp.on()) error[b] -= ramp.rise() * ramp.shape(b);
     power += std::norm(error[b]);
+    before += std::norm(record.moment[b] - nominal[b]);
     allowed += variance[b];
     square += variance[b] * variance[b];
   }
-  return {record.name, power / allowed - 1., (power - allowed) / std::sqrt(square)};
+  return {record.name, power / allowed - 1., (power - allowed) / std::sqrt(square),
+          before > allowed ? (power - allowed) / (before - allowed) : 1.};
 }
 
 }  // namespace
@@ -60,19 +64,24 @@ LeftOver left_over(const Experiment& fitted_on, const Experiment& held_out,
   const std::vector<Prediction> at = posterior.predict(x);
   posterior.renew_slow_variance(x, at);
   const double a_variance = posterior.acceleration_variance(x);
+  const Chain nominal = fitted_on.nominal_chain();
   LeftOver worst;
   for (std::size_t r = 0; r < at.size(); ++r) {
     const PreparedRecord& record = as_fitted.records[r];
     if (record.n_bins() <= first_bin) continue;
-    const LeftOver left = left_over(record, at[r], posterior.variance(x, at[r], r, a_variance));
-    if (worst.record.empty() || left.excess > worst.excess) worst = left;
+    const LeftOver left = left_over(record, simulate_mean(nominal, record), at[r],
+                                    posterior.variance(x, at[r], r, a_variance));
+    if (worst.record.empty() ||
+        std::pair(contradicts(left), left.excess) > std::pair(contradicts(worst), worst.excess))
+      worst = left;
   }
   return worst;
 }
 
 bool contradicts(const LeftOver& left) {
-  constexpr double most_excess = 0.2, most_deviations = 6.;
-  return left.excess > most_excess && left.n_deviations > most_deviations;
+  constexpr double most_excess = 0.2, most_deviations = 6., most_of_gap = 0.05;
+  return left.excess > most_excess && left.n_deviations > most_deviations &&
+         left.share_of_gap > most_of_gap;
 }
 
 void refute_contradicted(SearchResult& result, const Experiment& fitted_on,

@@ -6,7 +6,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// What a fit leaves of the record that it follows worst, among those it has not seen.
+/// What a fit leaves of the record that contradicts it most, among those it has not seen; of the
+/// one it follows worst, where none does.
 struct LeftOver {
   std::string record{};
   /// Power of the residual over all that the fit allows for, less one:
@@ -16,6 +17,8 @@ struct LeftOver {
   double excess = 0.;
   /// The same in deviations of chance, sum (|M - mean|^2 - S) / sqrt(sum S^2).
   double n_deviations = 0.;
+  /// Over what the nominal model leaves of the same, beyond what is allowed.
+  double share_of_gap = 1.;
 };
 
 /// fitted_on: the experiment of the fit; held_out: records prepared with Split::held_out and
@@ -26,7 +29,7 @@ LeftOver left_over(const Experiment& fitted_on, const Experiment& held_out,
                    const HypothesisFit& fit);
 
 /// Does it contradict the fit? A cause, or none, that is right carries over to other levels and
-/// winds.
+/// winds. One that closes nearly all of a gap is not contradicted by what finer causes leave.
 bool contradicts(const LeftOver& left);
 
 /// The most probable answers are asked in turn, up to the first that held-out records bear out: the

@@ -77,7 +77,8 @@ json held_out_json(const HeldOutScore& score) {
 json left_over_json(const LeftOver& left) {
   return {{"record", left.record},
           {"excess_power", json_number(left.excess)},
-          {"deviations", json_number(left.n_deviations)}};
+          {"deviations", json_number(left.n_deviations)},
+          {"share_of_gap", json_number(left.share_of_gap)}};
 }
 
 json estimates_json(const std::vector<ParameterEstimate>& estimates) {

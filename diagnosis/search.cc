@@ -229,9 +229,23 @@ class Searcher {
       if (options_.on_fit) options_.on_fit();
     });
     for (std::size_t i = 0; i < again.size(); ++i)
-      if (refined[i].log_evidence > fits_[again[i].first].log_evidence)
+      if (refined[i].log_evidence > fits_[again[i].first].log_evidence) {
         fits_[again[i].first] = std::move(refined[i]);
+        refine_as_simulated(again[i].first);
+      }
     weigh_hidden_gains();
+  }
+
+  void refine_as_simulated(const std::size_t free) {
+    HypothesisFit refined = fit_as_simulated(experiment_, fits_[free]);
+    const std::string name = refined.hypothesis.name();
+    const auto there = std::find_if(fits_.begin(), fits_.end(), [&](const HypothesisFit& fit) {
+      return fit.as_simulated && fit.hypothesis.name() == name;
+    });
+    if (there == fits_.end())
+      fits_.push_back(std::move(refined));
+    else if (refined.log_evidence > there->log_evidence)
+      *there = std::move(refined);
   }
 
   std::vector<std::size_t> best_of_size(std::size_t size) const {

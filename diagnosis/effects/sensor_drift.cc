@@ -12,6 +12,8 @@ Effect sensor_drift() {
       .confused_with = "turbulence; quiet record",
       .irreducible = true,
       .form_error = 0.01,
+      // What wanders within a second or two may be what the unknown start of a record leaves.
+      .needs = {.moved_s = 3.},
       .parameters = {log_uniform("walk", "N m/s^0.5", 1e-8, 1e-4, 0.)},
       .starts = {{3e-7}, {3e-6}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {

@@ -30,6 +30,8 @@ Effect viscoelastic() {
       .confused_with = "damping, stiffness; several octaves, second mode, creep",
       .form_error = 0.08,
       .needs = {.base = true},
+      // Half of its times are so slow that it is a change of stiffness.
+      .log_prior = -0.7,
       .parameters = {log_uniform("strength", "1", 2e-4, 1.5, 0.),
                      log_uniform("tau", "s", 1e-3, 10., 0.01), uniform("decades", "1", 0., 5., 0.)},
       .starts = {{0.1, 3e-3, 1.},

@@ -41,6 +41,8 @@ TEST(LeftOver, ContradictsACauseThatDoesNotCarryOver) {
 TEST(LeftOver, ContradictsNothingThatIsTooLittleOrMayBeChance) {
   EXPECT_FALSE(contradicts({.excess = 0.1, .n_deviations = 50.}));
   EXPECT_FALSE(contradicts({.excess = 2., .n_deviations = 2.}));
+  EXPECT_TRUE(contradicts({.excess = 2., .n_deviations = 50., .share_of_gap = 0.3}));
+  EXPECT_FALSE(contradicts({.excess = 2., .n_deviations = 50., .share_of_gap = 0.02}));
 }
 
 /// Two known answers of fits of their own, and outside_catalogue.
