@@ -20,25 +20,25 @@ AnswerKind answer_kind(const std::string& answer) {
 Trust trust_in(const AnswerKind kind) {
   switch (kind) {
     case AnswerKind::none:
-      return {-1.07, 0.82};
+      return {-1.08, 1.01};
     case AnswerKind::single:
-      return {-0.58, 0.69};
+      return {-0.88, 0.83};
     case AnswerKind::several:
-      return {-0.70, 0.30};
+      return {-0.92, 0.64};
     case AnswerKind::outside:
       break;
   }
-  return {0.25, 0.1875};
+  return {0.25, 0.24};
 }
 
 double unknown_share(const AnswerKind kind) {
   switch (kind) {
     case AnswerKind::none:
-      return 0.23;
+      return 0.15;
     case AnswerKind::single:
-      return 0.43;
+      return 0.44;
     case AnswerKind::several:
-      return 0.25;
+      return 0.33;
     case AnswerKind::outside:
       break;
   }

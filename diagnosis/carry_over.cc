@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "diagnosis/chain_simulation.h"
+#include "diagnosis/noise_levels.h"
 #include "diagnosis/ramp_share.h"
 #include "diagnosis/spectrum.h"
 
@@ -18,16 +19,13 @@ constexpr std::size_t first_bin = 4;
 /// Of an effect's own noise the power is known so well: gusts and wakes differ from day to day.
 constexpr double own_noise_margin = 1.5;
 
-/// A fit's figures with the noise that was measured, where that is less, and the whole bounds of
-/// form errors.
+/// A fit's figures with the noise that was measured, and the whole bounds of form errors.
 Eigen::VectorXd sober_figures(const Experiment& experiment, const HypothesisFit& fit) {
   Eigen::VectorXd x = fit.x;
-  const auto lower = [&](std::size_t place, double deviation) {
-    double& level = x(static_cast<Eigen::Index>(place));
-    level = std::min(level, std::log(deviation));
-  };
-  lower(place_moment_noise, experiment.moment_noise);
-  lower(place_acceleration_noise, experiment.acceleration_noise);
+  const NoiseLevels levels = noise_levels(experiment, fit, fit.chain(experiment));
+  x(static_cast<Eigen::Index>(place_moment_noise)) = 0.5 * std::log(levels.moment.variance);
+  x(static_cast<Eigen::Index>(place_acceleration_noise)) =
+      0.5 * std::log(levels.acceleration.variance);
   if (!fit.hypothesis.effects().empty()) x(x.size() - 1) = 1.;
   return x;
 }

@@ -9,6 +9,7 @@
 
 #include "diagnosis/chain_simulation.h"
 #include "diagnosis/judged_samples.h"
+#include "diagnosis/noise_levels.h"
 #include "diagnosis/spectrum.h"
 #include "signals/error.h"
 #include "signals/student.h"
@@ -17,43 +18,6 @@ namespace vibrissa::diagnosis {
 namespace {
 
 using Samples = std::vector<double>;
-
-/// Logarithm of one of the fit's noise levels and its deviation.
-struct NoiseLevel {
-  double variance = 0., log_deviation = 0.;
-};
-
-NoiseLevel noise_level(const HypothesisFit& fit, const std::string& name) {
-  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-    if (fit.figures[i].effect != nullptr || fit.figures[i].description.name != name) continue;
-    const auto place = static_cast<Eigen::Index>(i);
-    return {std::exp(2. * fit.x(place)), std::sqrt(fit.covariance(place, place))};
-  }
-  return {};
-}
-
-struct Levels {
-  NoiseLevel moment, acceleration;
-};
-
-/// As measured where nothing moves, so that the error of a poor fit is no noise; else as fitted. A
-/// fit that names noise of the accelerometer knows its share.
-Levels noise_levels(const Experiment& experiment, const HypothesisFit& fit, const Chain& chain) {
-  Levels levels{noise_level(fit, "moment_noise"), noise_level(fit, "acceleration_noise")};
-  double lines = 0.;
-  for (const PreparedRecord& record : experiment.records)
-    if (record.excitation == signals::Excitation{})
-      lines += 0.5 * static_cast<double>(record.n_bins());
-    else if (record.periodic)
-      lines += 0.5 * static_cast<double>(record.n_acceleration_noise);
-  if (lines < 32.) return levels;
-  const double deviation = 0.5 / std::sqrt(lines);
-  levels.moment = {experiment.moment_noise * experiment.moment_noise, deviation};
-  if (chain.reference_variance == 0.)
-    levels.acceleration = {experiment.acceleration_noise * experiment.acceleration_noise,
-                           deviation};
-  return levels;
-}
 
 /// Mean squares [(N m)^2] of what no model can foretell in one record.
 struct FloorParts {
@@ -195,7 +159,8 @@ double expansion(std::size_t n_blocks) {
 }
 
 std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
-                                              const Levels& levels, const HeldOutOptions& options) {
+                                              const NoiseLevels& levels,
+                                              const HeldOutOptions& options) {
   constexpr std::size_t fewest_blocks = 8;
   if (blocks.size() < fewest_blocks || options.n_resamples == 0) return std::nullopt;
   std::mt19937_64 random(options.seed);
@@ -229,8 +194,8 @@ std::optional<VibrationLeft> vibration_left(const std::vector<Block>& blocks) {
   return VibrationLeft{db(sum.before), db(sum.after)};
 }
 
-ErrorScore score(const std::string& name, const std::vector<Block>& blocks, const Levels& levels,
-                 const HeldOutOptions& options) {
+ErrorScore score(const std::string& name, const std::vector<Block>& blocks,
+                 const NoiseLevels& levels, const HeldOutOptions& options) {
   Block sum;
   for (const Block& block : blocks) add(sum, block);
   const double floor = sum.floor.moment + sum.floor.acceleration;
@@ -275,7 +240,7 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
         "record \"split\": \"held_out\"");
   const Chain nominal = fitted_on.nominal_chain();
   const Chain chain = fit.chain(fitted_on);
-  const Levels levels = noise_levels(fitted_on, fit, chain);
+  const NoiseLevels levels = noise_levels(fitted_on, fit, chain);
   HeldOutScore out;
   for (const Effect* effect : fit.hypothesis.effects())
     if (effect->irreducible)
