@@ -6,16 +6,25 @@
 
 namespace vibrissa::diagnosis {
 
+NoiseLines all_lines(const std::span<const double> x) {
+  NoiseLines out{spectrum_of(x)};
+  out.end = out.spectrum.size();
+  return out;
+}
+
 NoiseLines noise_lines(const std::span<const double> reading, const double rate_hz,
                        const bool moves) {
   if (is_polled(reading)) {
-    const std::vector<Complex> source = spectrum_of(renewed_series(reading));
+    NoiseLines out = all_lines(renewed_series(reading));
     const double filled = 1. - repeat_share(reading);
-    return {source, static_cast<std::size_t>(filled * static_cast<double>(source.size())), true};
+    out.end = static_cast<std::size_t>(filled * static_cast<double>(out.end));
+    out.of_source = true;
+    return out;
   }
   const auto even = moves ? evened_series(reading, rate_hz) : std::nullopt;
-  const std::vector<Complex> spectrum = spectrum_of(even ? *even : reading);
-  return {spectrum, spectrum.size(), even.has_value()};
+  NoiseLines out = all_lines(even ? *even : reading);
+  out.of_source = even.has_value();
+  return out;
 }
 
 }  // namespace vibrissa::diagnosis

@@ -15,6 +15,9 @@ struct NoiseLines {
   bool of_source = false;  // of what the reading was made from
 };
 
+/// All lines of a channel that hides nothing.
+NoiseLines all_lines(std::span<const double> x);
+
 /// Samples that are read again say nothing anew, and images of a motion are no noise: of a channel
 /// that is polled faster than it is renewed the source's own series, up to half its rate, and of
 /// one that moves and has uneven ages the evened one. Proven by

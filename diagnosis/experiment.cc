@@ -354,8 +354,7 @@ NoiseLines lines_of(const DatasetRecord& entry, const std::string& name) {
   const auto x = entry.record.channel(name);
   if (name == channel::base_acceleration)
     return noise_lines(x, entry.record.sampling_rate_hz(), entry.excitation.base);
-  const std::vector<Complex> spectrum = spectrum_of(x);
-  return {spectrum, spectrum.size()};
+  return all_lines(x);
 }
 
 /// Of all fit records the least.

@@ -185,8 +185,7 @@ std::vector<FreeFigure> with_negligible_retunes(const NominalModel& nominal,
   return figures;
 }
 
-/// A shift of a retune that moves the prediction no more than the effects' form errors may stem
-/// from them: its prior becomes as wide. Was any much too narrow?
+/// The retunes' priors become as wide as form errors shift them. Was any much too narrow?
 bool loosen_by_forms(HypothesisFit& fit) {
   constexpr double much = 1.5;
   bool was_narrow = false;
@@ -195,7 +194,7 @@ bool loosen_by_forms(HypothesisFit& fit) {
     double& scale = figure.description.prior.scale;
     const double of_data = fit.information(i, i) - 1. / (scale * scale);
     if (!(of_data > 0.)) continue;
-    const double wider = std::sqrt(scale * scale + 0.5 * fit.form_energy(figure.effect) / of_data);
+    const double wider = std::sqrt(scale * scale + fit.shift_by_forms(figure.effect, of_data));
     was_narrow |= wider > much * scale;
     scale = wider;
   }
@@ -242,6 +241,10 @@ double HypothesisFit::form_energy(const Effect* but) const {
   for (const auto& [effect, energy] : effect_energy)
     if (effect != but) sum += effect->form_error * effect->form_error * energy;
   return sum;
+}
+
+double HypothesisFit::shift_by_forms(const Effect* retune, const double information) const {
+  return 0.5 * form_energy(retune) / information;
 }
 
 Chain HypothesisFit::chain(const Experiment& experiment) const {

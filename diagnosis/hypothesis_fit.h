@@ -56,6 +56,9 @@ struct HypothesisFit {
   /// Form errors of all effects and retunes but one, in whitened energy: what gains less than this
   /// is not told from them.
   double form_energy(const Effect* but = nullptr) const;
+  /// Variance of a shift of a retune that moves the prediction no more than the others' form
+  /// errors: it may stem from them. information: of the data, by the retune.
+  double shift_by_forms(const Effect* retune, double information) const;
   /// Value and standard deviation of an effect's parameter (of x).
   std::optional<std::size_t> place(const std::string& effect, std::size_t parameter) const;
   Chain chain(const Experiment& experiment) const;

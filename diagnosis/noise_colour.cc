@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "diagnosis/accelerometer_noise.h"
-#include "diagnosis/spectrum.h"
 #include "signals/local_polynomial.h"
 
 namespace vibrissa::diagnosis {
@@ -105,8 +104,7 @@ void add_lines(std::vector<NoiseLine>& out, const signals::Record& record, const
 void add_moment(std::vector<NoiseLine>& out, const signals::Record& record,
                 const std::size_t n_periods) {
   if (!record.has(signals::channel::base_moment)) return;
-  const std::vector<Complex> spectrum = spectrum_of(record.channel(signals::channel::base_moment));
-  add_lines(out, record, {spectrum, spectrum.size()}, n_periods);
+  add_lines(out, record, all_lines(record.channel(signals::channel::base_moment)), n_periods);
 }
 
 void add_still_acceleration(std::vector<NoiseLine>& out, const signals::Record& record) {

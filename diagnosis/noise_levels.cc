@@ -5,20 +5,17 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-NoiseLevel noise_level(const HypothesisFit& fit, const std::string& name) {
-  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-    if (fit.figures[i].effect != nullptr || fit.figures[i].description.name != name) continue;
-    const auto place = static_cast<Eigen::Index>(i);
-    return {std::exp(2. * fit.x(place)), std::sqrt(fit.covariance(place, place))};
-  }
-  return {};
+NoiseLevel noise_level(const HypothesisFit& fit, const std::size_t figure) {
+  const auto place = static_cast<Eigen::Index>(figure);
+  return {std::exp(2. * fit.x(place)), std::sqrt(fit.covariance(place, place))};
 }
 
 }  // namespace
 
 NoiseLevels noise_levels(const Experiment& experiment, const HypothesisFit& fit,
                          const Chain& chain) {
-  NoiseLevels levels{noise_level(fit, "moment_noise"), noise_level(fit, "acceleration_noise")};
+  NoiseLevels levels{noise_level(fit, place_moment_noise),
+                     noise_level(fit, place_acceleration_noise)};
   double lines = 0.;
   for (const PreparedRecord& record : experiment.records)
     if (record.excitation == signals::Excitation{})

@@ -25,9 +25,8 @@ AtNominal at_nominal(const NominalModel& nominal, const HypothesisFit& fit,
   for (Eigen::Index i = 0; i < n; ++i) {
     const FreeFigure& figure = fit.figures[static_cast<std::size_t>(places[i])];
     const double width = negligible_retune(nominal, figure.effect->id);
-    // A shift that moves the prediction no more than the effects' form errors may stem from them.
     const double information = fit.information(places[i], places[i]);
-    covariance(i, i) += width * width + 0.5 * fit.form_energy(figure.effect) / information;
+    covariance(i, i) += width * width + fit.shift_by_forms(figure.effect, information);
   }
   const Eigen::VectorXd x = posterior.x(places);
   const Eigen::LDLT<Eigen::MatrixXd> ldlt(covariance);
