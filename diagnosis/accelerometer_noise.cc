@@ -19,11 +19,14 @@ NoiseLines noise_lines(const std::span<const double> reading, const double rate_
     const double filled = 1. - repeat_share(reading);
     out.end = static_cast<std::size_t>(filled * static_cast<double>(out.end));
     out.of_source = true;
+    out.age_range = unknown_age(reading);
     return out;
   }
   const auto even = moves ? evened_series(reading, rate_hz) : std::nullopt;
-  NoiseLines out = all_lines(even ? *even : reading);
-  out.of_source = even.has_value();
+  if (!even) return all_lines(reading);
+  NoiseLines out = all_lines(even->samples);
+  out.of_source = true;
+  out.age_range = even->unknown_age;
   return out;
 }
 

@@ -13,6 +13,7 @@ struct NoiseLines {
   std::vector<Complex> spectrum;  // lines 0 .. n/2, unscaled
   std::size_t end = 0;
   bool of_source = false;  // of what the reading was made from
+  double age_range = 0.;   // within which its readings' age is unknown [samples]
 };
 
 /// All lines of a channel that hides nothing.

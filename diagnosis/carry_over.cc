@@ -7,7 +7,7 @@
 
 #include "diagnosis/chain_simulation.h"
 #include "diagnosis/noise_levels.h"
-#include "diagnosis/ramp_share.h"
+#include "diagnosis/own_unknowns.h"
 #include "diagnosis/spectrum.h"
 
 namespace vibrissa::diagnosis {
@@ -35,11 +35,9 @@ LeftOver left_over(const PreparedRecord& record, const std::vector<Complex>& nom
   for (std::size_t b = 0; b < variance.size(); ++b)
     variance[b] += (own_noise_margin - 1.) * prediction.own_noise[b];
   std::vector<Complex> error = difference(record.moment, prediction.mean);
-  RampShare ramp(record, prediction.ramp_variance);
-  for (std::size_t b = 0; b < error.size(); ++b) ramp.add(b, error[b], variance[b]);
+  IntegratedUnknowns(prediction.unknowns, error, variance).remove_from(error);
   double power = 0., before = 0., allowed = 0., square = 0.;
   for (std::size_t b = first_bin; b < error.size(); ++b) {
-    if (ramp.on()) error[b] -= ramp.rise() * ramp.shape(b);
     power += std::norm(error[b]);
     before += std::norm(record.moment[b] - nominal[b]);
     allowed += variance[b];

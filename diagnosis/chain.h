@@ -35,10 +35,11 @@ struct JointChange {
   bool any() const { return spring != 1. || damper != 1. || rest_damping != 1. || inertia != 1.; }
 };
 
-/// Wind that a moving whisker feels: F = (u - v) |u - v| in place of u |u|, v = base velocity +
-/// velocity_per_moment_rate times the rate of the first mode's joint moment.
+/// Wind that a moving whisker feels: F = (u - v) |u - v| in place of u |u|, v = base_share times
+/// the base velocity + velocity_per_moment_rate times the rate of the first mode's joint moment.
 struct RelativeWind {
   bool on = false;
+  double base_share = 1.;  // negative where the wind blows against the axis of the base motion
   double velocity_per_moment_rate = 0.;  // (m/s) / (N m / s)
 };
 

@@ -18,13 +18,14 @@ std::vector<Complex> wind_force_spectrum(const Chain& chain, const PreparedRecor
   return spectrum_of(u);
 }
 
-/// d (u - v) |u - v| / d v at rest, root mean square of the wind.
+/// d (u - v) |u - v| / d base velocity at rest, root mean square of the wind.
 double drag_per_velocity(const Chain& chain, const PreparedRecord& record) {
   double sum = 0.;
   for (const double u : record.wind) sum += u * u;
-  return record.wind.empty() ? 0.
-                             : 2. * chain.drag_factor * record.wind_share *
-                                   std::sqrt(sum / static_cast<double>(record.wind.size()));
+  return record.wind.empty()
+             ? 0.
+             : 2. * chain.relative_wind.base_share * chain.drag_factor * record.wind_share *
+                   std::sqrt(sum / static_cast<double>(record.wind.size()));
 }
 
 Complex reading_of_source(const Chain& chain, const PreparedRecord& record, std::size_t k) {
@@ -177,6 +178,24 @@ void ChainSimulator::add_acceleration_noise(const PreparedRecord& record,
   }
 }
 
+std::vector<OwnUnknown> ChainSimulator::unknowns_of(const PreparedRecord& record) {
+  std::vector<OwnUnknown> out;
+  const double judged_s = static_cast<double>(record.n_judged) / record.sampling_rate_hz;
+  if (chain_.ramp_variance_rate > 0.)
+    out.push_back(
+        unknown_ramp(chain_.ramp_variance_rate * judged_s, record.n_judged, record.n_bins()));
+  const double age = chain_.renewed_share * record.unknown_age_s;
+  if (age > 0.) {
+    const std::vector<LinearPart>& lines = response_.lines(record);
+    std::vector<Complex> per_second(record.n_samples / 2 + 1);
+    for (std::size_t k = 0; k < per_second.size(); ++k)
+      per_second[k] =
+          record.line_s(k) * lines[k].base * lines[k].sensor * reading_of_source(chain_, record, k);
+    out.push_back({age * age, bins_of_lines(record, per_second)});
+  }
+  return out;
+}
+
 Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<Complex> mean) {
   Prediction prediction;
   prediction.mean = std::move(mean);
@@ -190,7 +209,7 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
     paint(prediction.acceleration_noise, record.colours.acceleration, record);
   }
   prediction.own_noise.assign(n_bins, 0.);
-  prediction.ramp_variance = chain_.ramp_variance_rate * n / record.sampling_rate_hz;
+  prediction.unknowns = unknowns_of(record);
   if (!chain_.noise.empty()) {
     const RecordView view{
         .base = record.excitation.base,

@@ -7,6 +7,7 @@
 #include "diagnosis/experiment.h"
 #include "diagnosis/joint_simulation.h"
 #include "diagnosis/linear_response.h"
+#include "diagnosis/own_unknowns.h"
 
 namespace vibrissa::diagnosis {
 
@@ -17,7 +18,7 @@ struct Prediction {
   std::vector<double> moment_noise;        // times the moment's variance
   std::vector<double> acceleration_noise;  // times the accelerometer's variance
   std::vector<double> own_noise;           // as it is
-  double ramp_variance = 0.;  // of the rise of a line through the judged part [(N m)^2]
+  std::vector<OwnUnknown> unknowns;        // the rise of a drift, when a source was read
 };
 
 /// Foretells records under one chain, which must outlive it. Linear parts exactly for band-limited
@@ -52,6 +53,7 @@ class ChainSimulator {
                                       const Spectra& readings);
   Spectra linear_moments(std::span<const PreparedRecord> records);
   std::vector<Complex> reading(const PreparedRecord& record, std::vector<Complex> moment);
+  std::vector<OwnUnknown> unknowns_of(const PreparedRecord& record);
   void add_acceleration_noise(const PreparedRecord& record, std::span<double> variance);
   Prediction with_noise(const PreparedRecord& record, std::vector<Complex> mean);
 

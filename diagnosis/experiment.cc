@@ -156,7 +156,10 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
                           const ExcitedHarmonics& excited, const InputNoise treatment) {
   out.acceleration = spectrum_of(reading);
   const NoiseLines noise_of = noise_lines(reading, out.sampling_rate_hz, entry.excitation.base);
-  if (entry.excitation.base && noise_of.of_source) out.renewed = noise_of.spectrum;
+  if (entry.excitation.base && noise_of.of_source) {
+    out.renewed = noise_of.spectrum;
+    out.unknown_age_s = noise_of.age_range / std::sqrt(12.) / out.sampling_rate_hz;
+  }
   const double n = static_cast<double>(out.n_samples);
   if (treatment == InputNoise::as_measured) {
     out.noise_share.assign(out.acceleration.size(), 1.);

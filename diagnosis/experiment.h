@@ -27,6 +27,7 @@ struct PreparedRecord {
 
   std::vector<Complex> acceleration;        // k = 0 .. n/2, noise reduced; empty: not measured
   std::vector<Complex> renewed;             // its source's; empty: not polled
+  double unknown_age_s = 0.;                // deviation of when the source is read
   std::vector<Complex> cross_acceleration;  // empty: not measured
   std::vector<double> wind;                 // at the samples; empty: not measured
   /// Share of the accelerometer noise that is left at line k of the whole record.

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "diagnosis/ramp_share.h"
+#include "diagnosis/own_unknowns.h"
 #include "diagnosis/spectrum.h"
 
 namespace vibrissa::diagnosis {
@@ -111,13 +111,10 @@ double FitPosterior::log_likelihood(const Eigen::VectorXd& x,
   for (std::size_t r = 0; r < at.size(); ++r) {
     const PreparedRecord& record = experiment_.records[r];
     const std::vector<double> s = variance(x, at[r], r, a_variance);
-    RampShare ramp(record, at[r].ramp_variance);
-    for (std::size_t b = 0; b < s.size(); ++b) {
-      const Complex error = record.moment[b] - at[r].mean[b];
-      sum -= std::norm(error) / s[b] + std::log(s[b]);
-      ramp.add(b, error, s[b]);
-    }
-    sum += ramp.log_likelihood_gain() - accelerometer_term(record, a_variance);
+    const std::vector<Complex> error = difference(record.moment, at[r].mean);
+    for (std::size_t b = 0; b < s.size(); ++b) sum -= std::norm(error[b]) / s[b] + std::log(s[b]);
+    sum += IntegratedUnknowns(at[r].unknowns, error, s).log_likelihood_gain() -
+           accelerometer_term(record, a_variance);
   }
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
 }
@@ -296,7 +293,7 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
              d.acceleration * a_gradient;
   information = 2. * d.mean.transpose() * d.mean + d.variance.transpose() * d.variance +
                 a_lines * d.acceleration * d.acceleration.transpose();
-  remove_ramps(at, s, d.mean, error, gradient, information);
+  remove_unknowns(at, s, d.mean, error, gradient, information);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Prior& prior = figures_[static_cast<std::size_t>(i)].description.prior;
     gradient(i) += prior.slope(x(i));
@@ -304,27 +301,21 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
   }
 }
 
-/// Takes what the unknown rise of each record explains out of gradient and information.
-void FitPosterior::remove_ramps(const std::vector<Prediction>& at, const BinVariances& s,
-                                const Eigen::MatrixXd& mean_columns, const Eigen::VectorXd& error,
-                                Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const {
+/// Takes what the unknown figures of each record explain out of gradient and information.
+void FitPosterior::remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
+                                   const Eigen::MatrixXd& mean_columns,
+                                   const Eigen::VectorXd& error, Eigen::VectorXd& gradient,
+                                   Eigen::MatrixXd& information) const {
   Eigen::Index first = 0;
   for (std::size_t r = 0; r < at.size(); ++r) {
-    RampShare ramp(experiment_.records[r], at[r].ramp_variance);
     const auto n_rows = static_cast<Eigen::Index>(2 * s[r].size());
-    if (ramp.on()) {
-      Eigen::VectorXd shape(n_rows);
-      for (std::size_t b = 0; b < s[r].size(); ++b) {
-        const Complex g = ramp.shape(b) / std::sqrt(s[r][b]);
-        shape(static_cast<Eigen::Index>(2 * b)) = g.real();
-        shape(static_cast<Eigen::Index>(2 * b) + 1) = g.imag();
-        ramp.add(b, 0., s[r][b]);
-      }
-      const Eigen::VectorXd overlap =
-          2. * mean_columns.middleRows(first, n_rows).transpose() * shape;
-      const double score = 2. * shape.dot(error.segment(first, n_rows));
-      gradient -= overlap * score * ramp.posterior();
-      information -= overlap * overlap.transpose() * ramp.posterior();
+    const Eigen::MatrixXd shapes = whitened_shapes(at[r].unknowns, s[r]);
+    if (shapes.cols() > 0) {
+      const Eigen::MatrixXd posterior = IntegratedUnknowns(at[r].unknowns, {}, s[r]).covariance();
+      const Eigen::MatrixXd overlap =
+          2. * mean_columns.middleRows(first, n_rows).transpose() * shapes;
+      gradient -= overlap * posterior * (2. * shapes.transpose() * error.segment(first, n_rows));
+      information -= overlap * posterior * overlap.transpose();
     }
     first += n_rows;
   }

@@ -7,7 +7,7 @@
 
 #include "diagnosis/climb.h"
 #include "diagnosis/fit_posterior.h"
-#include "diagnosis/ramp_share.h"
+#include "diagnosis/own_unknowns.h"
 #include "diagnosis/retune_choices.h"
 #include "diagnosis/spectrum.h"
 
@@ -123,7 +123,7 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
     FittedRecord record{.mean = predictions[r].mean,
                         .own_noise = predictions[r].own_noise,
                         .variance = posterior.variance(fit.x, predictions[r], r, a_variance),
-                        .ramp_variance = predictions[r].ramp_variance,
+                        .unknowns = predictions[r].unknowns,
                         .form_errors = std::move(form_errors[r])};
     for (std::size_t b = 0; b < record.own_noise.size(); ++b)
       record.own_noise[b] += a_excess * predictions[r].acceleration_noise[b];
@@ -325,12 +325,10 @@ std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
   std::vector<WhitenedRecord> records(fit.records.size());
   for (std::size_t r = 0; r < records.size(); ++r) {
     const FittedRecord& fitted = fit.records[r];
-    RampShare ramp(experiment.records[r], fitted.ramp_variance);
     std::vector<Complex> error = difference(experiment.records[r].moment, fitted.mean);
-    for (std::size_t b = 0; b < error.size(); ++b) ramp.add(b, error[b], fitted.variance[b]);
+    IntegratedUnknowns(fitted.unknowns, error, fitted.variance).remove_from(error);
     for (std::size_t b = 0; b < error.size(); ++b) {
       const double deviation = std::sqrt(fitted.variance[b]);
-      if (ramp.on()) error[b] -= ramp.rise() * ramp.shape(b);
       records[r].deviation.push_back(deviation);
       records[r].error.push_back(error[b] / deviation);
       records[r].own_share.push_back(fitted.own_noise[b] / fitted.variance[b]);

@@ -31,7 +31,7 @@ struct FormErrors {
 struct FittedRecord {
   std::vector<Complex> mean;
   std::vector<double> own_noise, variance;  // (N m)^2, of the effects alone and of all
-  double ramp_variance = 0.;                // Prediction::ramp_variance
+  std::vector<OwnUnknown> unknowns{};       // Prediction::unknowns
   FormErrors form_errors;
 };
 
@@ -89,7 +89,7 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
 HypothesisFit fit_as_simulated(const Experiment& experiment, const HypothesisFit& free,
                                const FitOptions& options = {});
 
-/// All records in turn, without the most probable line of a drift.
+/// All records in turn, without the most probable course of what is unknown of each.
 std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
                                               const HypothesisFit& fit);
 

@@ -193,7 +193,7 @@ class SideBySide {
         elastic_(elastic),
         fine_(fine_signals(*task.chain, elastic, factor_, n_fine_steps())),
         integrator_(*task.chain, *task.joint, record_numbers(), dt_),
-        velocity_per_rate_(task.chain->relative_wind.velocity_per_moment_rate),
+        moving_(task.chain->relative_wind),
         rotation_(elastic.front().record->readout == signals::Readout::rotation) {
     for (std::size_t lane = 0; lane < elastic.size(); ++lane) {
       const std::size_t before = warm_up(*elastic[lane].record, factor_);
@@ -221,7 +221,8 @@ class SideBySide {
     const auto load = [&](const Lanes& rate) -> Lanes {
       if (fine_.wind.empty()) return Lanes::Zero();
       const Lanes& u = fine_.wind[i];
-      const Lanes felt = u - fine_.base_velocity[i] - velocity_per_rate_ * rate;
+      const Lanes felt =
+          u - moving_.base_share * fine_.base_velocity[i] - moving_.velocity_per_moment_rate * rate;
       return wind_gain_ * (felt * felt.abs() - u * u.abs());
     };
     const JointIntegrator::AtBase added = integrator_.end(load);
@@ -265,7 +266,7 @@ class SideBySide {
   std::span<const ElasticMoment> elastic_;
   FineSignals fine_;
   DifferenceIntegrator integrator_;
-  double velocity_per_rate_;
+  RelativeWind moving_;
   bool rotation_;
   Lanes start_ = Lanes::Zero(), wind_gain_ = Lanes::Zero();
 };

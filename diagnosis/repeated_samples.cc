@@ -1,5 +1,6 @@
 #include "diagnosis/repeated_samples.h"
 
+#include <cmath>
 #include <set>
 
 #include "diagnosis/spectrum.h"
@@ -54,6 +55,18 @@ std::vector<double> renewed_series(const std::span<const double> x) {
   const Line line = line_through(places);
   return resampled(spectrum_of(source), source.size(), x.size(), -line.intercept / line.slope,
                    1. / line.slope);
+}
+
+double unknown_age(const std::span<const double> x) {
+  constexpr int longest = 16;
+  const double period = line_through(renewals(x)).slope;
+  for (int q = 1; q <= longest; ++q) {
+    const double renewed = q / period;
+    // The place in the period slips by less than a step over the whole record.
+    if (std::abs(renewed - std::round(renewed)) * static_cast<double>(x.size()) < 1.)
+      return period / q;
+  }
+  return 0.;
 }
 
 }  // namespace vibrissa::diagnosis

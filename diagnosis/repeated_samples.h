@@ -16,4 +16,10 @@ double repeat_share(std::span<const double> x);
 /// of the source. Proven by tests/diagnosis/repeated_samples_test.cc.
 std::vector<double> renewed_series(std::span<const double> x);
 
+/// Range within which the age of a fresh sample is unknown [samples]: which samples repeat tells
+/// when a source is read to a q-th of its period, where q polls see a whole number of samples.
+/// Nothing where the rates have no simple ratio, as every place of the period is seen then. Proven
+/// by tests/diagnosis/repeated_samples_test.cc.
+double unknown_age(std::span<const double> x);
+
 }  // namespace vibrissa::diagnosis

@@ -19,6 +19,8 @@ namespace {
 
 /// How many of each size are extended, and by how many partners.
 constexpr std::size_t n_extended = 4, n_partners = 5;
+/// The best of each size by so many more, of which retunes may have taken up what they do.
+constexpr std::size_t n_hidden_partners = 5;
 /// Twice the log likelihood that a shape gains to first order where it is worth a fit.
 constexpr double least_resemblance = 6.;
 /// Log likelihood by which one fit is far behind another.
@@ -30,7 +32,8 @@ bool testable(const Experiment& experiment, const Effect& effect, const SearchOp
   return shows(experiment, effect);
 }
 
-void keep_first(std::vector<std::size_t>& list, std::size_t n) {
+template <typename T>
+void keep_first(std::vector<T>& list, std::size_t n) {
   if (list.size() > n) list.erase(list.begin() + static_cast<std::ptrdiff_t>(n), list.end());
 }
 
@@ -236,16 +239,19 @@ class Searcher {
     weigh_hidden_gains();
   }
 
+  std::optional<std::size_t> fit_as_simulated_of(const std::string& hypothesis) const {
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      if (fits_[i].as_simulated && fits_[i].hypothesis.name() == hypothesis) return i;
+    return std::nullopt;
+  }
+
   void refine_as_simulated(const std::size_t free) {
     HypothesisFit refined = fit_as_simulated(experiment_, fits_[free]);
-    const std::string name = refined.hypothesis.name();
-    const auto there = std::find_if(fits_.begin(), fits_.end(), [&](const HypothesisFit& fit) {
-      return fit.as_simulated && fit.hypothesis.name() == name;
-    });
-    if (there == fits_.end())
+    const auto there = fit_as_simulated_of(refined.hypothesis.name());
+    if (!there)
       fits_.push_back(std::move(refined));
-    else if (refined.log_evidence > there->log_evidence)
-      *there = std::move(refined);
+    else if (refined.log_evidence > fits_[*there].log_evidence)
+      fits_[*there] = std::move(refined);
   }
 
   std::vector<std::size_t> best_of_size(std::size_t size) const {
@@ -326,7 +332,10 @@ class Searcher {
     std::set<std::string> names;
     for (const std::size_t base : bases) {
       const bool little = explains_little(base), outdone = is_outdone(base, bases.front());
-      for (Partner& partner : partners(base)) {
+      std::vector<Partner> tried = partners(base, n_partners);
+      if (base == bases.front())
+        for (Partner& partner : hidden_partners(base)) tried.push_back(std::move(partner));
+      for (Partner& partner : tried) {
         const Hypothesis joint = fits_[base].hypothesis.with(*partner.effect);
         const bool holds_best = holds(joint, bases.front());
         const bool in_brief = little || (outdone && !holds_best);
@@ -373,7 +382,20 @@ class Searcher {
     return nats_behind(base) > n_first_orders * 0.5 * gain;
   }
 
-  std::vector<Partner> partners(std::size_t base) {
+  /// Those that the same fit as simulated lacks, where retunes make up for much of it.
+  std::vector<Partner> hidden_partners(std::size_t base) {
+    constexpr double much_nats = 5.;
+    const std::string name = fits_[base].hypothesis.name();
+    const auto there = fit_as_simulated_of(name);
+    const double free = fits_[known_.at(name)].log_likelihood;
+    if (!there || free - fits_[*there].log_likelihood < much_nats) return {};
+    std::vector<Partner> out = partners(*there, testable_.size());
+    std::erase_if(out, [](const Partner& partner) { return partner.effect->retune; });
+    keep_first(out, n_hidden_partners);
+    return out;
+  }
+
+  std::vector<Partner> partners(std::size_t base, std::size_t most) {
     const HypothesisFit& fit = fits_[base];
     const std::vector<WhitenedRecord> residual = whitened_residual(experiment_, fit);
     std::vector<Partner> scored(testable_.size());
@@ -392,7 +414,7 @@ class Searcher {
       if (scored[i].gain > least_resemblance) order.push_back(i);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return scored[a].gain > scored[b].gain; });
-    keep_first(order, n_partners);
+    keep_first(order, most);
     std::vector<Partner> out;
     for (const std::size_t i : order) out.push_back(std::move(scored[i]));
     return out;

@@ -84,8 +84,7 @@ double quietest(std::vector<double> x) {
 
 }  // namespace
 
-std::optional<std::vector<double>> evened_series(const std::span<const double> x,
-                                                 const double rate_hz) {
+std::optional<EvenedSeries> evened_series(const std::span<const double> x, const double rate_hz) {
   constexpr std::size_t fewest = 256;
   constexpr int n_trial_passes = 1, n_passes = 20;
   constexpr double much = 2.;
@@ -103,8 +102,12 @@ std::optional<std::vector<double>> evened_series(const std::span<const double> x
       best = ages;
     }
   if (best.empty()) return std::nullopt;
-  std::vector<double> out = evened(even_part, best, n_passes);
-  if (n < x.size()) out.push_back(x.back());
+  EvenedSeries out{evened(even_part, best, n_passes)};
+  if (n < x.size()) out.samples.push_back(x.back());
+  // Ages are steps of this apart.
+  out.unknown_age =
+      (*std::max_element(best.begin(), best.end()) - *std::min_element(best.begin(), best.end())) /
+      static_cast<double>(best.size() - 1);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "benchmarks/trial/drive.h"
@@ -89,6 +90,19 @@ class Wake {
   double coefficient_, q_, p_;
 };
 
+/// What the drive moves the base at: it neither starts nor drifts.
+std::vector<double> base_velocity(const std::vector<double>& acceleration) {
+  const auto free_of_mean = [](std::vector<double> x) {
+    const double sum = std::accumulate(x.begin(), x.end(), 0.);
+    for (double& value : x) value -= sum / static_cast<double>(x.size());
+    return x;
+  };
+  const std::vector<double> a = free_of_mean(acceleration);
+  std::vector<double> v(a.size(), 0.);
+  for (std::size_t i = 1; i < v.size(); ++i) v[i] = v[i - 1] + 0.5 * (a[i - 1] + a[i]) / fine_hz;
+  return free_of_mean(std::move(v));
+}
+
 class Bench {
  public:
   Bench(const Structure& structure, const World& world, const Session& session)
@@ -133,7 +147,7 @@ class Bench {
     Wake wake(world_.shedding, 6.28 * std::uniform_real_distribution<double>()(random));
     const bool free = world_.joint.is_linear();
     const int n_passes = world_.own_motion == 0. ? 1 : 3;
-    const std::vector<double> tilt = stage_tilt(a);
+    const std::vector<double> tilt = stage_tilt(a), carried = base_velocity(a);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(plant_.a.rows());
     Eigen::VectorXd f = Eigen::VectorXd::Zero(input::n), y = Eigen::VectorXd::Zero(output::n);
     std::vector<double> out(n);
@@ -145,7 +159,8 @@ class Bench {
       Eigen::VectorXd there = step_.transition * x + step_.now * f;
       const Eigen::VectorXd before = there;
       for (int pass = 0; pass < n_passes; ++pass) {
-        const double u = wind[i] - world_.own_motion * y(output::wind_velocity);
+        const double velocity = carried[i] + y(output::wind_velocity);
+        const double u = wind[i] - world_.own_motion * velocity;
         next(input::wind) = world_.drag * (u * std::abs(u) + shed * wind[i] * std::abs(wind[i]));
         next(input::hinge) = 0.;
         there = before + step_.next * next;

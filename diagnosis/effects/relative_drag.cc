@@ -1,23 +1,47 @@
+#include <cmath>
+
 #include "diagnosis/effect.h"
 
 namespace vibrissa::diagnosis::effects {
+namespace {
+
+double wind_gain(const NominalModel& structure) {
+  return structure.modes.empty() ? 0. : structure.modes.front().wind_gain;
+}
+
+/// +1 where the wind blows along the axis of the base motion: what the base's acceleration bends
+/// the whisker to is then the other side than the wind's.
+double along_the_axis(const NominalModel& structure) {
+  return structure.base_response(0.).real() * wind_gain(structure) > 0. ? -1. : 1.;
+}
+
+}  // namespace
 
 Effect relative_drag() {
-  return Effect{
-      .id = "relative_drag",
-      .link = Link::wind,
-      .equation = "F = (u - v) |u - v|, v = base velocity + n x the joint's rate",
-      .source = "effects.md",
-      .confused_with = "damping; wind ladder",
-      .form_error = 0.1,
-      .needs = {.base = true, .wind = true},
-      .parameters = {log_uniform("tip_speed", "m/s", 3e-4, 3., 0.)},
-      .starts = {{0.05}, {0.3}},
-      .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-        chain.relative_wind = {
-            .on = v[0] > 0.,
-            .velocity_per_moment_rate = v[0] / (scales.first_mode_rad_s * scales.joint_moment_n_m)};
-      }};
+  // A pendulum of static moment g / a that turns by T / k moves at T' / (g w^2) in the distance of
+  // its centre of percussion; where the air takes hold of it is not far from there.
+  return Effect{.id = "relative_drag",
+                .link = Link::wind,
+                .equation =
+                    "F = (u - v) |u - v|, v = share (base velocity + lever T' / (g w_1^2)), T the "
+                    "joint's moment, g that of static acceleration",
+                .source =
+                    "effects.md; a share of 1 is drag of relative velocity with the coefficient of "
+                    "steady wind, theory.md (T6.2)",
+                .confused_with = "damping; wind ladder",
+                .form_error = 0.1,
+                .needs = {.base = true, .wind = true},
+                .parameters = {log_uniform("share", "1", 0.02, 5., 0.),
+                               log_usual("lever", "1", 0.5, 2., 0.1, 10., 1.)},
+                .starts = {{0.3, 1.}, {1.2, 1.}},
+                .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
+                  const double inertia = scales.static_gain * std::pow(scales.first_mode_rad_s, 2);
+                  const double velocity_per_rate = inertia > 0. ? v[0] * v[1] / inertia : 0.;
+                  chain.relative_wind = {.on = v[0] > 0.,
+                                         .base_share = v[0] * along_the_axis(chain.structure),
+                                         .velocity_per_moment_rate = std::copysign(
+                                             velocity_per_rate, wind_gain(chain.structure))};
+                }};
 }
 
 }  // namespace vibrissa::diagnosis::effects

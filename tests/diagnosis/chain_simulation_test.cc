@@ -204,7 +204,7 @@ TEST(SimulateChain, WithoutItsMagnetTheSensorReadsTheCoilAlone) {
   for (const Complex& bin : simulate_mean(chain, record)) EXPECT_EQ(bin, Complex(0.));
   chain.feedthrough = {[](Complex) -> Complex { return 1e-5; }};
   chain.relative_wind.on = true;
-  find_effect("hardening").extend(chain, std::vector<double>{0.3}, experiment.scales);
+  find_effect("hardening").extend(chain, std::vector<double>{0.3, 1.}, experiment.scales);
   EXPECT_LT(relative_difference(simulate_mean(chain, record),
                                 filtered(record, [](Complex) -> Complex { return 1e-5; })),
             1e-12);

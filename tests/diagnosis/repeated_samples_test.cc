@@ -45,6 +45,16 @@ TEST(RenewedSeries, IsTheSourceAtTheTimesOfThePolls) {
   EXPECT_LT(best, 1e-3 * as_read);
 }
 
+TEST(UnknownAge, IsWhatTheRepeatsLeaveOpen) {
+  // Four periods of the source are five samples: which of them repeat tells a fifth of its period.
+  EXPECT_NEAR(unknown_age(polled(tone, 2500, 0.)), 1.25 / 5., 1e-3);
+  // Slowly every place of the period is seen.
+  std::vector<double> slipping;
+  for (std::size_t k = 0; k < 2500; ++k)
+    slipping.push_back(tone(std::floor(0.8037 * static_cast<double>(k)) / 401.85));
+  EXPECT_EQ(unknown_age(slipping), 0.);
+}
+
 TEST(IsPolled, TakesNoConverterForASource) {
   std::vector<double> x;
   for (int i = 0; i < 2000; ++i) x.push_back(0.25 * std::round(4. * tone(i / 500.)));
@@ -70,7 +80,7 @@ TEST(SampleRepeat, IsNamedWhereTheAccelerometerIsPolledFromASlowerSource) {
   }
   const Diagnosis answer =
       diagnose(test::nominal_of(test::OneModeRig{}, false), real, {.search = {.max_effects = 1}});
-  EXPECT_EQ(answer.verdict, "sample_repeat");
+  ASSERT_EQ(answer.verdict, "sample_repeat");
   EXPECT_EQ(answer.location.links.front(), "clock");
 }
 
