@@ -7,7 +7,7 @@ namespace vibrissa::diagnosis {
 /// Of a linear effect's form little is unknown: its error explains no more than this, in nats.
 inline constexpr double most_hidden_by_form = 40.;
 
-/// Of the log likelihood that a fit gains over one with one effect fewer, the part that form errors
+/// Of the log likelihood that a fit gains over one with fewer effects, the part that form errors
 /// of the latter's effects and retunes may explain. A form error is a smooth function of frequency,
 /// one value to a block of bins, shared by the records:
 ///   sum over blocks of max(0, E - ln(1 + F)),  E = sum min(g, f) / S,  F = sum f / S,

@@ -65,7 +65,7 @@ Hypothesis without_retunes(Hypothesis hypothesis) {
 }
 
 bool has_free_retunes(const HypothesisFit& fit) {
-  return !fit.hypothesis.is_discrepancy() && !fit.as_simulated;
+  return !fit.hypothesis.is_discrepancy() && !fit.as_simulated && !fit.choices.empty();
 }
 
 /// Does the effect say more of the accelerometer's noise?
@@ -150,6 +150,7 @@ class Searcher {
     std::optional<std::size_t> start;  // number of a fit
     std::optional<Further> further{};
     bool in_brief = false;  // from one start alone
+    bool hidden = false;    // stands as simulated alone
   };
 
   /// Nonlinear ones take longer: no thread is to be left alone with one at the end.
@@ -188,6 +189,8 @@ class Searcher {
       best_log_posterior_ = std::max(best_log_posterior_, fits_[first + i].log_posterior);
     }
     fit_as_simulated_from(first);
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      if (tasks[i].hidden) fits_[first + i].choices.clear();
     weigh_hidden_gains();
   }
 
@@ -286,15 +289,24 @@ class Searcher {
     return out;
   }
 
-  /// A fit with one effect more may gain what the form errors of the smaller one explain as well:
-  /// the smaller one is given it, with free retunes and as simulated.
+  /// Those that hold one effect less, and all that are parts of these.
+  std::set<std::size_t> parts_of(const Hypothesis& hypothesis) const {
+    std::set<std::size_t> out;
+    for (const Effect* effect : hypothesis.effects())
+      for (const std::size_t fewer : fits_without(hypothesis, *effect)) {
+        out.insert(fewer);
+        out.merge(parts_of(fits_[fewer].hypothesis));
+      }
+    return out;
+  }
+
+  /// A fit with more effects may gain what the form errors of a part of it explain as well: the
+  /// part is given it, with free retunes and as simulated.
   void weigh_hidden_gains() {
     std::vector<std::pair<std::size_t, std::size_t>> steps;  // (fewer, more)
     for (std::size_t i = 0; i < fits_.size(); ++i)
       if (has_free_retunes(fits_[i]))
-        for (const Effect* effect : fits_[i].hypothesis.effects())
-          for (const std::size_t fewer : fits_without(fits_[i].hypothesis, *effect))
-            steps.emplace_back(fewer, i);
+        for (const std::size_t fewer : parts_of(fits_[i].hypothesis)) steps.emplace_back(fewer, i);
     std::vector<double> gains(steps.size());
     for_each_parallel(steps.size(), options_.n_threads, [&](std::size_t i) {
       gains[i] = hidden_gain(experiment_, fits_[steps[i].second], fits_[steps[i].first]);
@@ -342,7 +354,7 @@ class Searcher {
         // What the best one gains beside it, its own partners tell.
         if (in_brief && (is_hopeless(base, partner.gain) || holds_best)) continue;
         if (known_.count(joint.name()) != 0 || !names.insert(joint.name()).second) continue;
-        tasks.push_back({joint, base, std::move(partner.further), in_brief});
+        tasks.push_back({joint, base, std::move(partner.further), in_brief, partner.hidden});
       }
     }
     return tasks;
@@ -352,6 +364,7 @@ class Searcher {
     double gain = -1.;
     const Effect* effect = nullptr;
     std::optional<Further> further{};
+    bool hidden = false;  // by retunes
   };
 
   bool holds(const Hypothesis& hypothesis, std::size_t fit) const {
@@ -392,6 +405,7 @@ class Searcher {
     std::vector<Partner> out = partners(*there, testable_.size());
     std::erase_if(out, [](const Partner& partner) { return partner.effect->retune; });
     keep_first(out, n_hidden_partners);
+    for (Partner& partner : out) partner.hidden = true;
     return out;
   }
 

@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -186,6 +187,32 @@ std::size_t Hdf5Reader::Array::size() const {
   return n;
 }
 
+namespace {
+
+/// Are there bytes for what a set, or one of its chunks, claims to hold? Packed ones swell a
+/// thousandfold at most; what was never written is a fill value, in moderation.
+void check_stored(const hid_t set, const std::size_t number_size, const std::size_t n,
+                  const std::string& path) {
+  constexpr std::size_t most_swollen = 1100, most_unwritten = 1u << 20;
+  const std::size_t stored = H5Dget_storage_size(set);
+  const Handle list(H5Dget_create_plist(set), H5Pclose, "read the layout of '" + path + "'");
+  std::size_t largest = n;
+  if (H5Pget_layout(list) == H5D_CHUNKED) {
+    std::array<hsize_t, H5S_MAX_RANK> chunk{};
+    const int rank = H5Pget_chunk(list, static_cast<int>(chunk.size()), chunk.data());
+    std::size_t n_chunk = 1;
+    for (int i = 0; i < rank; ++i)
+      if (__builtin_mul_overflow(n_chunk, chunk[static_cast<std::size_t>(i)], &n_chunk))
+        n_chunk = std::numeric_limits<std::size_t>::max();
+    largest = std::max(largest, n_chunk);
+  }
+  if (largest > most_unwritten && largest / most_swollen > stored / number_size)
+    throw std::runtime_error("'" + path + "' claims " + std::to_string(largest) + " numbers in " +
+                             std::to_string(stored) + " bytes");
+}
+
+}  // namespace
+
 std::vector<Hdf5Reader::Array> Hdf5Reader::arrays() const {
   std::vector<std::string> paths;
   const auto keep = [](hid_t, const char* const name, const H5O_info_t* const info,
@@ -202,6 +229,7 @@ std::vector<Hdf5Reader::Array> Hdf5Reader::arrays() const {
     const H5T_class_t kind = H5Tget_class(type);
     if (kind != H5T_FLOAT && kind != H5T_INTEGER) continue;
     found.push_back({path, shape_of(set, path), kind == H5T_FLOAT && H5Tget_size(type) <= 4});
+    check_stored(set, H5Tget_size(type), found.back().size(), path);
   }
   return found;
 }

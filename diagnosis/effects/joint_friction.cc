@@ -45,7 +45,7 @@ Effect joint_friction() {
                 .parameters = {log_uniform("stiffness_ratio", "1", 0.03, 1.5, 0.),
                                log_uniform("slip_moment", "1", 2e-4, 0.7, 1.),
                                uniform("spread", "1", 0., 1.2, 0.)},
-                .starts = {{0.3, 0.002, 0.5}, {0.3, 0.02, 0.5}, {0.3, 0.07, 0.5}, {0.3, 0.2, 0.5}},
+                .starts = {{0.3, 0.02, 0.5}, {0.3, 0.07, 0.5}, {0.3, 0.2, 0.5}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
                   chain.joint.push_back(
                       [r = v[0], slip = v[1] * scales.joint_moment_n_m, d = v[2]](const Lanes&) {

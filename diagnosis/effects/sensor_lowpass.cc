@@ -17,7 +17,7 @@ Effect sensor_lowpass() {
           "does (to third order of its length)",
       .confused_with = "delay; droop",
       .form_error = 0.02,
-      .parameters = {log_usual("corner", "Hz", 30., 1000., 10., 3e4, 1e100),
+      .parameters = {log_usual("corner", "Hz", 30., 250., 10., 3e4, 1e100),
                      normal("half_step", "s", 0., 5e-5, -2e-4, 2e-4, 0.),
                      uniform("lags", "1", 1., 3., 1.)},
       .starts = {{200., 0., 1.5}, {60., 0., 1.5}},

@@ -13,6 +13,7 @@
 #include "signals/formats/matrix_columns.h"
 #include "signals/formats/number_bytes.h"
 #include "signals/formats/record_columns.h"
+#include "signals/hdf5_image.h"
 
 namespace vibrissa::signals::formats {
 namespace {
@@ -112,14 +113,17 @@ std::size_t claimed(const matvar_t& variable) {
   return n;
 }
 
-void check_claims(mat_t* const file, const std::string& name) {
-  std::size_t left = most_numbers;
+void check_claims(mat_t* const file, const std::size_t n_bytes, const std::string& name) {
+  // Packed variables swell a thousandfold at most, and a number has a byte at least.
+  constexpr std::size_t most_swollen = 1100;
+  const std::size_t most = std::min(most_numbers, most_swollen * n_bytes);
+  std::size_t left = most;
   while (const Variable variable{Mat_VarReadNextInfo(file)}) {
     const std::size_t n = claimed(*variable);
     if (n > left)
       throw UserError(name + ": variable '" + (variable->name ? variable->name : "") + "' claims " +
-                      std::to_string(n) + " numbers; at most " + std::to_string(most_numbers) +
-                      " are read of a file");
+                      std::to_string(n) + " numbers; at most " + std::to_string(most) +
+                      " are read of a file of this size");
     left -= n;
   }
 }
@@ -158,6 +162,56 @@ void check_is_whole(const std::string& bytes, const std::string& name) {
   while (at + tag <= bytes.size()) at += tag + number_at<std::uint32_t>(&bytes[at + 4], order);
   if (at != bytes.size())
     throw UserError(name + ": is damaged: its variables do not end where the file does");
+}
+
+enum class MatKind { v4, v5, v73 };
+MatKind kind_of(const std::string& bytes) {
+  constexpr std::size_t header = 128, version_at = 124;
+  if (bytes.size() < header) return MatKind::v4;
+  const std::string version = bytes.substr(version_at, 2), order = bytes.substr(version_at + 2, 2);
+  if (order != "MI" && order != "IM") return MatKind::v4;
+  return version[order == "IM" ? 1 : 0] == 2 ? MatKind::v73 : MatKind::v5;
+}
+
+// matio asks for what the headers of a version 4 file claim before it sees that the file is
+// shorter.
+void check_version_4(const std::string& bytes, const std::string& name) {
+  constexpr std::size_t header = 20;
+  constexpr std::uint32_t largest_type = 4052;
+  constexpr std::array<double, 6> widths{8., 4., 4., 2., 2., 1.};
+  double at = 0.;  // sums of what is claimed do not overflow
+  const double end = static_cast<double>(bytes.size());
+  const auto little = bytes.size() < header ||
+                      number_at<std::uint32_t>(bytes.data(), std::endian::little) <= largest_type;
+  const std::endian order = little ? std::endian::little : std::endian::big;
+  while (at + header <= end) {
+    std::array<double, 5> head{};  // type, rows, columns, is complex, length of the name
+    for (std::size_t i = 0; i < head.size(); ++i)
+      head[i] = number_at<std::uint32_t>(&bytes[static_cast<std::size_t>(at) + 4 * i], order);
+    const std::size_t precision = static_cast<std::size_t>(head[0]) / 10 % 10;
+    if (precision >= widths.size()) break;
+    at += header + head[4] + head[1] * head[2] * widths[precision] * (head[3] != 0. ? 2. : 1.);
+  }
+  if (at != end) throw UserError(name + ": cannot be read as a MATLAB file (version 4, 5 or 7.3)");
+}
+
+void check_version_73(const std::string& bytes, const std::string& name) {
+  try {
+    Hdf5Reader(bytes).arrays();
+  } catch (const std::runtime_error& error) {
+    throw UserError(name + ": cannot be read as a MATLAB file of version 7.3: " + error.what());
+  }
+}
+
+void check_size(const std::string& bytes, const std::string& name) {
+  switch (kind_of(bytes)) {
+    case MatKind::v4:
+      return check_version_4(bytes, name);
+    case MatKind::v5:
+      return check_is_whole(bytes, name);
+    case MatKind::v73:
+      return check_version_73(bytes, name);
+  }
 }
 
 void put(mat_t* const file, const std::string& name, const Variable& variable) {
@@ -226,10 +280,11 @@ void write_aside(const std::filesystem::path& file, const bool is_v5,
 
 std::unique_ptr<RecordTable> read_mat(const std::filesystem::path& file) {
   const std::string name = file.string();
-  check_is_whole(read_bytes(file), name);
+  const std::string bytes = read_bytes(file);
+  check_size(bytes, name);
   const MatFile opened(Mat_Open(name.c_str(), MAT_ACC_RDONLY));
   if (!opened) throw UserError(name + ": cannot be read as a MATLAB file (version 4, 5 or 7.3)");
-  check_claims(opened.get(), name);
+  check_claims(opened.get(), bytes.size(), name);
   Mat_Rewind(opened.get());
   std::vector<NumericColumn> columns;
   while (const Variable variable{Mat_VarReadNext(opened.get())})
