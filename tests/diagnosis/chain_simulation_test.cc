@@ -90,6 +90,28 @@ TEST(SimulateChain, RelaxationOfTheJointMeetsItsClosedForm) {
   EXPECT_LT(relative_difference(simulate_mean(chain, record), expected), 1e-12);
 }
 
+TEST(SimulateChain, DragOfRelativeVelocityMeetsARungeKuttaIntegration) {
+  constexpr double share = 0.6, level = 4.;
+  constexpr unsigned seed = 11;
+  const std::vector<double> lines = test::odd_lines_hz(500. / 512., 4., 120.);
+  test::OneModeRig rig;
+  rig.own_motion = share;
+  rig.base_velocity = test::integral_of_sines(lines, level, seed);
+  const auto wind = [](double t) { return 2. + 0.5 * std::sin(2. * std::numbers::pi * 2.5 * t); };
+  signals::Dataset real;
+  real.records.push_back({"windy",
+                          rig.record(4096, 4.096, test::sines(lines, level, seed), wind, 1, true),
+                          {true, true}});
+  const Experiment experiment = prepare_experiment(test::nominal_of(test::OneModeRig{}, true), real,
+                                                   Split::fit, InputNoise::as_measured);
+  Chain chain{.structure = experiment.nominal};
+  find_effect("relative_drag").extend(chain, std::vector<double>{share, 1.}, experiment.scales);
+  const PreparedRecord& record = experiment.records.front();
+  const std::vector<Complex> linear = simulate_mean({.structure = experiment.nominal}, record),
+                             mean = simulate_mean(chain, record);
+  EXPECT_LT(relative_difference(difference(mean, linear), difference(record.moment, linear)), 0.02);
+}
+
 TEST(SimulateChain, CubicJointMeetsARungeKuttaIntegration) {
   test::OneModeRig rig;
   rig.cubic = 2e5;

@@ -15,8 +15,8 @@ namespace vibrissa::diagnosis::test {
 
 /// A whisker of one mode on a rig, integrated by classical Runge-Kutta at many steps a sample. It
 /// shares no code with the chain that is tested.
-///   x'' + c0 loss x' + k0 (stiffness x + cubic x^3) = -a + drag u |u|,   M = moment_mass (k x + c
-///   x')
+///   x'' + c0 loss x' + k0 (stiffness x + cubic x^3) = -a + drag w |w|,  M = moment_mass (k x + c
+///   x') w = u - own_motion (x' + base velocity)
 /// with the clock of the moment's channel behind by delay_s. Under the readout rotation
 /// moment_mass k0 x is read; a turned rig sees the cosine of what moves it. A second mode that the
 /// base moves adds extra_residue moment_mass y,  y'' + 2 0.02 w y' + w^2 y = w^2 a.
@@ -24,6 +24,7 @@ struct OneModeRig {
   double frequency_hz = 35., damping_ratio = 0.05;
   double moment_mass = 6e-5;  // kg m: M / a at rest is -this
   double drag = 0.8;          // (m/s^2) / (m/s)^2
+  double own_motion = 0.;     // share of its velocity that the air feels
   double stiffness = 1., loss = 1.;
   double cubic = 0.;    // 1/m^2
   double delay_s = 0.;  // whole steps of integration
@@ -36,6 +37,7 @@ struct OneModeRig {
   static constexpr std::size_t n_steps = 16;
 
   using Signal = std::function<double(double t_s)>;
+  Signal base_velocity = [](double) { return 0.; };  // where the air feels it
 
   /// Runge's and Kutta's, of x'' = slope(t, x, x').
   template <typename Slope>
@@ -56,7 +58,7 @@ struct OneModeRig {
     const double in_plane = std::cos(rotation_deg * std::numbers::pi / 180.);
     const auto elastic = [&](double x) { return k0 * (stiffness * x + cubic * x * x * x); };
     const auto slope = [&](double t, double x, double v) {
-      const double wind = u(t);
+      const double wind = u(t) - own_motion * (v + base_velocity(t));
       return -elastic(x) - c0 * v + in_plane * (drag * wind * std::abs(wind) - a(t));
     };
     const double w2 = 2. * std::numbers::pi * extra_hz;
@@ -100,18 +102,38 @@ inline double no_signal(double) {
   return 0.;
 }
 
+inline std::vector<double> random_phases(std::size_t n, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> phase(0., 2. * std::numbers::pi);
+  std::vector<double> phases(n);
+  for (double& value : phases) value = phase(random);
+  return phases;
+}
+
 /// Sum of sines of equal height and random phase. Peak about level sqrt(2 n).
 inline OneModeRig::Signal sines(const std::vector<double>& frequencies_hz, double level,
                                 unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> phase(0., 2. * std::numbers::pi);
-  std::vector<double> phases;
-  for (std::size_t i = 0; i < frequencies_hz.size(); ++i) phases.push_back(phase(random));
+  const std::vector<double> phases = random_phases(frequencies_hz.size(), seed);
   const double height = level * std::sqrt(2. / static_cast<double>(frequencies_hz.size()));
   return [=](double t) {
     double sum = 0.;
     for (std::size_t i = 0; i < phases.size(); ++i)
       sum += std::sin(2. * std::numbers::pi * frequencies_hz[i] * t + phases[i]);
+    return height * sum;
+  };
+}
+
+/// The integral of the same sum, without mean.
+inline OneModeRig::Signal integral_of_sines(const std::vector<double>& frequencies_hz, double level,
+                                            unsigned seed) {
+  const std::vector<double> phases = random_phases(frequencies_hz.size(), seed);
+  const double height = level * std::sqrt(2. / static_cast<double>(frequencies_hz.size()));
+  return [=](double t) {
+    double sum = 0.;
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+      const double w = 2. * std::numbers::pi * frequencies_hz[i];
+      sum -= std::cos(w * t + phases[i]) / w;
+    }
     return height * sum;
   };
 }
