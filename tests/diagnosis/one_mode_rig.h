@@ -102,40 +102,37 @@ inline double no_signal(double) {
   return 0.;
 }
 
-inline std::vector<double> random_phases(std::size_t n, unsigned seed) {
+/// Terms of equal height and random phase, each of its angular frequency and its angle.
+template <typename Term>
+OneModeRig::Signal sum_of_terms(const std::vector<double>& frequencies_hz, double level,
+                                unsigned seed, const Term& term) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> phase(0., 2. * std::numbers::pi);
-  std::vector<double> phases(n);
+  std::vector<double> phases(frequencies_hz.size());
   for (double& value : phases) value = phase(random);
-  return phases;
-}
-
-/// Sum of sines of equal height and random phase. Peak about level sqrt(2 n).
-inline OneModeRig::Signal sines(const std::vector<double>& frequencies_hz, double level,
-                                unsigned seed) {
-  const std::vector<double> phases = random_phases(frequencies_hz.size(), seed);
-  const double height = level * std::sqrt(2. / static_cast<double>(frequencies_hz.size()));
-  return [=](double t) {
-    double sum = 0.;
-    for (std::size_t i = 0; i < phases.size(); ++i)
-      sum += std::sin(2. * std::numbers::pi * frequencies_hz[i] * t + phases[i]);
-    return height * sum;
-  };
-}
-
-/// The integral of the same sum, without mean.
-inline OneModeRig::Signal integral_of_sines(const std::vector<double>& frequencies_hz, double level,
-                                            unsigned seed) {
-  const std::vector<double> phases = random_phases(frequencies_hz.size(), seed);
   const double height = level * std::sqrt(2. / static_cast<double>(frequencies_hz.size()));
   return [=](double t) {
     double sum = 0.;
     for (std::size_t i = 0; i < phases.size(); ++i) {
       const double w = 2. * std::numbers::pi * frequencies_hz[i];
-      sum -= std::cos(w * t + phases[i]) / w;
+      sum += term(w, w * t + phases[i]);
     }
     return height * sum;
   };
+}
+
+/// Sum of sines of equal height and random phase. Peak about level sqrt(2 n).
+inline OneModeRig::Signal sines(const std::vector<double>& frequencies_hz, double level,
+                                unsigned seed) {
+  return sum_of_terms(frequencies_hz, level, seed,
+                      [](double, double angle) { return std::sin(angle); });
+}
+
+/// The integral of the same sum, without mean.
+inline OneModeRig::Signal integral_of_sines(const std::vector<double>& frequencies_hz, double level,
+                                            unsigned seed) {
+  return sum_of_terms(frequencies_hz, level, seed,
+                      [](double w, double angle) { return -std::cos(angle) / w; });
 }
 
 /// Odd multiples of one line, every fourth of them left out.
