@@ -86,6 +86,22 @@ TEST(Hdf5, ThatClaimsMoreThanItHoldsIsRefusedBeforeMemoryIsAskedFor) {
   EXPECT_LT(peak_memory_mb() - before, 100.);
 }
 
+TEST(Hdf5, OfMonstrousNumbersIsRefusedBeforeMemoryIsAskedFor) {
+  const testing::TemporaryFolder folder;
+  const double before = peak_memory_mb();
+  const auto file = folder.path() / "a.h5";
+  const hid_t handle = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t type = H5Tcopy(H5T_IEEE_F64LE), space = H5Screate(H5S_SCALAR);
+  H5Tset_size(type, std::size_t{1} << 29);
+  H5Dclose(H5Dcreate2(handle, "moment", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  H5Sclose(space);
+  H5Tclose(type);
+  H5Fclose(handle);
+  EXPECT_THAT([&] { read_hdf5(file); },
+              ThrowsMessage<UserError>(HasSubstr("'moment' claims numbers of 536870912 bytes")));
+  EXPECT_LT(peak_memory_mb() - before, 100.);
+}
+
 TEST(Hdf5, ThatHoldsWhatItClaimsIsRead) {
   const testing::TemporaryFolder folder;
   write_hollow(folder.path() / "a.h5", 1000, 512, true);
