@@ -102,6 +102,30 @@ TEST(Hdf5, OfMonstrousNumbersIsRefusedBeforeMemoryIsAskedFor) {
   EXPECT_LT(peak_memory_mb() - before, 100.);
 }
 
+TEST(Hdf5, ThatIsShorterThanItsShapeIsRefused) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "a.h5";
+  const hid_t handle = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const hsize_t n = 1234567;
+  const hid_t space = H5Screate_simple(1, &n, nullptr);
+  const hid_t set =
+      H5Dcreate2(handle, "moment", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const std::vector<double> values(n, 1.);
+  H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  H5Dclose(set);
+  H5Sclose(space);
+  H5Fclose(handle);
+  std::string bytes = testing::content_of(file);
+  // Its length in the layout, 8 n, becomes 8.
+  const std::uint64_t length = 8 * n, damaged = 8;
+  const std::string there(reinterpret_cast<const char*>(&length), sizeof length);
+  const std::size_t at = bytes.find(there);
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, sizeof damaged, reinterpret_cast<const char*>(&damaged), sizeof damaged);
+  EXPECT_THAT([&] { read_hdf5(folder.file("b.h5", bytes)); },
+              ThrowsMessage<UserError>(HasSubstr("'moment' claims 1234567 numbers in 8 bytes")));
+}
+
 TEST(Hdf5, ThatHoldsWhatItClaimsIsRead) {
   const testing::TemporaryFolder folder;
   write_hollow(folder.path() / "a.h5", 1000, 512, true);
