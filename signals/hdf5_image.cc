@@ -194,7 +194,7 @@ namespace {
 void check_stored(const hid_t set, const std::size_t number_size, const std::size_t n,
                   const std::string& path) {
   constexpr std::size_t most_swollen = 1100, most_unwritten = 1u << 20, longest_number = 16;
-  if (number_size > longest_number)
+  if (number_size == 0 || number_size > longest_number)
     throw std::runtime_error("'" + path + "' claims numbers of " + std::to_string(number_size) +
                              " bytes");
   const std::size_t stored = H5Dget_storage_size(set);
