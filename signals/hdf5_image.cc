@@ -209,8 +209,11 @@ void check_stored(const hid_t set, const std::size_t number_size, const std::siz
         n_chunk = std::numeric_limits<std::size_t>::max();
     largest = std::max(largest, n_chunk);
   }
-  // The library reads beyond a set that is not as long as its shape.
-  const bool is_cut = H5Pget_layout(list) != H5D_CHUNKED && stored != 0 && stored / number_size < n;
+  // The library reads beyond a set that is not as long as its shape. Only a compact one, which lies
+  // in its own header, is there before anything is written.
+  const H5D_layout_t layout = H5Pget_layout(list);
+  const bool is_written = stored != 0 || layout == H5D_COMPACT;
+  const bool is_cut = layout != H5D_CHUNKED && is_written && stored / number_size < n;
   const bool is_hollow = largest > most_unwritten && largest / most_swollen > stored / number_size;
   if (is_cut || is_hollow)
     throw std::runtime_error("'" + path + "' claims " + std::to_string(largest) + " numbers in " +
