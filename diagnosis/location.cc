@@ -36,6 +36,7 @@ Location locate_gap(const Experiment& experiment) {
 
 std::vector<std::string> likely_links(const SearchResult& result) {
   constexpr double least = 0.1;
+  if (result.candidates.front().name == Hypothesis{}.name()) return {};
   std::map<std::string, double> sums;
   for (const Candidate& candidate : result.candidates) {
     std::map<std::string, bool> links;

@@ -38,7 +38,8 @@ struct Location {
 /// experiment: Split::fit, InputNoise::reduced. Proven by tests/diagnosis/location_test.cc.
 Location locate_gap(const Experiment& experiment);
 
-/// Links of the effects named by the candidates, by the sum of their probabilities; above 0.1.
+/// Links of the effects named by the candidates, by the sum of their probabilities; above 0.1. None
+/// where nothing is the likeliest.
 std::vector<std::string> likely_links(const SearchResult& result);
 
 /// One sentence in words.
