@@ -226,7 +226,7 @@ TEST(SimulateChain, WithoutItsMagnetTheSensorReadsTheCoilAlone) {
   for (const Complex& bin : simulate_mean(chain, record)) EXPECT_EQ(bin, Complex(0.));
   chain.feedthrough = {[](Complex) -> Complex { return 1e-5; }};
   chain.relative_wind.on = true;
-  find_effect("hardening").extend(chain, std::vector<double>{0.3, 1.}, experiment.scales);
+  find_effect("hardening").extend(chain, std::vector<double>{0.3}, experiment.scales);
   EXPECT_LT(relative_difference(simulate_mean(chain, record),
                                 filtered(record, [](Complex) -> Complex { return 1e-5; })),
             1e-12);
@@ -309,7 +309,7 @@ TEST(SimulateChain, RecordsSideBySideAreAsRecordsAlone) {
   Chain chain{.structure = experiment.nominal};
   for (const char* id : {"joint_friction", "softening_history", "temperature_drift"})
     find_effect(id).extend(chain, find_effect(id).starts.front(), experiment.scales);
-  find_effect("relative_drag").extend(chain, std::vector<double>{0.3}, experiment.scales);
+  find_effect("relative_drag").extend(chain, std::vector<double>{0.3, 1.}, experiment.scales);
   const std::vector<Prediction> together = ChainSimulator(chain).predict(experiment.records);
   for (std::size_t r = 0; r < experiment.records.size(); ++r) {
     if (experiment.records[r].is_still()) continue;
