@@ -293,7 +293,7 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
              d.acceleration * a_gradient;
   information = 2. * d.mean.transpose() * d.mean + d.variance.transpose() * d.variance +
                 a_lines * d.acceleration * d.acceleration.transpose();
-  remove_unknowns(at, s, d.mean, error, gradient, information);
+  remove_unknowns(at, s, d.mean, gradient, information);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Prior& prior = figures_[static_cast<std::size_t>(i)].description.prior;
     gradient(i) += prior.slope(x(i));
@@ -303,19 +303,18 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
 
 /// Takes what the unknown figures of each record explain out of gradient and information.
 void FitPosterior::remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
-                                   const Eigen::MatrixXd& mean_columns,
-                                   const Eigen::VectorXd& error, Eigen::VectorXd& gradient,
+                                   const Eigen::MatrixXd& mean_columns, Eigen::VectorXd& gradient,
                                    Eigen::MatrixXd& information) const {
   Eigen::Index first = 0;
   for (std::size_t r = 0; r < at.size(); ++r) {
     const auto n_rows = static_cast<Eigen::Index>(2 * s[r].size());
-    const Eigen::MatrixXd shapes = whitened_shapes(at[r].unknowns, s[r]);
-    if (shapes.cols() > 0) {
-      const Eigen::MatrixXd posterior = IntegratedUnknowns(at[r].unknowns, {}, s[r]).covariance();
+    const IntegratedUnknowns unknowns(at[r].unknowns,
+                                      difference(experiment_.records[r].moment, at[r].mean), s[r]);
+    if (unknowns.any()) {
       const Eigen::MatrixXd overlap =
-          2. * mean_columns.middleRows(first, n_rows).transpose() * shapes;
-      gradient -= overlap * posterior * (2. * shapes.transpose() * error.segment(first, n_rows));
-      information -= overlap * posterior * overlap.transpose();
+          2. * mean_columns.middleRows(first, n_rows).transpose() * unknowns.whitened_shapes();
+      gradient -= overlap * unknowns.mean();
+      information -= overlap * unknowns.covariance() * overlap.transpose();
     }
     first += n_rows;
   }

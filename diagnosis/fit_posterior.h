@@ -85,8 +85,8 @@ class FitPosterior {
   BinVariances variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                          double acceleration_variance) const;
   void remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
-                       const Eigen::MatrixXd& mean_columns, const Eigen::VectorXd& error,
-                       Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
+                       const Eigen::MatrixXd& mean_columns, Eigen::VectorXd& gradient,
+                       Eigen::MatrixXd& information) const;
   void add_form_error(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                       const Effect& effect);
   /// Figure of the discrepancy that a bin belongs to.

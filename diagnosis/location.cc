@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "diagnosis/calibration.h"
 #include "diagnosis/gap_by_level.h"
 #include "diagnosis/words.h"
 
@@ -36,7 +37,7 @@ Location locate_gap(const Experiment& experiment) {
 
 std::vector<std::string> likely_links(const SearchResult& result) {
   constexpr double least = 0.1;
-  if (result.candidates.front().name == Hypothesis{}.name()) return {};
+  if (answer_kind(result.candidates.front().name) == AnswerKind::none) return {};
   std::map<std::string, double> sums;
   for (const Candidate& candidate : result.candidates) {
     std::map<std::string, bool> links;

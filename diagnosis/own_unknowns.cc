@@ -1,6 +1,7 @@
 #include "diagnosis/own_unknowns.h"
 
 #include <Eigen/Cholesky>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -11,6 +12,19 @@ std::vector<const OwnUnknown*> those_there(const std::span<const OwnUnknown> unk
   std::vector<const OwnUnknown*> out;
   for (const OwnUnknown& unknown : unknowns)
     if (unknown.variance > 0.) out.push_back(&unknown);
+  return out;
+}
+
+/// Over the bins' deviations, real and imaginary parts in turn.
+Eigen::VectorXd whitened(const std::span<const Complex> values,
+                         const std::span<const double> variance) {
+  assert(values.size() == variance.size());
+  Eigen::VectorXd out(2 * static_cast<Eigen::Index>(values.size()));
+  for (std::size_t b = 0; b < values.size(); ++b) {
+    const Complex value = values[b] / std::sqrt(variance[b]);
+    out(2 * static_cast<Eigen::Index>(b)) = value.real();
+    out(2 * static_cast<Eigen::Index>(b) + 1) = value.imag();
+  }
   return out;
 }
 
@@ -27,43 +41,25 @@ OwnUnknown unknown_ramp(const double variance, const std::size_t n_samples,
   return out;
 }
 
-Eigen::MatrixXd whitened_shapes(const std::span<const OwnUnknown> unknowns,
-                                const std::span<const double> variance) {
-  const std::vector<const OwnUnknown*> there = those_there(unknowns);
-  Eigen::MatrixXd out(2 * static_cast<Eigen::Index>(variance.size()),
-                      static_cast<Eigen::Index>(there.size()));
-  for (Eigen::Index i = 0; i < out.cols(); ++i)
-    for (std::size_t b = 0; b < variance.size(); ++b) {
-      const Complex g = there[static_cast<std::size_t>(i)]->shape[b] / std::sqrt(variance[b]);
-      out(2 * static_cast<Eigen::Index>(b), i) = g.real();
-      out(2 * static_cast<Eigen::Index>(b) + 1, i) = g.imag();
-    }
-  return out;
-}
-
 IntegratedUnknowns::IntegratedUnknowns(const std::span<const OwnUnknown> unknowns,
                                        const std::span<const Complex> error,
                                        const std::span<const double> variance)
     : there_(those_there(unknowns)) {
   const auto n = static_cast<Eigen::Index>(there_.size());
   if (n == 0) return;
-  const Eigen::MatrixXd shapes = whitened_shapes(unknowns, variance);
-  Eigen::VectorXd whitened(shapes.rows());
-  for (std::size_t b = 0; b < error.size(); ++b) {
-    const Complex e = error[b] / std::sqrt(variance[b]);
-    whitened(2 * static_cast<Eigen::Index>(b)) = e.real();
-    whitened(2 * static_cast<Eigen::Index>(b) + 1) = e.imag();
-  }
+  shapes_.resize(2 * static_cast<Eigen::Index>(variance.size()), n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    shapes_.col(i) = whitened(there_[static_cast<std::size_t>(i)]->shape, variance);
   Eigen::VectorXd deviation(n);
   for (Eigen::Index i = 0; i < n; ++i)
     deviation(i) = std::sqrt(there_[static_cast<std::size_t>(i)]->variance);
   // In units of their deviations the figures are of any size.
-  const Eigen::MatrixXd scaled = shapes * deviation.asDiagonal();
+  const Eigen::MatrixXd scaled = shapes_ * deviation.asDiagonal();
   const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd::Identity(n, n) +
                                         2. * scaled.transpose() * scaled);
   covariance_ =
       deviation.asDiagonal() * llt.solve(Eigen::MatrixXd::Identity(n, n)) * deviation.asDiagonal();
-  score_ = 2. * shapes.transpose() * whitened;
+  score_ = 2. * shapes_.transpose() * whitened(error, variance);
   log_determinant_ = 2. * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
 }
 

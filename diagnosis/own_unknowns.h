@@ -29,6 +29,10 @@ class IntegratedUnknowns {
 
   /// Over that of the bins alone.
   double log_likelihood_gain() const;
+  bool any() const { return !there_.empty(); }
+  /// Shapes over the deviations of the bins, real and imaginary parts in turn: a column to each
+  /// figure of variance above 0.
+  const Eigen::MatrixXd& whitened_shapes() const { return shapes_; }
   /// Of the figures, given the errors.
   Eigen::VectorXd mean() const { return covariance_ * score_; }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
@@ -37,14 +41,9 @@ class IntegratedUnknowns {
 
  private:
   std::vector<const OwnUnknown*> there_;  // of variance above 0
-  Eigen::MatrixXd covariance_;
+  Eigen::MatrixXd shapes_, covariance_;
   Eigen::VectorXd score_;
   double log_determinant_ = 0.;  // of 1 + variance information
 };
-
-/// Shapes over the deviations of the bins, real and imaginary parts in turn: a column to each
-/// figure that IntegratedUnknowns holds.
-Eigen::MatrixXd whitened_shapes(std::span<const OwnUnknown> unknowns,
-                                std::span<const double> variance);
 
 }  // namespace vibrissa::diagnosis

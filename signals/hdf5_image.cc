@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "signals/file_bytes.h"
+
 namespace vibrissa::signals {
 
 namespace {
@@ -180,47 +182,52 @@ std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
   return found;
 }
 
-std::size_t Hdf5Reader::Array::size() const {
+namespace {
+
+/// Saturates.
+template <typename Number>
+std::size_t product(const std::span<const Number> lengths) {
   std::size_t n = 1;
-  for (const std::size_t length : shape)
+  for (const Number length : lengths)
     if (__builtin_mul_overflow(n, length, &n)) return std::numeric_limits<std::size_t>::max();
   return n;
 }
 
-namespace {
+/// Numbers in a chunk of a set whose creation this list tells.
+std::size_t chunk_size(const hid_t list) {
+  std::array<hsize_t, H5S_MAX_RANK> chunk{};
+  const int rank = H5Pget_chunk(list, static_cast<int>(chunk.size()), chunk.data());
+  return product(
+      std::span<const hsize_t>(chunk).first(static_cast<std::size_t>(std::max(rank, 0))));
+}
 
-/// Are there bytes for what a set, or one of its chunks, claims to hold? Packed ones swell a
-/// thousandfold at most; what was never written is a fill value, in moderation.
+/// Are there bytes for what a set of n numbers, or one of its chunks, claims to hold? What was
+/// never written is a fill value, in moderation.
 void check_stored(const hid_t set, const std::size_t number_size, const std::size_t n,
                   const std::string& path) {
-  constexpr std::size_t most_swollen = 1100, most_unwritten = 1u << 20, longest_number = 16;
+  constexpr std::size_t most_unwritten = 1u << 20, longest_number = 16;
   if (number_size == 0 || number_size > longest_number)
     throw std::runtime_error("'" + path + "' claims numbers of " + std::to_string(number_size) +
                              " bytes");
   const std::size_t stored = H5Dget_storage_size(set);
   const Handle list(H5Dget_create_plist(set), H5Pclose, "read the layout of '" + path + "'");
-  std::size_t largest = n;
-  if (H5Pget_layout(list) == H5D_CHUNKED) {
-    std::array<hsize_t, H5S_MAX_RANK> chunk{};
-    const int rank = H5Pget_chunk(list, static_cast<int>(chunk.size()), chunk.data());
-    std::size_t n_chunk = 1;
-    for (int i = 0; i < rank; ++i)
-      if (__builtin_mul_overflow(n_chunk, chunk[static_cast<std::size_t>(i)], &n_chunk))
-        n_chunk = std::numeric_limits<std::size_t>::max();
-    largest = std::max(largest, n_chunk);
-  }
+  const H5D_layout_t layout = H5Pget_layout(list);
+  const std::size_t claimed = layout == H5D_CHUNKED ? std::max(n, chunk_size(list)) : n;
   // The library reads beyond a set that is not as long as its shape. Only a compact one, which lies
   // in its own header, is there before anything is written.
-  const H5D_layout_t layout = H5Pget_layout(list);
   const bool is_written = stored != 0 || layout == H5D_COMPACT;
   const bool is_cut = layout != H5D_CHUNKED && is_written && stored / number_size < n;
-  const bool is_hollow = largest > most_unwritten && largest / most_swollen > stored / number_size;
+  const bool is_hollow = claimed > most_unwritten && claimed / most_swollen > stored / number_size;
   if (is_cut || is_hollow)
-    throw std::runtime_error("'" + path + "' claims " + std::to_string(largest) + " numbers in " +
+    throw std::runtime_error("'" + path + "' claims " + std::to_string(claimed) + " numbers in " +
                              std::to_string(stored) + " bytes");
 }
 
 }  // namespace
+
+std::size_t Hdf5Reader::Array::size() const {
+  return product(std::span<const std::size_t>(shape));
+}
 
 std::vector<Hdf5Reader::Array> Hdf5Reader::arrays() const {
   std::vector<std::string> paths;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "signals/error.h"
 #include "signals/file_bytes.h"
@@ -114,8 +115,7 @@ std::size_t claimed(const matvar_t& variable) {
 }
 
 void check_claims(mat_t* const file, const std::size_t n_bytes, const std::string& name) {
-  // Packed variables swell a thousandfold at most, and a number has a byte at least.
-  constexpr std::size_t most_swollen = 1100;
+  // A number has a byte at least.
   const std::size_t most = std::min(most_numbers, most_swollen * n_bytes);
   std::size_t left = most;
   while (const Variable variable{Mat_VarReadNextInfo(file)}) {
@@ -149,28 +149,34 @@ class ScratchFile {
   std::filesystem::path folder_;
 };
 
+constexpr std::size_t header_size = 128;
+
+struct MatHeader {
+  unsigned version = 0;  // 0x0100: 5, 0x0200: 7.3
+  std::endian order = std::endian::native;
+};
+
+// Version 4 has none.
+std::optional<MatHeader> header_of(const std::string& bytes) {
+  constexpr std::size_t version_at = 124, order_at = 126;
+  if (bytes.size() < header_size) return std::nullopt;
+  const std::string mark = bytes.substr(order_at, 2);
+  if (mark != "MI" && mark != "IM") return std::nullopt;
+  const std::endian order = mark == "MI" ? std::endian::big : std::endian::little;
+  return MatHeader{number_at<std::uint16_t>(&bytes[version_at], order), order};
+}
+
 // The elements of a version 5 file fill it to its last byte; matio takes what is left of one that
 // was cut, and does not notice a full disk.
 void check_is_whole(const std::string& bytes, const std::string& name) {
-  constexpr std::size_t header = 128, tag = 8, version_at = 124;
-  if (bytes.size() < header) return;
-  const std::string mark = bytes.substr(version_at, 4);
-  const bool is_big = mark == std::string("\1\0MI", 4);
-  if (!is_big && mark != std::string("\0\1IM", 4)) return;
-  const std::endian order = is_big ? std::endian::big : std::endian::little;
-  std::size_t at = header;
-  while (at + tag <= bytes.size()) at += tag + number_at<std::uint32_t>(&bytes[at + 4], order);
+  constexpr std::size_t tag = 8;
+  const auto header = header_of(bytes);
+  if (!header || header->version != 0x0100) return;
+  std::size_t at = header_size;
+  while (at + tag <= bytes.size())
+    at += tag + number_at<std::uint32_t>(&bytes[at + 4], header->order);
   if (at != bytes.size())
     throw UserError(name + ": is damaged: its variables do not end where the file does");
-}
-
-enum class MatKind { v4, v5, v73 };
-MatKind kind_of(const std::string& bytes) {
-  constexpr std::size_t header = 128, version_at = 124;
-  if (bytes.size() < header) return MatKind::v4;
-  const std::string version = bytes.substr(version_at, 2), order = bytes.substr(version_at + 2, 2);
-  if (order != "MI" && order != "IM") return MatKind::v4;
-  return version[order == "IM" ? 1 : 0] == 2 ? MatKind::v73 : MatKind::v5;
 }
 
 // matio asks for what the headers of a version 4 file claim before it sees that the file is
@@ -181,7 +187,7 @@ void check_version_4(const std::string& bytes, const std::string& name) {
   constexpr std::array<double, 6> widths{8., 4., 4., 2., 2., 1.};
   double at = 0.;  // sums of what is claimed do not overflow
   const double end = static_cast<double>(bytes.size());
-  const auto little = bytes.size() < header ||
+  const bool little = bytes.size() < header ||
                       number_at<std::uint32_t>(bytes.data(), std::endian::little) <= largest_type;
   const std::endian order = little ? std::endian::little : std::endian::big;
   while (at + header <= end) {
@@ -204,14 +210,10 @@ void check_version_73(const std::string& bytes, const std::string& name) {
 }
 
 void check_size(const std::string& bytes, const std::string& name) {
-  switch (kind_of(bytes)) {
-    case MatKind::v4:
-      return check_version_4(bytes, name);
-    case MatKind::v5:
-      return check_is_whole(bytes, name);
-    case MatKind::v73:
-      return check_version_73(bytes, name);
-  }
+  const auto header = header_of(bytes);
+  if (!header) return check_version_4(bytes, name);
+  if (header->version >> 8 == 2) return check_version_73(bytes, name);
+  check_is_whole(bytes, name);
 }
 
 void put(mat_t* const file, const std::string& name, const Variable& variable) {

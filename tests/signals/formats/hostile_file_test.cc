@@ -56,19 +56,26 @@ TEST(Version4Mat, ThatClaimsMoreThanItHoldsIsRefusedBeforeMemoryIsAskedFor) {
   EXPECT_LT(peak_memory_mb() - before, 100.);
 }
 
-/// A packed array of which no value was ever written, or of huge chunks of which one was.
-void write_hollow(const std::filesystem::path& file, hsize_t n, hsize_t n_chunk, bool begun) {
+/// One array of doubles; without values it claims to hold n and holds none.
+struct Set {
+  hsize_t n = 1;
+  hsize_t n_chunk = 0;  // 0: in one piece
+  hid_t type = H5T_NATIVE_DOUBLE;
+  bool is_written = false;
+};
+
+void write_set(const std::filesystem::path& file, const Set& set) {
   const hid_t handle = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   const hsize_t most = H5S_UNLIMITED;
-  const hid_t space = H5Screate_simple(1, &n, &most), list = H5Pcreate(H5P_DATASET_CREATE);
-  H5Pset_chunk(list, 1, &n_chunk);
-  const hid_t set =
-      H5Dcreate2(handle, "moment", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, list, H5P_DEFAULT);
-  if (begun) {
-    const std::vector<double> values(static_cast<std::size_t>(n), 1.);
-    H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  const hid_t space = H5Screate_simple(1, &set.n, set.n_chunk > 0 ? &most : nullptr);
+  const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+  if (set.n_chunk > 0) H5Pset_chunk(list, 1, &set.n_chunk);
+  const hid_t array = H5Dcreate2(handle, "moment", set.type, space, H5P_DEFAULT, list, H5P_DEFAULT);
+  if (set.is_written) {
+    const std::vector<double> values(static_cast<std::size_t>(set.n), 1.);
+    H5Dwrite(array, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
   }
-  H5Dclose(set);
+  H5Dclose(array);
   H5Pclose(list);
   H5Sclose(space);
   H5Fclose(handle);
@@ -77,9 +84,9 @@ void write_hollow(const std::filesystem::path& file, hsize_t n, hsize_t n_chunk,
 TEST(Hdf5, ThatClaimsMoreThanItHoldsIsRefusedBeforeMemoryIsAskedFor) {
   const testing::TemporaryFolder folder;
   const double before = peak_memory_mb();
-  for (const hsize_t n_chunk : {hsize_t{1} << 16, hsize_t{1} << 28}) {
-    const hsize_t n = n_chunk > hsize_t{1} << 20 ? 1000 : hsize_t{1} << 26;
-    write_hollow(folder.path() / "a.h5", n, n_chunk, false);
+  for (const Set& set : {Set{.n = hsize_t{1} << 26, .n_chunk = hsize_t{1} << 16},
+                         Set{.n = 1000, .n_chunk = hsize_t{1} << 28}}) {
+    write_set(folder.path() / "a.h5", set);
     EXPECT_THAT([&] { read_hdf5(folder.path() / "a.h5"); },
                 ThrowsMessage<UserError>(HasSubstr("'moment' claims")));
   }
@@ -90,13 +97,10 @@ TEST(Hdf5, OfMonstrousNumbersIsRefusedBeforeMemoryIsAskedFor) {
   const testing::TemporaryFolder folder;
   const double before = peak_memory_mb();
   const auto file = folder.path() / "a.h5";
-  const hid_t handle = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  const hid_t type = H5Tcopy(H5T_IEEE_F64LE), space = H5Screate(H5S_SCALAR);
+  const hid_t type = H5Tcopy(H5T_IEEE_F64LE);
   H5Tset_size(type, std::size_t{1} << 29);
-  H5Dclose(H5Dcreate2(handle, "moment", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  H5Sclose(space);
+  write_set(file, {.type = type});
   H5Tclose(type);
-  H5Fclose(handle);
   EXPECT_THAT([&] { read_hdf5(file); },
               ThrowsMessage<UserError>(HasSubstr("'moment' claims numbers of 536870912 bytes")));
   EXPECT_LT(peak_memory_mb() - before, 100.);
@@ -105,16 +109,8 @@ TEST(Hdf5, OfMonstrousNumbersIsRefusedBeforeMemoryIsAskedFor) {
 TEST(Hdf5, ThatIsShorterThanItsShapeIsRefused) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "a.h5";
-  const hid_t handle = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   const hsize_t n = 12345;
-  const hid_t space = H5Screate_simple(1, &n, nullptr);
-  const hid_t set =
-      H5Dcreate2(handle, "moment", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  const std::vector<double> values(n, 1.);
-  H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
-  H5Dclose(set);
-  H5Sclose(space);
-  H5Fclose(handle);
+  write_set(file, {.n = n, .is_written = true});
   std::string bytes = testing::content_of(file);
   // Its length in the layout, 8 n, becomes 8.
   const std::uint64_t length = 8 * n, damaged = 8;
@@ -128,7 +124,7 @@ TEST(Hdf5, ThatIsShorterThanItsShapeIsRefused) {
 
 TEST(Hdf5, ThatHoldsWhatItClaimsIsRead) {
   const testing::TemporaryFolder folder;
-  write_hollow(folder.path() / "a.h5", 1000, 512, true);
+  write_set(folder.path() / "a.h5", {.n = 1000, .n_chunk = 512, .is_written = true});
   EXPECT_EQ(read_hdf5(folder.path() / "a.h5")->columns().size(), 1u);
 }
 
