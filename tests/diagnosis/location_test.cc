@@ -145,5 +145,13 @@ TEST(Location, SumsProbabilitiesOfLinksOverCandidates) {
   EXPECT_THAT(likely_links(result), ElementsAre("structure", "clock"));
 }
 
+TEST(LikelyLinks, AreNoneWhereNothingIsTheLikeliest) {
+  SearchResult result;
+  result.candidates = {{.name = "none", .fit = 0, .retunes = {}, .probability = 0.5},
+                       {.name = "flow_lag", .fit = 0, .retunes = {}, .probability = 0.3},
+                       {.name = "turbulence", .fit = 0, .retunes = {}, .probability = 0.2}};
+  EXPECT_TRUE(likely_links(result).empty());
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis
