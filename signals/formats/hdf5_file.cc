@@ -7,6 +7,7 @@
 #include "signals/formats/matrix_columns.h"
 #include "signals/formats/record_columns.h"
 #include "signals/hdf5_image.h"
+#include "signals/rehearsal.h"
 
 namespace vibrissa::signals::formats {
 namespace {
@@ -33,8 +34,10 @@ std::vector<NumericColumn> all_columns(const Hdf5Reader& file, const std::string
 std::unique_ptr<RecordTable> read_hdf5(const std::filesystem::path& file) {
   const std::string name = file.string();
   const std::string image = read_bytes(file);
+  const auto read = [&] { return all_columns(Hdf5Reader(image), name); };
+  rehearse(name, read);
   try {
-    return std::make_unique<NumericTable>(name, all_columns(Hdf5Reader(image), name));
+    return std::make_unique<NumericTable>(name, read());
   } catch (const UserError&) {
     throw;
   } catch (const std::runtime_error& error) {

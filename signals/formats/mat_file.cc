@@ -15,6 +15,7 @@
 #include "signals/formats/number_bytes.h"
 #include "signals/formats/record_columns.h"
 #include "signals/hdf5_image.h"
+#include "signals/rehearsal.h"
 
 namespace vibrissa::signals::formats {
 namespace {
@@ -216,6 +217,19 @@ void check_size(const std::string& bytes, const std::string& name) {
   check_is_whole(bytes, name);
 }
 
+// The bytes are those of the file of that name.
+std::vector<NumericColumn> all_columns(const std::string& bytes, const std::string& name) {
+  check_size(bytes, name);
+  const MatFile opened(Mat_Open(name.c_str(), MAT_ACC_RDONLY));
+  if (!opened) throw UserError(name + ": cannot be read as a MATLAB file (version 4, 5 or 7.3)");
+  check_claims(opened.get(), bytes.size(), name);
+  Mat_Rewind(opened.get());
+  std::vector<NumericColumn> columns;
+  while (const Variable variable{Mat_VarReadNext(opened.get())})
+    if (variable->name != nullptr) add_columns(*variable, variable->name, columns);
+  return columns;
+}
+
 void put(mat_t* const file, const std::string& name, const Variable& variable) {
   if (!variable || Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE) != 0)
     throw UserError("'" + name + "' cannot be written as a MATLAB variable");
@@ -283,15 +297,9 @@ void write_aside(const std::filesystem::path& file, const bool is_v5,
 std::unique_ptr<RecordTable> read_mat(const std::filesystem::path& file) {
   const std::string name = file.string();
   const std::string bytes = read_bytes(file);
-  check_size(bytes, name);
-  const MatFile opened(Mat_Open(name.c_str(), MAT_ACC_RDONLY));
-  if (!opened) throw UserError(name + ": cannot be read as a MATLAB file (version 4, 5 or 7.3)");
-  check_claims(opened.get(), bytes.size(), name);
-  Mat_Rewind(opened.get());
-  std::vector<NumericColumn> columns;
-  while (const Variable variable{Mat_VarReadNext(opened.get())})
-    if (variable->name != nullptr) add_columns(*variable, variable->name, columns);
-  return std::make_unique<NumericTable>(name, std::move(columns));
+  const auto read = [&] { return all_columns(bytes, name); };
+  rehearse(name, read);
+  return std::make_unique<NumericTable>(name, read());
 }
 
 void write_mat(const std::filesystem::path& file, const Record& record, const MatVersion version) {

@@ -122,6 +122,22 @@ TEST(Hdf5, ThatIsShorterThanItsShapeIsRefused) {
               ThrowsMessage<UserError>(HasSubstr("'moment' claims 12345 numbers in 8 bytes")));
 }
 
+TEST(Hdf5, WhoseShapeIsSaidToLieInATableThatIsNotThereIsRefused) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "a.h5";
+  write_set(file, {.n = 8, .is_written = true});
+  std::string bytes = testing::content_of(file);
+  // A message of kind 1, the shape: kind, length and flags, then its body, which begins with a
+  // version.
+  const std::string shape("\x01\0\x18\0\0\0\0\0\x01\x01", 10);
+  const std::string shared("\x01\0\x18\0\x02\0\0\0\x03\x01", 10);
+  const std::size_t at = bytes.find(shape);
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, shared.size(), shared);
+  EXPECT_THAT([&] { read_hdf5(folder.file("b.h5", bytes)); },
+              ThrowsMessage<UserError>(HasSubstr("b.h5: is damaged: the library")));
+}
+
 TEST(Hdf5, ThatHoldsWhatItClaimsIsRead) {
   const testing::TemporaryFolder folder;
   write_set(folder.path() / "a.h5", {.n = 1000, .n_chunk = 512, .is_written = true});
