@@ -203,8 +203,8 @@ void count(TrialScore& out, const ScoredCase& c) {
   if (c.kind == "wrong_metadata") out.shares["wrong metadata, noticed"].add(c.right);
   if (in_catalogue) {
     out.shares["wrong name above 0.8"].add(!c.right && c.verdict != "none" && c.probability > sure);
-    out.shares["95 % set holds the truth"].add(c.in_confidence_set);
   }
+  if (in_catalogue || outside) out.shares["95 % set holds the truth"].add(c.in_confidence_set);
   if (named) out.shares["links right"].add(c.links_right);
   if (in_catalogue && c.resolved_as_recommended)
     out.shares["undecided, the recommended experiment resolves"].add(*c.resolved_as_recommended);

@@ -20,25 +20,26 @@ AnswerKind answer_kind(const std::string& answer) {
 Trust trust_in(const AnswerKind kind) {
   switch (kind) {
     case AnswerKind::none:
-      return {-1.08, 1.01};
+      return {-1.16, 1.03};
     case AnswerKind::single:
-      return {-0.88, 0.83};
+      return {-1.52, 1.07};
     case AnswerKind::several:
-      return {-0.92, 0.64};
+      return {-1.28, 0.64};
     case AnswerKind::outside:
       break;
   }
-  return {0.25, 0.24};
+  // Right 39 times of 45, whatever it said: by the rule of succession.
+  return {1.74, 0.};
 }
 
 double unknown_share(const AnswerKind kind) {
   switch (kind) {
     case AnswerKind::none:
-      return 0.15;
+      return 0.43;
     case AnswerKind::single:
-      return 0.44;
+      return 0.30;
     case AnswerKind::several:
-      return 0.33;
+      return 0.29;
     case AnswerKind::outside:
       break;
   }

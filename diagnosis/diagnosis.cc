@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/calibration.h"
+#include "diagnosis/confidence_set.h"
 #include "diagnosis/indistinguishable.h"
 #include "diagnosis/long_records.h"
 #include "diagnosis/material_estimates.h"
@@ -229,7 +230,8 @@ Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& record
   out.verdict = best.name;
   out.location.links = likely_links(result);
   rank(out, result, nominal, options);
-  out.confidence_set = confidence_set(result.candidates, 0.95);
+  out.confidence_set =
+      confidence_set(result.candidates, 0.95, out.probability_of_tried, out.probability_of_outside);
   if (has_moving(held_out)) {
     score_answers(out, result, experiment, held_out, options);
     out.ranking.front().shares = effect_shares(experiment, held_out, result, result.fits[best.fit]);

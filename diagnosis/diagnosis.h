@@ -66,7 +66,8 @@ struct Diagnosis {
   double probability_of_outside = 0.;
   /// The known answer that comes nearest, where the verdict is outside_catalogue.
   std::optional<RankedAnswer> nearest_known{};
-  /// Fewest answers that together have 95 %.
+  /// Fewest answers, that no known effect is there among them, that have 95 % of what all of them
+  /// have (confidence_set.h).
   std::vector<std::string> confidence_set{};
   std::vector<std::vector<std::string>> indistinguishable{};
   std::vector<UntestedEffect> untested{};

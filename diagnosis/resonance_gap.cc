@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/confidence_set.h"
 #include "diagnosis/hypothesis.h"
 #include "diagnosis/solution_line.h"
 #include "diagnosis/words.h"

@@ -507,16 +507,4 @@ SearchResult search(const Experiment& experiment, const SearchOptions& options) 
   return Searcher(experiment, options).run();
 }
 
-std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates,
-                                        const double level) {
-  std::vector<std::string> names;
-  double sum = 0.;
-  for (const Candidate& candidate : candidates) {
-    if (sum >= level) break;
-    names.push_back(candidate.name);
-    sum += candidate.probability;
-  }
-  return names;
-}
-
 }  // namespace vibrissa::diagnosis

@@ -41,7 +41,4 @@ SearchResult search(const Experiment& experiment, const SearchOptions& options =
 /// odds against it.
 void set_probabilities(SearchResult& result);
 
-/// Shortest list of candidates, most probable first, whose probabilities reach the level.
-std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates, double level);
-
 }  // namespace vibrissa::diagnosis

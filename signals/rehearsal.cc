@@ -17,18 +17,22 @@ namespace vibrissa::signals {
 namespace {
 
 /// Dies of a crash as if nobody had asked to be told, without a core file or a word.
-void make_mortal() {
-  for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(crash, SIG_DFL);
-  const rlimit none{0, 0};
-  setrlimit(RLIMIT_CORE, &none);
+void make_mortal(const std::size_t n_bytes) {
+  for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
+    std::signal(crash, SIG_DFL);
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  const rlim_t enough_s = 2 + n_bytes / 1'000'000;
+  const rlimit cpu_time{enough_s, enough_s};
+  setrlimit(RLIMIT_CPU, &cpu_time);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
 }
 
-[[noreturn]] void be_the_child(const std::function<void()>& reading) {
-  make_mortal();
+[[noreturn]] void be_the_child(const std::size_t n_bytes, const std::function<void()>& reading) {
+  make_mortal(n_bytes);
   try {
     reading();
   } catch (...) {
@@ -39,9 +43,10 @@ void make_mortal() {
 
 }  // namespace
 
-void rehearse(const std::string& file, const std::function<void()>& reading) {
+void rehearse(const std::string& file, const std::size_t n_bytes,
+              const std::function<void()>& reading) {
   const pid_t child = fork();
-  if (child == 0) be_the_child(reading);
+  if (child == 0) be_the_child(n_bytes, reading);
   if (child < 0)
     throw UserError(
         file + ": no process could be made to read it: " + std::generic_category().message(errno));

@@ -1,15 +1,17 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
 namespace vibrissa::signals {
 
-/// Does `reading` in a process of its own and forgets what it gives: a library that damaged bytes
-/// make crash takes that process with it, and not this one. What `reading` throws there is
-/// forgotten, too: it is thrown again when it is done in earnest.
-/// Throws UserError that names the file when that process was ended by a signal or could not be
-/// made. Proven by tests/signals/rehearsal_test.cc and tests/signals/formats/hostile_file_test.cc.
-void rehearse(const std::string& file, const std::function<void()>& reading);
+/// Does `reading` of a file of n_bytes in a process of its own and forgets what it gives: a library
+/// that damaged bytes make crash, or search for ever (2 s and a second for each megabyte are
+/// enough for whole ones), takes that process with it, and not this one. What `reading` throws
+/// there is forgotten, too: it is thrown again when it is done in earnest. Throws UserError that
+/// names the file when that process was ended by a signal or could not be made. Proven by
+/// tests/signals/rehearsal_test.cc and tests/signals/formats/hostile_file_test.cc.
+void rehearse(const std::string& file, std::size_t n_bytes, const std::function<void()>& reading);
 
 }  // namespace vibrissa::signals

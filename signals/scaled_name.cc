@@ -80,9 +80,16 @@ ScaledName parse_scaled_name(const std::string& text, const std::string& needed_
     found.scale *= factor.value;
     if (factor.unit) units.append(units.empty() ? "" : ".").append("(" + *factor.unit + ")");
   }
+  const auto check_scale = [&] {
+    if (!std::isfinite(found.scale) || found.scale == 0.)
+      throw UserError("the factors multiply to " + to_text(found.scale) +
+                      "; their product must be a finite number other than 0");
+  };
+  check_scale();
   if (units.empty()) return found;
   const UnitConversion conversion = convert_unit(units, needed_unit);
   found.scale *= conversion.scale;
+  check_scale();
   found.offset = conversion.offset;
   found.has_unit = true;
   return found;

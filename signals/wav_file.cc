@@ -10,6 +10,7 @@
 #include "signals/error.h"
 #include "signals/file_bytes.h"
 #include "signals/number_text.h"
+#include "signals/rehearsal.h"
 
 namespace vibrissa::signals {
 
@@ -136,6 +137,11 @@ std::size_t size_at(const std::string& bytes, std::size_t position) {
   return size;
 }
 
+SoundFile open_sound(MemoryFile& source, SF_INFO& info) {
+  SF_VIRTUAL_IO io = memory_io();
+  return SoundFile(sf_open_virtual(&io, SFM_READ, &info, &source));
+}
+
 // libsndfile 1.2 can search for ever behind a chunk that claims to be longer than its surroundings.
 // Only the samples may be cut short, as they are when a recorder loses power.
 void check_chunks(const std::string& bytes, std::size_t position, std::size_t end,
@@ -169,10 +175,15 @@ WavContent parse_wav(std::string bytes, const std::string& name) {
   if (bytes.size() < 12 || bytes.compare(0, 4, "RIFF") != 0 || bytes.compare(8, 4, "WAVE") != 0)
     throw UserError(name + ": is no WAV file (does not begin with RIFF .. WAVE)");
   check_chunks(bytes, 12, bytes.size(), name);
+  // And in lists of a kind that it does not know.
+  rehearse(name, bytes.size(), [&] {
+    MemoryFile source{bytes};
+    SF_INFO info{};
+    open_sound(source, info);
+  });
   MemoryFile source{std::move(bytes)};
-  SF_VIRTUAL_IO io = memory_io();
   SF_INFO info{};
-  const SoundFile sound(sf_open_virtual(&io, SFM_READ, &info, &source));
+  const SoundFile sound = open_sound(source, info);
   if (!sound) throw UserError(name + ": cannot be read as WAV: " + sf_strerror(nullptr));
   constexpr int most_channels = 64;
   if (info.channels < 1 || info.channels > most_channels || info.samplerate < 1)

@@ -35,7 +35,7 @@ std::unique_ptr<RecordTable> read_hdf5(const std::filesystem::path& file) {
   const std::string name = file.string();
   const std::string image = read_bytes(file);
   const auto read = [&] { return all_columns(Hdf5Reader(image), name); };
-  rehearse(name, read);
+  rehearse(name, image.size(), read);
   try {
     return std::make_unique<NumericTable>(name, read());
   } catch (const UserError&) {

@@ -298,7 +298,7 @@ std::unique_ptr<RecordTable> read_mat(const std::filesystem::path& file) {
   const std::string name = file.string();
   const std::string bytes = read_bytes(file);
   const auto read = [&] { return all_columns(bytes, name); };
-  rehearse(name, read);
+  rehearse(name, bytes.size(), read);
   return std::make_unique<NumericTable>(name, read());
 }
 

@@ -306,15 +306,6 @@ TEST(Diagnose, DiagnosesWindAlone) {
               Contains(testing::Field(&UntestedEffect::effect, "reference_gain")));
 }
 
-TEST(ConfidenceSet, IsTheShortestThatReachesTheLevel) {
-  const std::vector<Candidate> candidates{
-      {.name = "a", .fit = 0, .retunes = {}, .probability = 0.7},
-      {.name = "b", .fit = 0, .retunes = {}, .probability = 0.26},
-      {.name = "c", .fit = 0, .retunes = {}, .probability = 0.04}};
-  EXPECT_THAT(confidence_set(candidates, 0.95), testing::ElementsAre("a", "b"));
-  EXPECT_THAT(confidence_set(candidates, 0.5), testing::ElementsAre("a"));
-}
-
 /// Cases of a rig that shares nothing with this project, where they lie beside it.
 TEST(Practice, CasesAreDiagnosed) {
   namespace fs = std::filesystem;

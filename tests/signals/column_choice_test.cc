@@ -48,6 +48,15 @@ TEST(ParseColumnChoice, RefusesAScaleThatIsNoFiniteNumberOrZero) {
                                                HasSubstr("other than 0"))));
 }
 
+TEST(ParseColumnChoice, RefusesFactorsWhoseProductIsNoNumber) {
+  EXPECT_THAT([] { parse_column_choice("base_moment=M*1e200*1e200"); },
+              ThrowsMessage<UserError>(HasSubstr("the factors multiply to inf")));
+  EXPECT_THAT([] { parse_column_choice("base_moment=M*1e-200*1e-200"); },
+              ThrowsMessage<UserError>(HasSubstr("the factors multiply to 0")));
+  EXPECT_THAT([] { parse_column_choice("base_moment=M[GN.m]*1e300"); },
+              ThrowsMessage<UserError>(HasSubstr("the factors multiply to inf")));
+}
+
 TEST(ParseColumnChoice, RefusesTextThatIsNoChoice) {
   EXPECT_THAT([] { parse_column_choice("base_moment"); },
               ThrowsMessage<UserError>(HasSubstr("expected channel=column")));

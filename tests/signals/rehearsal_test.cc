@@ -17,15 +17,15 @@ using ::testing::ThrowsMessage;
 
 TEST(Rehearsal, OfACrashIsAnErrorThatNamesTheFile) {
   for (const int crash : {SIGSEGV, SIGABRT, SIGFPE})
-    EXPECT_THAT(([&] { rehearse("a.h5", [&] { std::raise(crash); }); }),
+    EXPECT_THAT(([&] { rehearse("a.h5", 0, [&] { std::raise(crash); }); }),
                 ThrowsMessage<UserError>(
                     AllOf(HasSubstr("a.h5: is damaged"), HasSubstr("breaks down on it"))));
 }
 
 TEST(Rehearsal, ForgetsWhatIsDoneAndThrown) {
   int n = 0;
-  rehearse("a.h5", [&] { ++n; });
-  rehearse("a.h5", [] { throw std::runtime_error("no such array"); });
+  rehearse("a.h5", 0, [&] { ++n; });
+  rehearse("a.h5", 0, [] { throw std::runtime_error("no such array"); });
   EXPECT_EQ(n, 0);
 }
 

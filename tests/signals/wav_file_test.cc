@@ -110,6 +110,19 @@ TEST(WavFile, RefusesASampleThatIsNotFiniteAndSurvivesAFileCutShort) {
   }
 }
 
+// libsndfile 1.2 goes round and round in it.
+TEST(WavFile, RefusesAListThatTheLibraryDoesNotGetOutOf) {
+  std::string bytes("RIFF\x84\0\0\0WAVELIST\x60\0\0\0\0%\xb6\0\xf8\xff\xff\xff", 28);
+  bytes.resize(64, '\0');
+  bytes += std::string("data\x90\0LIST`\0\0\0\0%\xb6", 17);
+  bytes.resize(94, '\0');
+  bytes += '\2';
+  bytes.resize(116, '\0');
+  bytes += std::string("data[\0\0\0", 8);
+  EXPECT_THAT([&] { parse_wav(bytes, "a.wav"); },
+              ThrowsMessage<UserError>(HasSubstr("a.wav: is damaged: the library")));
+}
+
 TEST(WavFile, RefusesAChunkThatIsLongerThanTheFile) {
   const TemporaryFolder folder;
   const std::vector<double> x{0., 1., -0.5};

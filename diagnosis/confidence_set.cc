@@ -1,0 +1,44 @@
+#include "diagnosis/confidence_set.h"
+
+#include <algorithm>
+
+#include "diagnosis/hypothesis.h"
+
+namespace vibrissa::diagnosis {
+
+std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates,
+                                        const double level) {
+  std::vector<std::string> names;
+  double sum = 0.;
+  for (const Candidate& candidate : candidates) {
+    if (sum >= level) break;
+    names.push_back(candidate.name);
+    sum += candidate.probability;
+  }
+  return names;
+}
+
+std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates,
+                                        const double level, const double probability_of_tried,
+                                        const double probability_of_outside) {
+  std::vector<Candidate> answers;
+  double total = probability_of_outside;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.name == outside_catalogue) continue;
+    answers.push_back(candidate);
+    answers.back().probability *= probability_of_tried;
+    total += answers.back().probability;
+  }
+  // The verdict stays in front.
+  const bool is_verdict = candidates.front().name == outside_catalogue;
+  const auto place = std::find_if(
+      answers.begin() + (is_verdict ? 0 : 1), answers.end(), [&](const Candidate& candidate) {
+        return is_verdict || candidate.probability < probability_of_outside;
+      });
+  answers.insert(
+      place,
+      {.name = outside_catalogue, .fit = 0, .retunes = {}, .probability = probability_of_outside});
+  return confidence_set(answers, level * total);
+}
+
+}  // namespace vibrissa::diagnosis
