@@ -22,8 +22,8 @@ void make_mortal(const std::size_t n_bytes) {
     std::signal(crash, SIG_DFL);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  const rlim_t enough_s = 2 + n_bytes / 1'000'000;
-  const rlimit cpu_time{enough_s, enough_s};
+  const rlim_t enough_s = 2 + n_bytes / 100'000;
+  const rlimit cpu_time{enough_s, enough_s + 1};  // at the latter nothing is told any more
   setrlimit(RLIMIT_CPU, &cpu_time);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
@@ -47,13 +47,16 @@ void rehearse(const std::string& file, const std::size_t n_bytes,
               const std::function<void()>& reading) {
   const pid_t child = fork();
   if (child == 0) be_the_child(n_bytes, reading);
-  if (child < 0)
+  if (child < 0) {
+    const int reason = errno;
     throw UserError(
-        file + ": no process could be made to read it: " + std::generic_category().message(errno));
+        file + ": no process could be made to read it: " + std::generic_category().message(reason));
+  }
   int status = 0;
   pid_t ended = 0;
-  do ended = waitpid(child, &status, 0);
-  while (ended < 0 && errno == EINTR);
+  do {
+    ended = waitpid(child, &status, 0);
+  } while (ended < 0 && errno == EINTR);
   // Where somebody else has waited for all children, or ignores them, nothing is known.
   if (ended != child || status == 0) return;
   const std::string end = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "an early exit";

@@ -7,7 +7,7 @@
 namespace vibrissa::signals {
 
 /// Does `reading` of a file of n_bytes in a process of its own and forgets what it gives: a library
-/// that damaged bytes make crash, or search for ever (2 s and a second for each megabyte are
+/// that damaged bytes make crash, or search for ever (2 s and a second for each 100 kB are
 /// enough for whole ones), takes that process with it, and not this one. What `reading` throws
 /// there is forgotten, too: it is thrown again when it is done in earnest. Throws UserError that
 /// names the file when that process was ended by a signal or could not be made. Proven by
