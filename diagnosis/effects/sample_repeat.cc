@@ -9,7 +9,7 @@ Effect sample_repeat() {
       .equation = "a_read(k T) = a(age + floor(k T / Ts) Ts): the source's own samples are taken",
       .source = "effects.md; an ADXL345 renews at 400 or 800 Hz",
       .confused_with = "reference_noise; equal neighbours",
-      .form_error = 0.05,
+      .form_error = 0.015,
       .needs = {.base = true, .repeats = true},
       .parameters = {uniform("share", "1", 0., 1., 0.), uniform("age", "s", -2e-3, 4e-3, 0.)},
       .starts = {{1., 0.}},
