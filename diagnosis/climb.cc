@@ -49,6 +49,8 @@ std::optional<Step> take_step(const FitPosterior& posterior, const std::vector<F
   for (int attempt = 0; attempt < n_attempts; ++attempt) {
     Eigen::VectorXd x =
         climb.x + damped_step(figures, climb.x, gradient, information, climb.damping);
+    // Next to figures under which the sensor runs away no step can be told.
+    if (!x.allFinite()) return std::nullopt;
     clamp(figures, x);
     std::vector<Prediction> there = posterior.predict(x);
     const double value = posterior.log_likelihood(x, there) + posterior.log_prior(x);
