@@ -30,11 +30,11 @@ std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates
     total += answers.back().probability;
   }
   // The verdict stays in front.
-  const bool is_verdict = candidates.front().name == outside_catalogue;
-  const auto place = std::find_if(
-      answers.begin() + (is_verdict ? 0 : 1), answers.end(), [&](const Candidate& candidate) {
-        return is_verdict || candidate.probability < probability_of_outside;
-      });
+  auto place = answers.begin();
+  if (candidates.front().name != outside_catalogue)
+    place = std::find_if(place + 1, answers.end(), [&](const Candidate& candidate) {
+      return candidate.probability < probability_of_outside;
+    });
   answers.insert(
       place,
       {.name = outside_catalogue, .fit = 0, .retunes = {}, .probability = probability_of_outside});

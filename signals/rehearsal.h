@@ -11,7 +11,8 @@ namespace vibrissa::signals {
 /// enough for whole ones), takes that process with it, and not this one. What `reading` throws
 /// there is forgotten, too: it is thrown again when it is done in earnest. Throws UserError that
 /// names the file when that process was ended by a signal or could not be made. Proven by
-/// tests/signals/rehearsal_test.cc and tests/signals/formats/hostile_file_test.cc.
+/// tests/signals/rehearsal_test.cc, formats/hostile_file_test.cc and, with a search for ever,
+/// wav_file_test.cc.
 void rehearse(const std::string& file, std::size_t n_bytes, const std::function<void()>& reading);
 
 }  // namespace vibrissa::signals

@@ -50,6 +50,10 @@ std::optional<Factor> factor_of(const std::string& text) {
   return Factor{*value, quantity.unit};
 }
 
+bool can_scale(const double factor) {
+  return std::isfinite(factor) && factor != 0.;
+}
+
 // Takes the factors off the end of the text, the last one first.
 std::vector<Factor> take_factors(std::string& text) {
   std::vector<Factor> factors;
@@ -58,7 +62,7 @@ std::vector<Factor> take_factors(std::string& text) {
     if (star == std::string::npos) return factors;
     const auto factor = factor_of(text.substr(star + 1));
     if (!factor && !factors.empty()) return factors;  // a star in the column's own name
-    if (!factor || !std::isfinite(factor->value) || factor->value == 0.)
+    if (!factor || !can_scale(factor->value))
       throw UserError("the scale '" +
                       std::string(trimmed(std::string_view(text).substr(star + 1))) +
                       "' must be a finite number other than 0");
@@ -80,18 +84,15 @@ ScaledName parse_scaled_name(const std::string& text, const std::string& needed_
     found.scale *= factor.value;
     if (factor.unit) units.append(units.empty() ? "" : ".").append("(" + *factor.unit + ")");
   }
-  const auto check_scale = [&] {
-    if (!std::isfinite(found.scale) || found.scale == 0.)
-      throw UserError("the factors multiply to " + to_text(found.scale) +
-                      "; their product must be a finite number other than 0");
-  };
-  check_scale();
-  if (units.empty()) return found;
-  const UnitConversion conversion = convert_unit(units, needed_unit);
-  found.scale *= conversion.scale;
-  check_scale();
-  found.offset = conversion.offset;
-  found.has_unit = true;
+  if (!units.empty()) {
+    const UnitConversion conversion = convert_unit(units, needed_unit);
+    found.scale *= conversion.scale;
+    found.offset = conversion.offset;
+    found.has_unit = true;
+  }
+  if (!can_scale(found.scale))
+    throw UserError("the factors multiply to " + to_text(found.scale) +
+                    "; their product must be a finite number other than 0");
   return found;
 }
 

@@ -175,7 +175,7 @@ WavContent parse_wav(std::string bytes, const std::string& name) {
   if (bytes.size() < 12 || bytes.compare(0, 4, "RIFF") != 0 || bytes.compare(8, 4, "WAVE") != 0)
     throw UserError(name + ": is no WAV file (does not begin with RIFF .. WAVE)");
   check_chunks(bytes, 12, bytes.size(), name);
-  // And in lists of a kind that it does not know.
+  // libsndfile 1.2 can search for ever in lists of a kind that it does not know, too.
   rehearse(name, bytes.size(), [&] {
     MemoryFile source{bytes};
     SF_INFO info{};
