@@ -36,7 +36,7 @@ struct Climb {
 
 /// Fisher scoring with damping (Levenberg and Marquardt) from where the climb stands. Derivatives,
 /// which cost a simulation for each figure, serve as long as they foretell the gains: n_iterations
-/// counts their renewals. Proven by tests/diagnosis/search_test.cc.
+/// counts their renewals. Proven by tests/diagnosis/climb_test.cc and search_test.cc.
 void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, Climb& climb,
               int n_iterations, const FitOptions& options);
 

@@ -1,6 +1,7 @@
 #include "diagnosis/fit_posterior.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -42,6 +43,7 @@ FitPosterior::FitPosterior(const Experiment& experiment, const std::vector<FreeF
       discrepancy_(hypothesis.is_discrepancy()) {}
 
 std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
+  assert(x.allFinite());
   const Chain chain = make_chain(experiment_, figures_, x);
   return ChainSimulator(chain).predict(experiment_.records);
 }
