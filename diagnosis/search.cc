@@ -445,9 +445,18 @@ class Searcher {
     return least;
   }
 
+  /// Does even a far better answer, of which this one is a part, leave too much?
+  bool is_part_of_too_little(std::size_t part) const {
+    for (std::size_t whole = 0; whole < fits_.size(); ++whole)
+      if (leaves_too_much(fits_[whole]) && holds(fits_[whole].hypothesis, part) &&
+          best_posterior(whole) - best_posterior(part) > far_nats)
+        return true;
+    return false;
+  }
+
   bool is_refuted(std::size_t i, double least) const {
     if (fits_[i].hypothesis.is_discrepancy()) return false;
-    return leaves_too_much(fits_[i]) || best_posterior(i) < least;
+    return leaves_too_much(fits_[i]) || best_posterior(i) < least || is_part_of_too_little(i);
   }
 
   std::vector<Candidate> candidates(const Kept kept) const {
