@@ -15,8 +15,8 @@ namespace vibrissa::diagnosis::test {
 
 /// A whisker of one mode on a rig, integrated by classical Runge-Kutta at many steps a sample. It
 /// shares no code with the chain that is tested.
-///   x'' + c0 loss x' + k0 (stiffness x + cubic x^3) = -a + drag w |w|,  M = moment_mass (k x + c
-///   x') w = u - own_motion (x' + base velocity)
+///   x'' + c0 loss x' + k0 ((stiffness + warming) x + cubic x^3) = -a + drag w |w|,
+///   M = moment_mass (k x + c x'), w = u - own_motion (x' + base velocity)
 /// with the clock of the moment's channel behind by delay_s. Under the readout rotation
 /// moment_mass k0 x is read; a turned rig sees the cosine of what moves it. A second mode that the
 /// base moves adds extra_residue moment_mass y,  y'' + 2 0.02 w y' + w^2 y = w^2 a.
@@ -38,6 +38,7 @@ struct OneModeRig {
 
   using Signal = std::function<double(double t_s)>;
   Signal base_velocity = [](double) { return 0.; };  // where the air feels it
+  Signal warming = [](double) { return 0.; };        // of the stiffness, in the course of a record
 
   /// Runge's and Kutta's, of x'' = slope(t, x, x').
   template <typename Slope>
@@ -56,17 +57,19 @@ struct OneModeRig {
                  c0 = 2. * damping_ratio * w * loss;
     const double dt = 1. / (rate_hz * n_steps);
     const double in_plane = std::cos(rotation_deg * std::numbers::pi / 180.);
-    const auto elastic = [&](double x) { return k0 * (stiffness * x + cubic * x * x * x); };
+    const auto elastic = [&](double t, double x) {
+      return k0 * ((stiffness + warming(t)) * x + cubic * x * x * x);
+    };
     const auto slope = [&](double t, double x, double v) {
       const double wind = u(t) - own_motion * (v + base_velocity(t));
-      return -elastic(x) - c0 * v + in_plane * (drag * wind * std::abs(wind) - a(t));
+      return -elastic(t, x) - c0 * v + in_plane * (drag * wind * std::abs(wind) - a(t));
     };
     const double w2 = 2. * std::numbers::pi * extra_hz;
     const auto extra_slope = [&](double t, double y, double v) {
       return w2 * (w2 * (a(t) - y) - 0.04 * v);
     };
-    const auto reading = [&](double x, double v) {
-      return readout == signals::Readout::rotation ? k0 * x : elastic(x) + c0 * v;
+    const auto reading = [&](double t, double x, double v) {
+      return readout == signals::Readout::rotation ? k0 * x : elastic(t, x) + c0 * v;
     };
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
@@ -78,7 +81,7 @@ struct OneModeRig {
     const double phase = 6.28 * std::uniform_real_distribution<double>()(random);
     for (long i = -warm; i < static_cast<long>(n * n_steps); ++i) {
       const double t = static_cast<double>(i) * dt;
-      moments.push_back(moment_mass * (reading(x, v) + extra_residue * y));
+      moments.push_back(moment_mass * (reading(t, x, v) + extra_residue * y));
       moments.pop_front();
       if (i >= 0 && i % static_cast<long>(n_steps) == 0) {
         const auto j = static_cast<std::size_t>(i) / n_steps;
