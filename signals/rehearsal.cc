@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +16,36 @@
 namespace vibrissa::signals {
 
 namespace {
+
+constexpr int swollen = 71;  // exit status
+
+std::size_t enough_mb(const std::size_t n_bytes) {
+  return 512 + n_bytes / 10'000;
+}
+
+long resident_kb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+volatile long most_resident_kb = 0;  // of the child
+
+void end_if_swollen(int) {
+  if (resident_kb() > most_resident_kb) _exit(swollen);
+}
+
+/// Looks at the memory that is held at every hundredth of a second of work. A limit of the system's
+/// would make the library fail in a way that it does not when it reads in earnest.
+void bound_memory(const std::size_t n_bytes) {
+  most_resident_kb = resident_kb() + static_cast<long>(1024 * enough_mb(n_bytes));
+  struct sigaction action {};
+  action.sa_handler = end_if_swollen;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGPROF, &action, nullptr);
+  const itimerval often{{0, 10'000}, {0, 10'000}};
+  setitimer(ITIMER_PROF, &often, nullptr);
+}
 
 /// Dies of a crash as if nobody had asked to be told, without a core file or a word.
 void make_mortal(const std::size_t n_bytes) {
@@ -33,10 +64,12 @@ void make_mortal(const std::size_t n_bytes) {
 
 [[noreturn]] void be_the_child(const std::size_t n_bytes, const std::function<void()>& reading) {
   make_mortal(n_bytes);
+  bound_memory(n_bytes);
   try {
     reading();
   } catch (...) {
   }
+  end_if_swollen(0);
   // Not exit: what this process inherited is not its to flush or to tidy away.
   _exit(0);
 }
@@ -59,6 +92,10 @@ void rehearse(const std::string& file, const std::size_t n_bytes,
   } while (ended < 0 && errno == EINTR);
   // Where somebody else has waited for all children, or ignores them, nothing is known.
   if (ended != child || status == 0) return;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == swollen)
+    throw UserError(file + ": is damaged: it takes more than " +
+                    std::to_string(enough_mb(n_bytes)) + " MB of memory to read its " +
+                    std::to_string(n_bytes) + " bytes; write it anew, or give its columns as CSV");
   const std::string end = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "an early exit";
   throw UserError(file + ": is damaged: the library that reads such files breaks down on it (" +
                   end + "); write it anew, or give its columns as CSV");

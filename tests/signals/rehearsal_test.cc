@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <stdexcept>
+#include <vector>
 
 #include "signals/error.h"
 
@@ -20,6 +21,20 @@ TEST(Rehearsal, OfACrashIsAnErrorThatNamesTheFile) {
     EXPECT_THAT(([&] { rehearse("a.h5", 0, [&] { std::raise(crash); }); }),
                 ThrowsMessage<UserError>(
                     AllOf(HasSubstr("a.h5: is damaged"), HasSubstr("breaks down on it"))));
+}
+
+/// Memory that is held, not only asked for.
+void hold(const std::size_t n_mb) {
+  std::vector<char> held;
+  for (std::size_t i = 0; i < n_mb; ++i) held.insert(held.end(), std::size_t{1} << 20, char(i));
+}
+
+TEST(Rehearsal, OfWhatHoldsFarMoreMemoryThanTheFileIsAnErrorThatSaysSo) {
+  EXPECT_THAT(([] { rehearse("a.h5", 4912, [] { hold(3000); }); }),
+              ThrowsMessage<UserError>(HasSubstr(
+                  "a.h5: is damaged: it takes more than 512 MB of memory to read its 4912 bytes")));
+  EXPECT_NO_THROW(rehearse("a.h5", 4912, [] { hold(100); }));
+  EXPECT_NO_THROW(rehearse("a.h5", 20'000'000, [] { hold(600); }));
 }
 
 TEST(Rehearsal, ForgetsWhatIsDoneAndThrown) {
