@@ -93,9 +93,9 @@ void rehearse(const std::string& file, const std::size_t n_bytes,
   // Where somebody else has waited for all children, or ignores them, nothing is known.
   if (ended != child || status == 0) return;
   if (WIFEXITED(status) && WEXITSTATUS(status) == swollen)
-    throw UserError(file + ": is damaged: it takes more than " +
-                    std::to_string(enough_mb(n_bytes)) + " MB of memory to read its " +
-                    std::to_string(n_bytes) + " bytes; write it anew, or give its columns as CSV");
+    throw UserError(file + ": takes more than " + std::to_string(enough_mb(n_bytes)) +
+                    " MB of memory to read its " + std::to_string(n_bytes) +
+                    " bytes, as damaged files do; write it anew, or give its columns as CSV");
   const std::string end = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "an early exit";
   throw UserError(file + ": is damaged: the library that reads such files breaks down on it (" +
                   end + "); write it anew, or give its columns as CSV");
