@@ -39,13 +39,17 @@ std::string entry_name(const std::string& assignment) {
 
 // deal.II's own names of what is declared: JSON with mangled keys would need undoing, the plain
 // listing does not.
-std::vector<std::string> known_names(const dealii::ParameterHandler& prm,
-                                     const std::vector<std::string>& sections,
-                                     const std::string& keyword) {
+std::string listing_of(const dealii::ParameterHandler& prm) {
   std::ostringstream text;
   prm.print_parameters(text, dealii::ParameterHandler::ShortText);
+  return text.str();
+}
+
+std::vector<std::string> known_names(const std::string& listing,
+                                     const std::vector<std::string>& sections,
+                                     const std::string& keyword) {
   std::vector<std::string> names, path;
-  std::istringstream in(text.str());
+  std::istringstream in(listing);
   for (std::string line; std::getline(in, line);) {
     if (const auto section = text_after(line, "subsection")) {
       if (keyword == "subsection" && path == sections) names.push_back(*section);
@@ -68,10 +72,11 @@ std::string join(const std::vector<std::string>& parts) {
 // Finds names that are not declared before deal.II does, whose message lists no known ones.
 void check_names(const std::filesystem::path& file, const std::vector<std::string>& lines,
                  const dealii::ParameterHandler& prm) {
+  const std::string listing = listing_of(prm);
   std::vector<std::string> sections;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const auto check = [&](const std::string& keyword, const std::string& name) {
-      const auto known = known_names(prm, sections, keyword);
+      const auto known = known_names(listing, sections, keyword);
       if (std::find(known.begin(), known.end(), name) != known.end()) return;
       const std::string kind = keyword == "set" ? "entry" : "subsection";
       const std::string where = sections.empty() ? "" : " in subsection '" + join(sections) + "'";
@@ -130,9 +135,10 @@ CaseFile::CaseFile(CaseFile&&) noexcept = default;
 
 void CaseFile::set(const std::string& section, const std::string& entry, const std::string& value,
                    const std::string& option) {
+  const std::string listing = listing_of(*prm_);
   std::vector<std::string> path;
   const auto check = [&](const std::string& keyword, const std::string& name) {
-    const auto known = known_names(*prm_, path, keyword);
+    const auto known = known_names(listing, path, keyword);
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     const std::string kind = keyword == "set" ? "entry" : "subsection";
     const std::string where = path.empty() ? "" : " in subsection '" + join(path) + "'";
