@@ -27,6 +27,9 @@ namespace vibrissa::fem {
 namespace {
 
 constexpr double as_alone = 1e-9;
+// The residual of a mode is below 1e-9 of its eigenvalue, and its shape as near as that over the
+// distance to the next eigenvalue. A frequency is stationary in the shape, a damping ratio is not.
+constexpr double shape_as_alone = 1e-7;
 
 double largest(const std::vector<double>& x) {
   double result = 0.;
@@ -109,8 +112,9 @@ TEST_P(Processes, FindTheModesOfEachAlone) {
   for (std::size_t k = 0; k < alone().modes().size(); ++k) {
     const Mode &mode = together().modes()[k], &expected = alone().modes()[k];
     EXPECT_NEAR(mode.frequency_hz / expected.frequency_hz, 1., as_alone) << k;
-    EXPECT_NEAR(together().damping_ratios()[k] / alone().damping_ratios()[k], 1., as_alone) << k;
-    EXPECT_NEAR(mode.shape.linfty_norm() / expected.shape.linfty_norm(), 1., 1e-7) << k;
+    EXPECT_NEAR(together().damping_ratios()[k] / alone().damping_ratios()[k], 1., shape_as_alone)
+        << k;
+    EXPECT_NEAR(mode.shape.linfty_norm() / expected.shape.linfty_norm(), 1., shape_as_alone) << k;
   }
 }
 
