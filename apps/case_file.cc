@@ -37,59 +37,67 @@ std::string entry_name(const std::string& assignment) {
   return trimmed(assignment.substr(0, assignment.find('=')));
 }
 
-// deal.II's own names of what is declared: JSON with mangled keys would need undoing, the plain
-// listing does not.
-std::string listing_of(const dealii::ParameterHandler& prm) {
-  std::ostringstream text;
-  prm.print_parameters(text, dealii::ParameterHandler::ShortText);
-  return text.str();
-}
-
-std::vector<std::string> known_names(const std::string& listing,
-                                     const std::vector<std::string>& sections,
-                                     const std::string& keyword) {
-  std::vector<std::string> names, path;
-  std::istringstream in(listing);
-  for (std::string line; std::getline(in, line);) {
-    if (const auto section = text_after(line, "subsection")) {
-      if (keyword == "subsection" && path == sections) names.push_back(*section);
-      path.push_back(*section);
-    } else if (trimmed(line) == "end") {
-      path.pop_back();
-    } else if (const auto entry = text_after(line, "set"); entry && keyword == "set") {
-      if (path == sections) names.push_back(entry_name(*entry));
-    }
-  }
-  return names;
-}
-
 std::string join(const std::vector<std::string>& parts) {
   std::string text;
   for (const auto& part : parts) text += (text.empty() ? "" : "/") + part;
   return text;
 }
 
+/// deal.II's own names of what is declared: JSON with mangled keys would need undoing, the plain
+/// listing does not.
+class DeclaredNames {
+ public:
+  explicit DeclaredNames(const dealii::ParameterHandler& prm) {
+    std::ostringstream text;
+    prm.print_parameters(text, dealii::ParameterHandler::ShortText);
+    listing_ = text.str();
+  }
+
+  /// keyword: set or subsection. Throws UserError, which begins with where the name was given.
+  void check(const std::string& given_at, const std::vector<std::string>& sections,
+             const std::string& keyword, const std::string& name) const {
+    const std::vector<std::string> known = of(sections, keyword);
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    const std::string kind = keyword == "set" ? "entry" : "subsection";
+    const std::string where = sections.empty() ? "" : " in subsection '" + join(sections) + "'";
+    throw UserError(given_at + ": " + signals::unknown_name(kind + where, name, known));
+  }
+
+ private:
+  std::vector<std::string> of(const std::vector<std::string>& sections,
+                              const std::string& keyword) const {
+    std::vector<std::string> names, path;
+    std::istringstream in(listing_);
+    for (std::string line; std::getline(in, line);) {
+      if (const auto section = text_after(line, "subsection")) {
+        if (keyword == "subsection" && path == sections) names.push_back(*section);
+        path.push_back(*section);
+      } else if (trimmed(line) == "end") {
+        path.pop_back();
+      } else if (const auto entry = text_after(line, "set"); entry && keyword == "set") {
+        if (path == sections) names.push_back(entry_name(*entry));
+      }
+    }
+    return names;
+  }
+
+  std::string listing_;
+};
+
 // Finds names that are not declared before deal.II does, whose message lists no known ones.
 void check_names(const std::filesystem::path& file, const std::vector<std::string>& lines,
                  const dealii::ParameterHandler& prm) {
-  const std::string listing = listing_of(prm);
+  const DeclaredNames declared(prm);
   std::vector<std::string> sections;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const auto check = [&](const std::string& keyword, const std::string& name) {
-      const auto known = known_names(listing, sections, keyword);
-      if (std::find(known.begin(), known.end(), name) != known.end()) return;
-      const std::string kind = keyword == "set" ? "entry" : "subsection";
-      const std::string where = sections.empty() ? "" : " in subsection '" + join(sections) + "'";
-      throw UserError(file.string() + ":" + std::to_string(i + 1) + ": " +
-                      signals::unknown_name(kind + where, name, known));
-    };
+    const std::string here = file.string() + ":" + std::to_string(i + 1);
     if (const auto section = text_after(lines[i], "subsection")) {
-      check("subsection", *section);
+      declared.check(here, sections, "subsection", *section);
       sections.push_back(*section);
     } else if (trimmed(lines[i]) == "end" && !sections.empty()) {
       sections.pop_back();
     } else if (const auto entry = text_after(lines[i], "set")) {
-      check("set", entry_name(*entry));
+      declared.check(here, sections, "set", entry_name(*entry));
     }
   }
 }
@@ -135,25 +143,19 @@ CaseFile::CaseFile(CaseFile&&) noexcept = default;
 
 void CaseFile::set(const std::string& section, const std::string& entry, const std::string& value,
                    const std::string& option) {
-  const std::string listing = listing_of(*prm_);
+  const DeclaredNames declared(*prm_);
+  const std::string given_at = "option " + option;
   std::vector<std::string> path;
-  const auto check = [&](const std::string& keyword, const std::string& name) {
-    const auto known = known_names(listing, path, keyword);
-    if (std::find(known.begin(), known.end(), name) != known.end()) return;
-    const std::string kind = keyword == "set" ? "entry" : "subsection";
-    const std::string where = path.empty() ? "" : " in subsection '" + join(path) + "'";
-    throw UserError("option " + option + ": " + signals::unknown_name(kind + where, name, known));
-  };
   for (const auto& name : dealii::Utilities::split_string_list(section, '/')) {
-    check("subsection", name);
+    declared.check(given_at, path, "subsection", name);
     path.push_back(name);
   }
-  check("set", entry);
+  declared.check(given_at, path, "set", entry);
   for (const auto& name : path) prm_->enter_subsection(name);
   try {
     prm_->set(entry, value);
   } catch (const dealii::ExceptionBase& error) {
-    throw UserError("option " + option + " (" + section + "/" + entry + "): " + plain_text(error));
+    throw UserError(given_at + " (" + section + "/" + entry + "): " + plain_text(error));
   }
   for (std::size_t i = 0; i < path.size(); ++i) prm_->leave_subsection();
 }

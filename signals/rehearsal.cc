@@ -23,7 +23,7 @@ std::size_t enough_mb(const std::size_t n_bytes) {
   return 512 + n_bytes / 10'000;
 }
 
-long resident_kb() {
+long peak_resident_kb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return usage.ru_maxrss;
@@ -32,13 +32,13 @@ long resident_kb() {
 volatile long most_resident_kb = 0;  // of the child
 
 void end_if_swollen(int) {
-  if (resident_kb() > most_resident_kb) _exit(swollen);
+  if (peak_resident_kb() > most_resident_kb) _exit(swollen);
 }
 
 /// Looks at the memory that is held at every hundredth of a second of work. A limit of the system's
 /// would make the library fail in a way that it does not when it reads in earnest.
 void bound_memory(const std::size_t n_bytes) {
-  most_resident_kb = resident_kb() + static_cast<long>(1024 * enough_mb(n_bytes));
+  most_resident_kb = peak_resident_kb() + static_cast<long>(1024 * enough_mb(n_bytes));
   struct sigaction action {};
   action.sa_handler = end_if_swollen;
   action.sa_flags = SA_RESTART;

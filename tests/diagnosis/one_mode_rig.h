@@ -146,6 +146,13 @@ inline std::vector<double> odd_lines_hz(double line_hz, double low_hz, double hi
   return out;
 }
 
+/// For records that do not repeat.
+inline std::vector<double> scattered_lines_hz() {
+  std::vector<double> out;
+  for (double f = 5.137; f < 110.; f += 3.3171) out.push_back(f);
+  return out;
+}
+
 struct RigDatasetOptions {
   bool wind = false;
   bool quiet = true;
@@ -184,11 +191,9 @@ inline signals::Dataset rig_dataset(const OneModeRig& rig, const RigDatasetOptio
     return [moving](double t) { return 2. + moving(t); };
   };
   if (options.wind) add("wind", {false, true}, 0, Split::fit, no_signal, gusts(seed + 3), 1500);
-  std::vector<double> others;
-  for (double f = 5.137; f < 110.; f += 3.3171) others.push_back(f);
   if (options.held_out)
     add("held_out", {true, options.wind}, 0, Split::held_out,
-        sines(others, 0.5 * (options.low_level + options.high_level), seed + 4),
+        sines(scattered_lines_hz(), 0.5 * (options.low_level + options.high_level), seed + 4),
         options.wind ? OneModeRig::Signal(gusts(seed + 5)) : no_signal, 2000);
   return out;
 }

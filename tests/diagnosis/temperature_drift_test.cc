@@ -21,8 +21,7 @@ constexpr std::size_t n_samples = 2048;
 signals::Dataset warming_up(double change, double settled_after, unsigned n_records) {
   test::OneModeRig rig = test::noisy_rig();
   const double duration_s = static_cast<double>(n_samples) / rig.rate_hz;
-  std::vector<double> lines;
-  for (double f = 5.137; f < 110.; f += 3.3171) lines.push_back(f);
+  const std::vector<double> lines = test::scattered_lines_hz();
   signals::Dataset out;
   for (unsigned number = 0; number < n_records; ++number) {
     rig.warming = [=](double t_s) {
