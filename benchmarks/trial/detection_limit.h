@@ -1,38 +1,30 @@
 #pragma once
 
-#include <complex>
 #include <optional>
 #include <vector>
 
-#include "benchmarks/trial/session.h"
+#include "benchmarks/trial/unexplained_change.h"
 #include "benchmarks/trial/unknowns.h"
 
 namespace vibrissa::trial {
 
-/// Solved structures are kept: few worlds differ in their solid.
-const Structure& structure_of(const SolidChange& change);
-
-/// The likelihood-ratio test that knows the form of what a world adds to the plain one: change of
-/// the moment that the measured base motion does not foretell, over the noise of both channels, in
-/// the fit takes. Noise is taken as white. The plain sensor is measured once.
+/// The likelihood-ratio test that knows the form of what a world adds to the plain one: its
+/// unexplained change over the noise of both channels, in the fit takes. Noise is taken as white.
 class LikelihoodRatio {
  public:
   LikelihoodRatio(const World& plain, const Session& session);
 
-  const World& plain() const { return plain_; }
+  const World& plain() const { return change_.plain(); }
   double noncentrality(const World& world, bool random) const;
 
  private:
-  struct Line {
-    std::complex<double> gain;  // moment per base acceleration
-    double noise;               // of both channels [(N m)^2 of an unscaled DFT]
-  };
-
-  World plain_;
-  Session bare_;  // fit takes, free of noise
-  signals::Dataset records_;
-  std::vector<std::vector<Line>> lines_;  // [record][bin]
+  UnexplainedChange change_;
+  std::vector<double> noise_;
 };
+
+/// Non-centrality of one parameter that is found in half of all cases at one false alarm in a
+/// hundred.
+inline constexpr double half_power_at_one_percent = 6.63;
 
 /// Size at which that test finds an unknown in half of all cases at one false alarm in a hundred
 /// (non-centrality 6.63 for one parameter), and that benches' own spread does not hide. Nothing

@@ -12,28 +12,12 @@
 namespace vibrissa::trial {
 namespace {
 
-constexpr double smallest_in_limits = 1., largest_in_limits = 30.;
-/// Benches differ: from a little better than the reference study's Hall element (5.43 uT at
-/// 0.18 N m/T) to twenty times its noise.
-constexpr double quietest_moment = 0.7e-6, loudest_in_quietest = 28.;
-
 using enum CaseClass;
 /// Twenty turns; single effects are what most people come with.
 constexpr std::array turns{single,   pair,     none,           single,   nameless,
                            single,   left_out, single,         pair,     single,
                            triple,   single,   retune_only,    single,   none,
                            left_out, single,   wrong_metadata, nameless, below_limit};
-
-World plain_world(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> uniform;
-  World world;
-  world.joint.scale = 9.4e-3;
-  world.moment_noise = quietest_moment * std::pow(loudest_in_quietest, uniform(random));
-  world.acceleration_noise =
-      quietest_accelerometer + (loudest_accelerometer - quietest_accelerometer) * uniform(random);
-  world.noise_colour = 0.15 * uniform(random);
-  return world;
-}
 
 /// Something else in the catalogue does the very same, or every hypothesis has it free: without its
 /// name it is not outside.
@@ -73,13 +57,24 @@ void take_as_built(World& world, std::mt19937_64& random) {
   const auto off = [&](double deviation) {
     return 1. + deviation * std::clamp(normal(random), -2., 2.);
   };
-  world.solid.silicone_modulus = off(0.02);
-  world.damping = off(0.08);
-  world.sensor_gain = off(0.015);
-  world.drag = off(0.05);
+  world.solid.silicone_modulus = off(built_modulus);
+  world.damping = off(built_damping);
+  world.sensor_gain = off(built_gain);
+  world.drag = off(built_drag);
 }
 
 }  // namespace
+
+World plain_world(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform;
+  World world;
+  world.joint.scale = usual_turn;
+  world.moment_noise = quietest_moment * std::pow(loudest_in_quietest, uniform(random));
+  world.acceleration_noise =
+      quietest_accelerometer + (loudest_accelerometer - quietest_accelerometer) * uniform(random);
+  world.noise_colour = 0.15 * uniform(random);
+  return world;
+}
 
 std::string to_string(const CaseClass kind) {
   switch (kind) {

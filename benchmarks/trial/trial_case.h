@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,9 @@ struct TrialCase {
   World world;
   Session session;
 };
+
+/// A sensor as simulated on a bench of its own: how noisy its channels are is by chance.
+World plain_world(std::mt19937_64& random);
 
 /// Case number of a trial's seed: its class by turns, all else by chance. Sizes are log-uniform
 /// from 1 to 30 detection limits, within the usual range. Proven by

@@ -8,6 +8,9 @@
 
 namespace vibrissa::trial {
 
+/// Sizes that are asked, in detection limits.
+inline constexpr double smallest_in_limits = 1., largest_in_limits = 30.;
+
 /// One thing that the bench may do and the simulation does not. size: how strong, in the unit said;
 /// shape in 0..1: whatever else may vary (a frequency, a share).
 struct Unknown {

@@ -9,6 +9,14 @@ namespace vibrissa::trial {
 /// Benches' accelerometers differ in their noise [m/s^2]. A diagnosis is not told which one there
 /// is.
 inline constexpr double quietest_accelerometer = 0.03, loudest_accelerometer = 0.06;
+/// Their moments, too [N m]: from a little better than the reference study's Hall element (5.43 uT
+/// at 0.18 N m/T) to twenty times its noise.
+inline constexpr double quietest_moment = 0.7e-6, loudest_in_quietest = 28.;
+/// Peak of the hinge's turn at the higher level [rad].
+inline constexpr double usual_turn = 9.4e-3;
+/// Deviations of every built sensor from its design.
+inline constexpr double built_modulus = 0.02, built_damping = 0.08, built_gain = 0.015,
+                        built_drag = 0.05;
 
 /// The hinge of the silicone beyond its linear spring. phi: turn of the hinge.
 struct JointWorld {

@@ -24,7 +24,7 @@ void fill_often() {
 }
 
 TEST(KeptMemory, BlocksOfARecordsLengthAreFoundAgainWithoutPageFaults) {
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the sanitizer brings an allocator of its own";
 #endif
   keep_freed_memory();

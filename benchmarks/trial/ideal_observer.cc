@@ -1,0 +1,394 @@
+#include "benchmarks/trial/ideal_observer.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+#include "benchmarks/trial/detection_limit.h"
+
+namespace vibrissa::trial {
+namespace {
+
+constexpr double widest_step = 2., held = 0.95;
+/// How often a trial asks for none, one, two and three effects.
+constexpr std::array asked{2. / 14., 9. / 14., 2. / 14., 1. / 14.};
+
+/// Records as a vector of independent normal numbers of unit variance: both parts of each line of
+/// what changes means, then the power of each line for what changes variances. Its square is the
+/// non-centrality of the test that knows the form.
+Eigen::VectorXd whitened(const std::vector<std::complex<float>>& change,
+                         const std::vector<double>& noise, const bool random) {
+  const auto n = static_cast<Eigen::Index>(change.size());
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(3 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::complex<double> x(change[static_cast<std::size_t>(i)]);
+    const double variance = noise[static_cast<std::size_t>(i)];
+    if (random) {
+      out[2 * n + i] = std::norm(x) / variance / std::numbers::sqrt2;
+    } else {
+      out[i] = std::numbers::sqrt2 * x.real() / std::sqrt(variance);
+      out[n + i] = std::numbers::sqrt2 * x.imag() / std::sqrt(variance);
+    }
+  }
+  return out;
+}
+
+/// Where on a ladder a size is, and the signature there.
+struct LadderOnBench {
+  const EffectLadder* ladder;
+  std::vector<Eigen::VectorXd> signatures;
+  double power() const { return ladder->unknown->random ? 2. : 1.; }
+
+  Eigen::VectorXd at(const double size) const {
+    const std::vector<double>& sizes = ladder->sizes;
+    if (sizes.size() == 1) return signatures.front();
+    const auto above = std::upper_bound(sizes.begin() + 1, sizes.end() - 1, size);
+    const auto i = static_cast<std::size_t>(above - sizes.begin()) - 1;
+    const double t = std::log(size / sizes[i]) / std::log(sizes[i + 1] / sizes[i]);
+    return (1. - t) * std::pow(size / sizes[i], power()) * signatures[i] +
+           t * std::pow(size / sizes[i + 1], power()) * signatures[i + 1];
+  }
+  /// Nothing: the largest stays below. Below the ladder a signature goes with its power.
+  std::optional<double> limit(const ObservedBench& bench) const {
+    if (signatures.back().squaredNorm() < half_power_at_one_percent) return std::nullopt;
+    double low = 1e-3 * ladder->sizes.front(), high = ladder->sizes.back();
+    while (high > low * (1. + 1e-6)) {
+      const double middle = std::sqrt(low * high);
+      (at(middle).squaredNorm() < half_power_at_one_percent ? low : high) = middle;
+    }
+    World plain;
+    plain.acceleration_noise = bench.acceleration_noise;
+    const auto& hidden = ladder->unknown->hidden_below;
+    return hidden ? std::max(high, hidden(plain)) : high;
+  }
+};
+
+LadderOnBench on_bench(const EffectLadder& ladder, const std::vector<double>& noise) {
+  LadderOnBench out{.ladder = &ladder, .signatures = {}};
+  for (const auto& change : ladder.changes)
+    out.signatures.push_back(whitened(change, noise, ladder.unknown->random));
+  return out;
+}
+
+/// ln of the integral over x in 0..1 of exp(slope (x - t) - curvature (x - t)^2 / 2), t the best x:
+/// the slope is none inside.
+double log_integral(const double t, const double slope, const double curvature) {
+  const double root = std::sqrt(0.5 * curvature);
+  // Far outside of 0..1 it falls like an exponential, of which erf keeps no digits.
+  if (const double beyond = std::abs(slope) / curvature * root; beyond > 3.)
+    return std::log(-std::expm1(-std::abs(slope)) / std::abs(slope));
+  const double centre = t + slope / curvature;
+  const double width = std::erf((1. - centre) * root) + std::erf(centre * root);
+  return 0.5 * slope * slope / curvature +
+         std::log(width * 0.5 * std::sqrt(2. * std::numbers::pi / curvature));
+}
+
+std::size_t number_of(const Unknown& unknown) {
+  return static_cast<std::size_t>(&unknown - named_unknowns().data());
+}
+
+/// Log of a sum of exponentials that comes term by term.
+class LogSum {
+ public:
+  void add(const double x) {
+    if (x <= largest_) {
+      if (x > largest_ - 40.) sum_ += std::exp(x - largest_);
+    } else {
+      sum_ = 1. + sum_ * std::exp(largest_ - x);
+      largest_ = x;
+    }
+  }
+  double value() const { return largest_ + std::log(sum_); }
+
+ private:
+  double largest_ = -std::numeric_limits<double>::infinity(), sum_ = 0.;
+};
+
+/// Posterior of all sets of up to three unknowns.
+class Sets {
+ public:
+  Sets(std::size_t n, const std::array<double, 4>& log_asked)
+      : n_(n + 1), log_asked_(log_asked), sums_(n_ * n_ * n_) {}
+  /// evidence: log, or no more than what is worth it, which it is told.
+  template <std::size_t n, class Evidence>
+  void add(std::array<std::size_t, n> unknowns, double log_prior, const Evidence& evidence) {
+    std::sort(unknowns.begin(), unknowns.end());
+    std::size_t place = 0;
+    for (const std::size_t unknown : unknowns) place = place * n_ + unknown + 1;
+    const double prior = log_asked_[n] + log_prior;
+    const double x = prior + evidence(largest_ - negligible - prior);
+    largest_ = std::max(largest_, x);
+    sums_[place].add(x);
+  }
+  /// Probability and set, the likeliest first.
+  std::vector<std::pair<double, std::vector<std::size_t>>> posterior() const;
+
+ private:
+  static constexpr double negligible = 30.;
+  std::size_t n_;
+  std::array<double, 4> log_asked_;
+  double largest_ = -std::numeric_limits<double>::infinity();
+  std::vector<LogSum> sums_;
+};
+
+std::vector<std::pair<double, std::vector<std::size_t>>> Sets::posterior() const {
+  LogSum all;
+  for (const LogSum& sum : sums_)
+    if (std::isfinite(sum.value())) all.add(sum.value());
+  std::vector<std::pair<double, std::vector<std::size_t>>> out;
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    if (!std::isfinite(sums_[i].value())) continue;
+    std::vector<std::size_t> unknowns;
+    for (std::size_t rest = i; rest > 0; rest /= n_)
+      unknowns.insert(unknowns.begin(), rest % n_ - 1);
+    out.emplace_back(std::exp(sums_[i].value() - all.value()), std::move(unknowns));
+  }
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  return out;
+}
+
+}  // namespace
+
+IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
+                             const std::vector<double>& noise, const ObservedBench& bench)
+    : bench_(bench) {
+  for (const EffectLadder& ladder : ladders) add_ladder(ladder, noise);
+  assert(!signatures_.empty() && "no ladder reaches its detection limit");
+  spread_priors();
+  const auto n = static_cast<Eigen::Index>(signatures_.size());
+  Eigen::MatrixXd all(signatures_.front().size(), n);
+  for (Eigen::Index i = 0; i < n; ++i) all.col(i) = signatures_[static_cast<std::size_t>(i)];
+  inner_.noalias() = all.transpose() * all;
+  if (bench.as_built) allow_for_building(ladders, noise);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(inner_);
+  noise_root_ = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.).cwiseSqrt().asDiagonal();
+  multiply_steps();
+}
+
+void IdealObserver::add_ladder(const EffectLadder& ladder, const std::vector<double>& noise) {
+  const LadderOnBench here = on_bench(ladder, noise);
+  const std::optional<double> limit = here.limit(bench_);
+  if (!limit) return;
+  const Unknown& unknown = *ladder.unknown;
+  const double largest = std::min(largest_in_limits, unknown.largest / *limit);
+  if (!unknown.fixed_size && largest <= 1.01 * smallest_in_limits) return;
+  const double range = std::log(largest / smallest_in_limits);
+  const auto n = unknown.fixed_size
+                     ? std::size_t{0}
+                     : static_cast<std::size_t>(std::ceil(range / std::log(widest_step)));
+  const std::size_t first = signatures_.size();
+  std::vector<double> in_limits{smallest_in_limits};
+  for (std::size_t i = 1; i <= n; ++i)
+    in_limits.push_back(smallest_in_limits *
+                        std::exp(range * static_cast<double>(i) / static_cast<double>(n)));
+  for (const double size : in_limits)
+    signatures_.push_back(here.at(unknown.fixed_size ? unknown.largest : size * *limit));
+  const bool either = unknown.either_sign && !unknown.random;
+  for (const double sign : either ? std::vector{1., -1.} : std::vector{1.}) {
+    paths_.push_back({number_of(unknown), steps_.size(), std::max<std::size_t>(n, 1)});
+    for (std::size_t i = 0; i < std::max<std::size_t>(n, 1); ++i) {
+      const std::size_t next = std::min(i + 1, n);
+      steps_.push_back({.unknown = number_of(unknown),
+                        .first = first + i,
+                        .second = first + next,
+                        .sign = sign,
+                        .low = in_limits[i],
+                        .high = in_limits[next]});
+    }
+  }
+}
+
+void IdealObserver::spread_priors() {
+  std::set<std::size_t> there;
+  for (const Path& path : paths_) there.insert(path.unknown);
+  there_.assign(there.begin(), there.end());
+  for (const Path& path : paths_) {
+    const auto n_paths = std::count_if(paths_.begin(), paths_.end(), [&](const Path& other) {
+      return other.unknown == path.unknown;
+    });
+    for (std::size_t i = 0; i < path.n_steps; ++i)
+      steps_[path.first_step + i].log_prior =
+          -std::log(static_cast<double>(n_paths) * static_cast<double>(path.n_steps));
+  }
+}
+
+/// What is off by a normal share widens the noise along its signature: inner products are those of
+/// (1 + N N^T)^-1.
+void IdealObserver::allow_for_building(const std::vector<EffectLadder>& ladders,
+                                       const std::vector<double>& noise) {
+  const std::array<std::pair<const char*, double>, 4> off{{{"stiffness", built_modulus},
+                                                           {"damping", built_damping},
+                                                           {"sensor_gain", built_gain},
+                                                           {"drag_error", built_drag}}};
+  const auto n = static_cast<Eigen::Index>(signatures_.size());
+  Eigen::MatrixXd spread(signatures_.front().size(), 4), across(n, 4);
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    const auto& [id, deviation] = off[static_cast<std::size_t>(i)];
+    const auto ladder = std::find_if(ladders.begin(), ladders.end(),
+                                     [&](const EffectLadder& l) { return l.unknown->id == id; });
+    // Small enough to be straight.
+    const double size = 0.2 * deviation;
+    spread.col(i) = on_bench(*ladder, noise).at(size) * (deviation / size);
+    for (Eigen::Index k = 0; k < n; ++k)
+      across(k, i) = signatures_[static_cast<std::size_t>(k)].dot(spread.col(i));
+  }
+  const Eigen::MatrixXd within = Eigen::MatrixXd::Identity(4, 4) + spread.transpose() * spread;
+  inner_ -= across * within.llt().solve(across.transpose());
+}
+
+void IdealObserver::multiply_steps() {
+  const auto n = static_cast<Eigen::Index>(steps_.size());
+  Eigen::MatrixXd start = Eigen::MatrixXd::Zero(inner_.rows(), n), edge = start;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Step& step = steps_[static_cast<std::size_t>(i)];
+    start(static_cast<Eigen::Index>(step.first), i) = step.sign;
+    edge(static_cast<Eigen::Index>(step.second), i) += step.sign;
+    edge(static_cast<Eigen::Index>(step.first), i) -= step.sign;
+  }
+  const Eigen::MatrixXd from_start = inner_ * start, from_edge = inner_ * edge;
+  starts_ = start.transpose() * from_start;
+  starts_edges_ = start.transpose() * from_edge;
+  edges_ = edge.transpose() * from_edge;
+}
+
+ObservedSensor IdealObserver::draw(const std::size_t n_effects, std::mt19937_64& random) const {
+  std::uniform_real_distribution<double> uniform;
+  std::normal_distribution<double> normal;
+  std::vector<std::size_t> unknowns = there_;
+  std::shuffle(unknowns.begin(), unknowns.end(), random);
+  unknowns.resize(n_effects);
+  std::sort(unknowns.begin(), unknowns.end());
+  ObservedSensor out{.unknowns = unknowns};
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(inner_.rows());
+  for (const std::size_t unknown : unknowns) {
+    std::vector<Path> paths;
+    std::copy_if(paths_.begin(), paths_.end(), std::back_inserter(paths),
+                 [&](const Path& path) { return path.unknown == unknown; });
+    const Path& path = paths[random() % paths.size()];
+    const Step& step = steps_[path.first_step + random() % path.n_steps];
+    const double t = uniform(random);
+    share[static_cast<Eigen::Index>(step.first)] += step.sign * (1. - t);
+    share[static_cast<Eigen::Index>(step.second)] += step.sign * t;
+    out.in_limits.push_back(step.low + t * (step.high - step.low));
+  }
+  const Eigen::VectorXd noise =
+      Eigen::VectorXd::NullaryExpr(inner_.rows(), [&] { return normal(random); });
+  out.seen = inner_ * share + noise_root_ * noise;
+  return out;
+}
+
+/// ln of the likelihood over that of none, integrated over the steps with a uniform prior.
+template <std::size_t n>
+double IdealObserver::log_evidence(const std::array<std::size_t, n>& steps,
+                                   const Eigen::VectorXd& along_start,
+                                   const Eigen::VectorXd& along_edge, const double worth_it) const {
+  constexpr int n_sweeps = n == 1 ? 1 : 8;
+  constexpr double flat = 1e-6;
+  const auto at = [&](std::size_t i) { return static_cast<Eigen::Index>(steps[i]); };
+  std::array<double, n> slope, t;
+  std::array<std::array<double, n>, n> curvature;
+  double out = 0.;
+  for (std::size_t i = 0; i < n; ++i) {
+    out += along_start[at(i)];
+    slope[i] = along_edge[at(i)];
+    t[i] = 0.5;
+    for (std::size_t k = 0; k < n; ++k) {
+      out -= 0.5 * starts_(at(i), at(k));
+      slope[i] -= starts_edges_(at(k), at(i));
+      curvature[i][k] = edges_(at(i), at(k));
+    }
+    curvature[i][i] = std::max(curvature[i][i], flat);
+  }
+  for (int sweep = 0; sweep < n_sweeps; ++sweep)
+    for (std::size_t i = 0; i < n; ++i) {
+      double rest = slope[i];
+      for (std::size_t k = 0; k < n; ++k) rest -= k == i ? 0. : curvature[i][k] * t[k];
+      t[i] = std::clamp(rest / curvature[i][i], 0., 1.);
+    }
+  for (std::size_t i = 0; i < n; ++i) {
+    out += slope[i] * t[i];
+    for (std::size_t k = 0; k < n; ++k) out -= 0.5 * t[i] * curvature[i][k] * t[k];
+  }
+  if (out < worth_it) return out;
+  // Step by step, the best seen first, each given those before it.
+  std::array<double, n> rest = slope;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k) rest[i] -= curvature[i][k] * t[k];
+  std::array<bool, n> is_done{};
+  for (std::size_t pass = 0; pass < n; ++pass) {
+    std::size_t i = n;
+    for (std::size_t k = 0; k < n; ++k)
+      if (!is_done[k] && (i == n || curvature[k][k] > curvature[i][i])) i = k;
+    is_done[i] = true;
+    const double pivot = std::max(curvature[i][i], flat);
+    out += log_integral(t[i], rest[i], pivot);
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t l = 0; l < n; ++l)
+        if (!is_done[k] && !is_done[l])
+          curvature[k][l] -= curvature[k][i] * curvature[i][l] / pivot;
+  }
+  return out;
+}
+
+ObserverAnswer IdealObserver::answer(const ObservedSensor& sensor) const {
+  const auto n = static_cast<Eigen::Index>(steps_.size());
+  Eigen::VectorXd along_start(n), along_edge(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Step& step = steps_[static_cast<std::size_t>(i)];
+    const double first = sensor.seen[static_cast<Eigen::Index>(step.first)];
+    along_start[i] = step.sign * first;
+    along_edge[i] = step.sign * (sensor.seen[static_cast<Eigen::Index>(step.second)] - first);
+  }
+  // Each set of as many unknowns is as likely as another.
+  const double m = static_cast<double>(there_.size());
+  Sets sets(named_unknowns().size(),
+            {std::log(asked[0]), std::log(asked[1] / m), std::log(asked[2] / (m * (m - 1.) / 2.)),
+             std::log(asked[3] / (m * (m - 1.) * (m - 2.) / 6.))});
+  const auto look_at = [&]<std::size_t n>(const std::array<std::size_t, n>& steps) {
+    std::array<std::size_t, n> unknowns{};
+    double prior = 0.;
+    for (std::size_t i = 0; i < n; ++i) {
+      unknowns[i] = steps_[steps[i]].unknown;
+      prior += steps_[steps[i]].log_prior;
+    }
+    sets.add(unknowns, prior, [&](double worth_it) {
+      return log_evidence(steps, along_start, along_edge, worth_it);
+    });
+  };
+  const auto differ = [&](std::size_t i, std::size_t k) {
+    return steps_[i].unknown != steps_[k].unknown;
+  };
+  look_at(std::array<std::size_t, 0>{});
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    look_at(std::array{i});
+    for (std::size_t j = i + 1; j < steps_.size(); ++j) {
+      if (!differ(i, j)) continue;
+      look_at(std::array{i, j});
+      for (std::size_t k = j + 1; k < steps_.size(); ++k)
+        if (differ(i, k) && differ(j, k)) look_at(std::array{i, j, k});
+    }
+  }
+  const auto posterior = sets.posterior();
+  ObserverAnswer out{.unknowns = posterior.front().second, .probability = posterior.front().first};
+  double sum = 0.;
+  for (std::size_t i = 0; i < posterior.size(); ++i) {
+    const bool is_truth = posterior[i].second == sensor.unknowns;
+    if (is_truth && i == 0) out.right = true;
+    if (is_truth && i < 3) out.among_three = true;
+    if (sum < held) {
+      ++out.set_size;
+      out.set_holds = out.set_holds || is_truth;
+    }
+    sum += posterior[i].first;
+  }
+  return out;
+}
+
+}  // namespace vibrissa::trial

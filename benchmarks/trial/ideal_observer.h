@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "benchmarks/trial/effect_ladder.h"
+
+namespace vibrissa::trial {
+
+struct ObservedBench {
+  double acceleration_noise = 0.;  // m/s^2
+  /// Every sensor is a little off in modulus, damping, gain and drag, and the observer allows for
+  /// it; else all that is not asked is as simulated, and the observer knows.
+  bool as_built = false;
+};
+
+/// A sensor as the observer sees it.
+struct ObservedSensor {
+  std::vector<std::size_t> unknowns{};  // of named_unknowns(), ascending
+  std::vector<double> in_limits{};      // size of each
+  Eigen::VectorXd seen{};               // inner products of the records with all signatures
+};
+
+struct ObserverAnswer {
+  std::vector<std::size_t> unknowns{};
+  double probability = 0.;
+  bool right = false, among_three = false;
+  std::size_t set_size = 0;  // answers that hold 95 %
+  bool set_holds = false;    // the truth is among them
+};
+
+/// Who knows the form of every effect, the noise of the bench, how often each answer is asked and
+/// how large it then is. By Bayes's rule over none, one, two and three effects: whoever knows less
+/// names fewer of them rightly. What the effects add to the records is taken to add up, their sizes
+/// between steps to go straight, the evidence of a step as that of a clipped normal distribution
+/// (Laplace). A change of a variance is seen as one of a mean, of the variance that it has without.
+/// Proven by tests/benchmarks/trial/ideal_observer_test.cc.
+class IdealObserver {
+ public:
+  /// noise: of each line of the ladders, UnexplainedChange::noise.
+  IdealObserver(const std::vector<EffectLadder>& ladders, const std::vector<double>& noise,
+                const ObservedBench& bench);
+
+  ObservedSensor draw(std::size_t n_effects, std::mt19937_64& random) const;
+  ObserverAnswer answer(const ObservedSensor& sensor) const;
+
+ private:
+  /// A step of a ladder, of one sign: start + t edge, t in 0..1.
+  struct Step {
+    std::size_t unknown = 0, first = 0, second = 0;  // signatures
+    double sign = 1., log_prior = 0.;
+    double low = 1., high = 1.;  // in limits
+  };
+  struct Path {
+    std::size_t unknown = 0, first_step = 0, n_steps = 0;
+  };
+
+  void add_ladder(const EffectLadder& ladder, const std::vector<double>& noise);
+  void spread_priors();
+  void allow_for_building(const std::vector<EffectLadder>& ladders,
+                          const std::vector<double>& noise);
+  void multiply_steps();
+  template <std::size_t n>
+  double log_evidence(const std::array<std::size_t, n>& steps, const Eigen::VectorXd& along_start,
+                      const Eigen::VectorXd& along_edge, double worth_it) const;
+
+  ObservedBench bench_;
+  std::vector<Eigen::VectorXd> signatures_;
+  std::vector<Step> steps_;
+  std::vector<Path> paths_;
+  std::vector<std::size_t> there_;  // unknowns that this bench can show
+  Eigen::MatrixXd inner_, noise_root_;
+  Eigen::MatrixXd starts_, starts_edges_, edges_;  // inner products of the steps' starts and edges
+};
+
+}  // namespace vibrissa::trial
