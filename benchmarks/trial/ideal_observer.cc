@@ -11,14 +11,16 @@
 #include <numeric>
 #include <set>
 
+#include "benchmarks/trial/box_integral.h"
 #include "benchmarks/trial/detection_limit.h"
 
 namespace vibrissa::trial {
 namespace {
 
+/// Probability and set, the likeliest first.
+using Posterior = IdealObserver::Posterior;
+
 constexpr double widest_step = 2., held = 0.95;
-/// How often a trial asks for none, one, two and three effects.
-constexpr std::array asked{2. / 14., 9. / 14., 2. / 14., 1. / 14.};
 
 /// Records as a vector of independent normal numbers of unit variance: both parts of each line of
 /// what changes means, then the power of each line for what changes variances. Its square is the
@@ -77,19 +79,6 @@ LadderOnBench on_bench(const EffectLadder& ladder, const std::vector<double>& no
   return out;
 }
 
-/// ln of the integral over x in 0..1 of exp(slope (x - t) - curvature (x - t)^2 / 2), t the best x:
-/// the slope is none inside.
-double log_integral(const double t, const double slope, const double curvature) {
-  const double root = std::sqrt(0.5 * curvature);
-  // Far outside of 0..1 it falls like an exponential, of which erf keeps no digits.
-  if (const double beyond = std::abs(slope) / curvature * root; beyond > 3.)
-    return std::log(-std::expm1(-std::abs(slope)) / std::abs(slope));
-  const double centre = t + slope / curvature;
-  const double width = std::erf((1. - centre) * root) + std::erf(centre * root);
-  return 0.5 * slope * slope / curvature +
-         std::log(width * 0.5 * std::sqrt(2. * std::numbers::pi / curvature));
-}
-
 std::size_t number_of(const Unknown& unknown) {
   return static_cast<std::size_t>(&unknown - named_unknowns().data());
 }
@@ -119,6 +108,7 @@ class Sets {
   /// evidence: log, or no more than what is worth it, which it is told.
   template <std::size_t n, class Evidence>
   void add(std::array<std::size_t, n> unknowns, double log_prior, const Evidence& evidence) {
+    if (!std::isfinite(log_asked_[n])) return;
     std::sort(unknowns.begin(), unknowns.end());
     std::size_t place = 0;
     for (const std::size_t unknown : unknowns) place = place * n_ + unknown + 1;
@@ -127,8 +117,7 @@ class Sets {
     largest_ = std::max(largest_, x);
     sums_[place].add(x);
   }
-  /// Probability and set, the likeliest first.
-  std::vector<std::pair<double, std::vector<std::size_t>>> posterior() const;
+  Posterior posterior() const;
 
  private:
   static constexpr double negligible = 30.;
@@ -138,11 +127,11 @@ class Sets {
   std::vector<LogSum> sums_;
 };
 
-std::vector<std::pair<double, std::vector<std::size_t>>> Sets::posterior() const {
+Posterior Sets::posterior() const {
   LogSum all;
   for (const LogSum& sum : sums_)
     if (std::isfinite(sum.value())) all.add(sum.value());
-  std::vector<std::pair<double, std::vector<std::size_t>>> out;
+  Posterior out;
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     if (!std::isfinite(sums_[i].value())) continue;
     std::vector<std::size_t> unknowns;
@@ -180,28 +169,25 @@ void IdealObserver::add_ladder(const EffectLadder& ladder, const std::vector<dou
   const double largest = std::min(largest_in_limits, unknown.largest / *limit);
   if (!unknown.fixed_size && largest <= 1.01 * smallest_in_limits) return;
   const double range = std::log(largest / smallest_in_limits);
-  const auto n = unknown.fixed_size
-                     ? std::size_t{0}
-                     : static_cast<std::size_t>(std::ceil(range / std::log(widest_step)));
+  const auto n =
+      static_cast<std::size_t>(unknown.fixed_size ? 1. : std::ceil(range / std::log(widest_step)));
   const std::size_t first = signatures_.size();
-  std::vector<double> in_limits{smallest_in_limits};
-  for (std::size_t i = 1; i <= n; ++i)
-    in_limits.push_back(smallest_in_limits *
-                        std::exp(range * static_cast<double>(i) / static_cast<double>(n)));
-  for (const double size : in_limits)
-    signatures_.push_back(here.at(unknown.fixed_size ? unknown.largest : size * *limit));
+  std::vector<double> in_limits;
+  for (std::size_t i = 0; i <= n; ++i) {
+    const double along = static_cast<double>(i) / static_cast<double>(n);
+    in_limits.push_back(unknown.fixed_size ? 1. : smallest_in_limits * std::exp(range * along));
+    signatures_.push_back(here.at(unknown.fixed_size ? unknown.largest : in_limits[i] * *limit));
+  }
   const bool either = unknown.either_sign && !unknown.random;
   for (const double sign : either ? std::vector{1., -1.} : std::vector{1.}) {
-    paths_.push_back({number_of(unknown), steps_.size(), std::max<std::size_t>(n, 1)});
-    for (std::size_t i = 0; i < std::max<std::size_t>(n, 1); ++i) {
-      const std::size_t next = std::min(i + 1, n);
+    paths_.push_back({number_of(unknown), steps_.size(), n});
+    for (std::size_t i = 0; i < n; ++i)
       steps_.push_back({.unknown = number_of(unknown),
                         .first = first + i,
-                        .second = first + next,
+                        .second = first + i + 1,
                         .sign = sign,
                         .low = in_limits[i],
-                        .high = in_limits[next]});
-    }
+                        .high = in_limits[i + 1]});
   }
 }
 
@@ -284,60 +270,26 @@ ObservedSensor IdealObserver::draw(const std::size_t n_effects, std::mt19937_64&
   return out;
 }
 
-/// ln of the likelihood over that of none, integrated over the steps with a uniform prior.
+/// ln of the likelihood over that of none: what is seen along each step less half of its square.
 template <std::size_t n>
-double IdealObserver::log_evidence(const std::array<std::size_t, n>& steps,
-                                   const Eigen::VectorXd& along_start,
-                                   const Eigen::VectorXd& along_edge, const double worth_it) const {
-  constexpr int n_sweeps = n == 1 ? 1 : 8;
-  constexpr double flat = 1e-6;
+BoxNormal<n> IdealObserver::likelihood(const std::array<std::size_t, n>& steps,
+                                       const Eigen::VectorXd& along_start,
+                                       const Eigen::VectorXd& along_edge) const {
   const auto at = [&](std::size_t i) { return static_cast<Eigen::Index>(steps[i]); };
-  std::array<double, n> slope, t;
-  std::array<std::array<double, n>, n> curvature;
-  double out = 0.;
+  BoxNormal<n> out;
   for (std::size_t i = 0; i < n; ++i) {
-    out += along_start[at(i)];
-    slope[i] = along_edge[at(i)];
-    t[i] = 0.5;
+    out.value += along_start[at(i)];
+    out.slope[i] = along_edge[at(i)];
     for (std::size_t k = 0; k < n; ++k) {
-      out -= 0.5 * starts_(at(i), at(k));
-      slope[i] -= starts_edges_(at(k), at(i));
-      curvature[i][k] = edges_(at(i), at(k));
+      out.value -= 0.5 * starts_(at(i), at(k));
+      out.slope[i] -= starts_edges_(at(k), at(i));
+      out.curvature[i][k] = edges_(at(i), at(k));
     }
-    curvature[i][i] = std::max(curvature[i][i], flat);
-  }
-  for (int sweep = 0; sweep < n_sweeps; ++sweep)
-    for (std::size_t i = 0; i < n; ++i) {
-      double rest = slope[i];
-      for (std::size_t k = 0; k < n; ++k) rest -= k == i ? 0. : curvature[i][k] * t[k];
-      t[i] = std::clamp(rest / curvature[i][i], 0., 1.);
-    }
-  for (std::size_t i = 0; i < n; ++i) {
-    out += slope[i] * t[i];
-    for (std::size_t k = 0; k < n; ++k) out -= 0.5 * t[i] * curvature[i][k] * t[k];
-  }
-  if (out < worth_it) return out;
-  // Step by step, the best seen first, each given those before it.
-  std::array<double, n> rest = slope;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k) rest[i] -= curvature[i][k] * t[k];
-  std::array<bool, n> is_done{};
-  for (std::size_t pass = 0; pass < n; ++pass) {
-    std::size_t i = n;
-    for (std::size_t k = 0; k < n; ++k)
-      if (!is_done[k] && (i == n || curvature[k][k] > curvature[i][i])) i = k;
-    is_done[i] = true;
-    const double pivot = std::max(curvature[i][i], flat);
-    out += log_integral(t[i], rest[i], pivot);
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t l = 0; l < n; ++l)
-        if (!is_done[k] && !is_done[l])
-          curvature[k][l] -= curvature[k][i] * curvature[i][l] / pivot;
   }
   return out;
 }
 
-ObserverAnswer IdealObserver::answer(const ObservedSensor& sensor) const {
+Posterior IdealObserver::posterior_of(const ObservedSensor& sensor) const {
   const auto n = static_cast<Eigen::Index>(steps_.size());
   Eigen::VectorXd along_start(n), along_edge(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -348,6 +300,7 @@ ObserverAnswer IdealObserver::answer(const ObservedSensor& sensor) const {
   }
   // Each set of as many unknowns is as likely as another.
   const double m = static_cast<double>(there_.size());
+  const auto& asked = bench_.asked;
   Sets sets(named_unknowns().size(),
             {std::log(asked[0]), std::log(asked[1] / m), std::log(asked[2] / (m * (m - 1.) / 2.)),
              std::log(asked[3] / (m * (m - 1.) * (m - 2.) / 6.))});
@@ -359,7 +312,7 @@ ObserverAnswer IdealObserver::answer(const ObservedSensor& sensor) const {
       prior += steps_[steps[i]].log_prior;
     }
     sets.add(unknowns, prior, [&](double worth_it) {
-      return log_evidence(steps, along_start, along_edge, worth_it);
+      return log_box_integral(likelihood(steps, along_start, along_edge), worth_it);
     });
   };
   const auto differ = [&](std::size_t i, std::size_t k) {
@@ -375,7 +328,11 @@ ObserverAnswer IdealObserver::answer(const ObservedSensor& sensor) const {
         if (differ(i, k) && differ(j, k)) look_at(std::array{i, j, k});
     }
   }
-  const auto posterior = sets.posterior();
+  return sets.posterior();
+}
+
+ObserverAnswer IdealObserver::answer(const ObservedSensor& sensor) const {
+  const Posterior posterior = posterior_of(sensor);
   ObserverAnswer out{.unknowns = posterior.front().second, .probability = posterior.front().first};
   double sum = 0.;
   for (std::size_t i = 0; i < posterior.size(); ++i) {

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include "benchmarks/trial/box_integral.h"
 #include "benchmarks/trial/effect_ladder.h"
 
 namespace vibrissa::trial {
@@ -15,6 +17,8 @@ struct ObservedBench {
   /// Every sensor is a little off in modulus, damping, gain and drag, and the observer allows for
   /// it; else all that is not asked is as simulated, and the observer knows.
   bool as_built = false;
+  /// How often none, one, two and three effects are asked, to each other, as the observer knows.
+  std::array<double, 4> asked{2., 9., 2., 1.};
 };
 
 /// A sensor as the observer sees it.
@@ -34,12 +38,14 @@ struct ObserverAnswer {
 
 /// Who knows the form of every effect, the noise of the bench, how often each answer is asked and
 /// how large it then is. By Bayes's rule over none, one, two and three effects: whoever knows less
-/// names fewer of them rightly. What the effects add to the records is taken to add up, their sizes
-/// between steps to go straight, the evidence of a step as that of a clipped normal distribution
-/// (Laplace). A change of a variance is seen as one of a mean, of the variance that it has without.
-/// Proven by tests/benchmarks/trial/ideal_observer_test.cc.
+/// names fewer of them rightly. What effects add to the records is taken to add up, and to go
+/// straight from step to step; a change of a variance is seen as one of a mean, of the variance
+/// that it has without. Proven by tests/benchmarks/trial/ideal_observer_test.cc.
 class IdealObserver {
  public:
+  /// Probability and set of unknowns, the likeliest first.
+  using Posterior = std::vector<std::pair<double, std::vector<std::size_t>>>;
+
   /// noise: of each line of the ladders, UnexplainedChange::noise.
   IdealObserver(const std::vector<EffectLadder>& ladders, const std::vector<double>& noise,
                 const ObservedBench& bench);
@@ -64,8 +70,10 @@ class IdealObserver {
                           const std::vector<double>& noise);
   void multiply_steps();
   template <std::size_t n>
-  double log_evidence(const std::array<std::size_t, n>& steps, const Eigen::VectorXd& along_start,
-                      const Eigen::VectorXd& along_edge, double worth_it) const;
+  BoxNormal<n> likelihood(const std::array<std::size_t, n>& steps,
+                          const Eigen::VectorXd& along_start,
+                          const Eigen::VectorXd& along_edge) const;
+  Posterior posterior_of(const ObservedSensor& sensor) const;
 
   ObservedBench bench_;
   std::vector<Eigen::VectorXd> signatures_;

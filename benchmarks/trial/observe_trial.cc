@@ -1,6 +1,6 @@
 // How often could anyone be right? The ideal observer asked about sensors like those of a trial.
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -45,10 +45,11 @@ struct Tally {
 
 using Tallies = std::map<std::string, Tally>;
 
-void ask(const IdealObserver& observer, std::mt19937_64& random, Tallies& tallies) {
+void ask(const IdealObserver& observer, const std::array<double, 4>& asked, std::mt19937_64& random,
+         Tallies& tallies) {
   const char* names[] = {"none", "single", "pair", "triple"};
   for (std::size_t n_effects = 0; n_effects < 4; ++n_effects)
-    for (std::size_t i = 0; i < sensors_of_a_bench[n_effects]; ++i) {
+    for (std::size_t i = 0; asked[n_effects] > 0. && i < sensors_of_a_bench[n_effects]; ++i) {
       const ObservedSensor sensor = observer.draw(n_effects, random);
       const ObserverAnswer answer = observer.answer(sensor);
       tallies[names[n_effects]].add(answer);
@@ -68,10 +69,13 @@ void print(const Tallies& tallies) {
                 tally.share(static_cast<double>(tally.set_size)));
 }
 
-void print_json(const Tallies& tallies, const std::uint64_t seed, const bool as_built) {
-  nlohmann::json out{
-      {"schema", "vibrissa-ideal-observer-1"}, {"seed", seed}, {"as_built", as_built}};
-  for (const auto& [name, tally] : tallies) out["asked"][name] = tally.to_json();
+void print_json(const Tallies& tallies, const std::uint64_t seed, const bool as_built,
+                const std::array<double, 4>& asked) {
+  nlohmann::json out{{"schema", "vibrissa-ideal-observer-1"},
+                     {"seed", seed},
+                     {"as_built", as_built},
+                     {"asked", asked}};
+  for (const auto& [name, tally] : tallies) out["answers"][name] = tally.to_json();
   std::cout << out.dump(1) << "\n";
 }
 
@@ -84,12 +88,17 @@ int main(int argc, char** argv) try {
   std::size_t n_benches = 25;
   std::uint64_t seed = 1;
   bool as_built = false, json = false;
+  std::array<double, 4> asked{2., 9., 2., 1.};
   app.add_option("--benches", n_benches, "How many, of 22 sensors each")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--seed", seed, "All sensors follow from it")->capture_default_str();
   app.add_flag("--as-built", as_built,
                "Every sensor is a little off in modulus, damping, gain and drag");
+  app.add_option("--asked", asked,
+                 "How often none, one, two and three effects are asked, to each other; 0: never")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_flag("--json", json, "Machine-readable result on standard output");
   CLI11_PARSE(app, argc, argv);
 
@@ -108,12 +117,13 @@ int main(int argc, char** argv) try {
   Tallies tallies;
   for (std::size_t i = 0; i < n_benches; ++i, progress.advance()) {
     const trial::World bench = trial::plain_world(random);
-    ask(IdealObserver(ladders, change.noise(bench.moment_noise, bench.acceleration_noise),
-                      {.acceleration_noise = bench.acceleration_noise, .as_built = as_built}),
-        random, tallies);
+    ask(IdealObserver(
+            ladders, change.noise(bench.moment_noise, bench.acceleration_noise),
+            {.acceleration_noise = bench.acceleration_noise, .as_built = as_built, .asked = asked}),
+        asked, random, tallies);
   }
   if (json)
-    print_json(tallies, seed, as_built);
+    print_json(tallies, seed, as_built, asked);
   else
     print(tallies);
   return 0;
