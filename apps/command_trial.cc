@@ -1,3 +1,4 @@
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -5,6 +6,7 @@
 #include "apps/command.h"
 #include "apps/trial_files.h"
 #include "apps/trial_page.h"
+#include "apps/trial_programs.h"
 #include "apps/trial_run.h"
 #include "apps/trial_score.h"
 #include "report/child_process.h"
@@ -25,6 +27,9 @@ struct TrialCommand {
   std::uint64_t seed = 1;
   TrialRunOptions run;
   std::optional<fs::path> key, out;
+  std::size_t n_benches = 25;
+  bool as_built = false;
+  std::array<double, 4> asked{2., 9., 2., 1.};
 };
 
 /// Sensors that the generator has begun, in the folder that it will rename when it is done.
@@ -36,11 +41,9 @@ std::size_t n_begun(const fs::path& folder) {
   return n;
 }
 
-/// The generator is a program of its own, beside this one: it shares no code with the diagnosis.
+/// The generator is a program of its own: it shares no code with the diagnosis.
 void make(const TrialCommand& options) {
-  const fs::path generator = fs::read_symlink("/proc/self/exe").parent_path() / "generate_trial";
-  if (!fs::exists(generator))
-    throw signals::UserError(generator.string() + " is missing: build the target generate_trial");
+  const fs::path generator = trial_program("generate_trial");
   constexpr double a_day_s = 86400.;
   signals::Progress progress("sensors", options.n_cases, options.common.is_talkative());
   std::size_t n_shown = 0;
@@ -101,6 +104,16 @@ void score(const TrialCommand& options) {
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
 
+void observe(const TrialCommand& options) {
+  std::vector<std::string> words{"--benches", std::to_string(options.n_benches), "--seed",
+                                 std::to_string(options.seed), "--asked"};
+  for (const double share : options.asked) words.push_back(std::to_string(share));
+  if (options.as_built) words.push_back("--as-built");
+  if (options.common.json) words.push_back("--json");
+  if (options.common.quiet) words.push_back("--quiet");
+  become_trial_program("observe_trial", words);
+}
+
 void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   auto* command = trial.add_subcommand("make", "Write records of sensors whose effect is sealed");
   command->add_option("--cases", options->n_cases, "How many")->check(CLI::PositiveNumber);
@@ -137,6 +150,25 @@ void add_score(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   command->callback([options] { score(*options); });
 }
 
+void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
+  auto* command = trial.add_subcommand(
+      "observe",
+      "How often could anyone be right? Asks who knows the form of every effect and the bench");
+  command->add_option("--benches", options->n_benches, "How many, of 22 sensors each")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "All sensors follow from it")->capture_default_str();
+  command->add_flag("--as-built", options->as_built,
+                    "Every sensor is a little off in modulus, damping, gain and drag");
+  command
+      ->add_option("--asked", options->asked,
+                   "How often none, one, two and three effects are asked, to each other; 0: never")
+      ->check(CLI::Range(0., 1e6))
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->callback([options] { observe(*options); });
+}
+
 }  // namespace
 
 void add_trial_command(CLI::App& app) {
@@ -147,9 +179,11 @@ void add_trial_command(CLI::App& app) {
   add_make(*command, options);
   add_run(*command, options);
   add_score(*command, options);
+  add_observe(*command, options);
   command->footer(
       "Example:\n  vibrissa trial make --cases 40 --seed 5 --out trial5\n"
-      "  mpirun -np 2 vibrissa trial run trial5 --threads 1\n  vibrissa trial score trial5");
+      "  mpirun -np 2 vibrissa trial run trial5 --threads 1\n  vibrissa trial score trial5\n"
+      "  vibrissa trial observe --as-built");
 }
 
 }  // namespace vibrissa::apps

@@ -29,6 +29,8 @@ install(FILES ${PROJECT_BINARY_DIR}/vibrissaConfig.cmake
 
 if(VIBRISSA_SOLID)
   install(TARGETS vibrissa COMPONENT program DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS generate_trial observe_trial COMPONENT program
+          DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/vibrissa)
   install(TARGETS python_core python_solid COMPONENT program
           DESTINATION lib/python3/dist-packages/vibrissa)
   install(FILES ${PROJECT_SOURCE_DIR}/python/vibrissa/__init__.py

@@ -87,7 +87,7 @@ int main(int argc, char** argv) try {
       "noise of the bench and how often what is asked, about sensors like those of a blind trial.");
   std::size_t n_benches = 25;
   std::uint64_t seed = 1;
-  bool as_built = false, json = false;
+  bool as_built = false, json = false, quiet = false;
   std::array<double, 4> asked{2., 9., 2., 1.};
   app.add_option("--benches", n_benches, "How many, of 22 sensors each")
       ->check(CLI::PositiveNumber)
@@ -97,9 +97,10 @@ int main(int argc, char** argv) try {
                "Every sensor is a little off in modulus, damping, gain and drag");
   app.add_option("--asked", asked,
                  "How often none, one, two and three effects are asked, to each other; 0: never")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0., 1e6))
       ->capture_default_str();
   app.add_flag("--json", json, "Machine-readable result on standard output");
+  app.add_flag("-q,--quiet", quiet, "No progress bar");
   CLI11_PARSE(app, argc, argv);
 
   signals::keep_freed_memory();
@@ -109,10 +110,10 @@ int main(int argc, char** argv) try {
   const trial::UnexplainedChange change(plain, {.takes = trial::usual_takes(), .seed = seed});
   std::vector<trial::EffectLadder> ladders;
   {
-    signals::Progress progress("effects", trial::named_unknowns().size(), !json);
+    signals::Progress progress("effects", trial::named_unknowns().size(), !json && !quiet);
     ladders = trial::climb_ladders(change, [&] { progress.advance(); });
   }
-  signals::Progress progress("benches", n_benches, !json);
+  signals::Progress progress("benches", n_benches, !json && !quiet);
   std::mt19937_64 random(seed);
   Tallies tallies;
   for (std::size_t i = 0; i < n_benches; ++i, progress.advance()) {
