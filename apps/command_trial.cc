@@ -70,6 +70,7 @@ void run(const TrialCommand& options) {
   TrialRunOptions settings = options.run;
   settings.show_progress = options.common.is_talkative();
   const TrialRunSummary done = run_trial(options.folder, settings);
+  if (!done.is_first_rank) return;
   if (options.common.json)
     return print_json({{"answered", done.answered},
                        {"refused", done.refused},

@@ -47,4 +47,10 @@ void TrialQueue::barrier() const {
   MPI_Barrier(MPI_COMM_WORLD);
 }
 
+std::vector<unsigned long> TrialQueue::total(std::vector<unsigned long> numbers) const {
+  MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_UNSIGNED_LONG,
+                MPI_SUM, MPI_COMM_WORLD);
+  return numbers;
+}
+
 }  // namespace vibrissa::apps

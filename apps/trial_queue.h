@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace vibrissa::apps {
 
@@ -20,6 +21,8 @@ class TrialQueue {
   int n_ranks() const;
   /// Waits for all ranks.
   void barrier() const;
+  /// Sum of each number over all ranks, on every one of them.
+  std::vector<unsigned long> total(std::vector<unsigned long> numbers) const;
 
  private:
   struct Counter;

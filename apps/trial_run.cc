@@ -1,7 +1,10 @@
 #include "apps/trial_run.h"
 
+#include <random>
+
 #include "apps/trial_files.h"
 #include "apps/trial_queue.h"
+#include "diagnosis/confidence_set.h"
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/nominal_identification.h"
 #include "fem/solver_session.h"
@@ -32,13 +35,13 @@ json answer_after(const std::string& experiment, const fs::path& folder, signals
           {"confidence_set", said.confidence_set}};
 }
 
-/// Another one than the recommended, as the name of the case has it.
+/// Another one than the recommended; the same for the same name, on all machines.
 std::string by_chance(std::vector<std::string> experiments, const std::string& recommended,
                       const std::string& name) {
   std::erase(experiments, recommended);
-  std::uint64_t hash = 1469598103934665603u;  // FNV-1a: alike on all machines
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return experiments.empty() ? "" : experiments[(hash >> 32) % experiments.size()];
+  std::seed_seq seed(name.begin(), name.end());
+  std::mt19937 random(seed);
+  return experiments.empty() ? "" : experiments[random() % experiments.size()];
 }
 
 /// After the recommended experiment and after another one; why not, where that fails: the first
@@ -79,7 +82,7 @@ json answer(const TrialIndex& trial, const TrialEntry& entry,
     out["diagnosis"] = json::parse(diagnosis::diagnosis_json(said));
     out["exit_status"] = 0;
     out["seconds"] = watch.elapsed_s();
-    if (options.further && said.confidence_set.size() > 1 && said.next.name != "none")
+    if (options.further && diagnosis::n_known(said.confidence_set) > 1 && said.next.name != "none")
       out.update(answers_after(trial, entry, real, nominal, settings, said.next.name));
   } catch (const diagnosis::TooPoorData& error) {
     return failed(too_poor_data, error.what());
@@ -114,7 +117,12 @@ TrialRunSummary run_trial(const fs::path& folder, const TrialRunOptions& options
     ++(status == 0 ? summary.answered : status == fault ? summary.failed : summary.refused);
     progress.advance(static_cast<std::size_t>(queue.n_ranks()));
   }
-  queue.barrier();
+  const std::vector<unsigned long> all =
+      queue.total({summary.answered, summary.refused, summary.failed});
+  summary.answered = all[0];
+  summary.refused = all[1];
+  summary.failed = all[2];
+  summary.is_first_rank = queue.rank() == 0;
   return summary;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "diagnosis/calibration.h"
+#include "diagnosis/confidence_set.h"
 #include "diagnosis/effect.h"
 #include "diagnosis/hypothesis.h"
 #include "signals/json_input.h"
@@ -147,7 +148,8 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
 std::optional<bool> resolved(const ScoredCase& c, const json& answer, const char* which) {
   if (!answer.contains(which)) return std::nullopt;
   const json& after = answer.at(which);
-  return after.at("confidence_set").size() == 1 && is_right(c.kind, c.truth, after.at("verdict"));
+  return diagnosis::n_known(after.at("confidence_set").get<std::vector<std::string>>()) == 1 &&
+         is_right(c.kind, c.truth, after.at("verdict"));
 }
 
 ScoredCase scored(const std::string& name, const json& label, const json& answer) {

@@ -41,4 +41,10 @@ std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates
   return confidence_set(answers, level * total);
 }
 
+std::size_t n_known(const std::vector<std::string>& confidence_set) {
+  return confidence_set.size() -
+         static_cast<std::size_t>(
+             std::count(confidence_set.begin(), confidence_set.end(), outside_catalogue));
+}
+
 }  // namespace vibrissa::diagnosis

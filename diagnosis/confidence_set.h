@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,5 +17,8 @@ std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates
 /// tests/diagnosis/confidence_set_test.cc.
 std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates, double level,
                                         double probability_of_tried, double probability_of_outside);
+
+/// How many of a set say what it is: all but outside_catalogue, which no record rules out.
+std::size_t n_known(const std::vector<std::string>& confidence_set);
 
 }  // namespace vibrissa::diagnosis
