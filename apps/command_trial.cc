@@ -110,6 +110,7 @@ void observe(const TrialCommand& options) {
                                  std::to_string(options.seed), "--asked"};
   for (const double share : options.asked) words.push_back(std::to_string(share));
   if (options.as_built) words.push_back("--as-built");
+  if (options.run.further) words.push_back("--further");
   if (options.common.json) words.push_back("--json");
   if (options.common.quiet) words.push_back("--quiet");
   become_trial_program("observe_trial", words);
@@ -159,8 +160,13 @@ void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) 
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--seed", options->seed, "All sensors follow from it")->capture_default_str();
-  command->add_flag("--as-built", options->as_built,
-                    "Every sensor is a little off in modulus, damping, gain and drag");
+  auto* as_built =
+      command->add_flag("--as-built", options->as_built,
+                        "Every sensor is a little off in modulus, damping, gain and drag");
+  command
+      ->add_flag("--further", options->run.further,
+                 "Where answers are left, do each further experiment; not with --as-built")
+      ->excludes(as_built);
   command
       ->add_option("--asked", options->asked,
                    "How often none, one, two and three effects are asked, to each other; 0: never")

@@ -57,13 +57,19 @@ struct LadderOnBench {
     return (1. - t) * std::pow(size / sizes[i], power()) * signatures[i] +
            t * std::pow(size / sizes[i + 1], power()) * signatures[i + 1];
   }
-  /// Nothing: the largest stays below. Below the ladder a signature goes with its power.
-  std::optional<double> limit(const ObservedBench& bench) const {
-    if (signatures.back().squaredNorm() < half_power_at_one_percent) return std::nullopt;
+  /// Of the test that has the first lines. Nothing: the largest stays below. Below the ladder a
+  /// signature goes with its power.
+  std::optional<double> limit(const ObservedBench& bench, const std::size_t n_lines) const {
+    const auto noncentrality = [&](const Eigen::VectorXd& signature) {
+      const Eigen::Index n = signature.size() / 3, first = static_cast<Eigen::Index>(n_lines);
+      return signature.head(first).squaredNorm() + signature.segment(n, first).squaredNorm() +
+             signature.segment(2 * n, first).squaredNorm();
+    };
+    if (noncentrality(signatures.back()) < half_power_at_one_percent) return std::nullopt;
     double low = 1e-3 * ladder->sizes.front(), high = ladder->sizes.back();
-    while (high > low * (1. + 1e-6)) {
+    while (high > low * (1. + 1e-4)) {
       const double middle = std::sqrt(low * high);
-      (at(middle).squaredNorm() < half_power_at_one_percent ? low : high) = middle;
+      (noncentrality(at(middle)) < half_power_at_one_percent ? low : high) = middle;
     }
     World plain;
     plain.acceleration_noise = bench.acceleration_noise;
@@ -146,24 +152,38 @@ Posterior Sets::posterior() const {
 }  // namespace
 
 IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
-                             const std::vector<double>& noise, const ObservedBench& bench)
-    : bench_(bench) {
+                             const std::vector<double>& noise, const ObservedBench& bench,
+                             std::vector<std::size_t> block_ends)
+    : bench_(bench), block_ends_(std::move(block_ends)) {
+  if (block_ends_.empty()) block_ends_ = {noise.size()};
+  assert(!(bench.as_built && block_ends_.size() > 1));
   for (const EffectLadder& ladder : ladders) add_ladder(ladder, noise);
   assert(!signatures_.empty() && "no ladder reaches its detection limit");
   spread_priors();
   const auto n = static_cast<Eigen::Index>(signatures_.size());
+  const auto n_lines = static_cast<Eigen::Index>(noise.size());
   Eigen::MatrixXd all(signatures_.front().size(), n);
   for (Eigen::Index i = 0; i < n; ++i) all.col(i) = signatures_[static_cast<std::size_t>(i)];
-  inner_.noalias() = all.transpose() * all;
-  if (bench.as_built) allow_for_building(ladders, noise);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(inner_);
-  noise_root_ = parts.eigenvectors() * parts.eigenvalues().cwiseMax(0.).cwiseSqrt().asDiagonal();
-  multiply_steps();
+  Eigen::Index begin = 0;
+  for (const std::size_t block_end : block_ends_) {
+    const auto end = static_cast<Eigen::Index>(block_end);
+    Eigen::MatrixXd& inner = inner_.emplace_back(Eigen::MatrixXd::Zero(n, n));
+    for (const Eigen::Index part : {Eigen::Index{0}, n_lines, 2 * n_lines}) {
+      const auto lines = all.middleRows(part + begin, end - begin);
+      inner.noalias() += lines.transpose() * lines;
+    }
+    if (bench.as_built) allow_for_building(ladders, noise);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(inner);
+    noise_root_.push_back(parts.eigenvectors() *
+                          parts.eigenvalues().cwiseMax(0.).cwiseSqrt().asDiagonal());
+    views_.push_back(view_of(begin == 0 ? inner : Eigen::MatrixXd(inner_.front() + inner)));
+    begin = end;
+  }
 }
 
 void IdealObserver::add_ladder(const EffectLadder& ladder, const std::vector<double>& noise) {
   const LadderOnBench here = on_bench(ladder, noise);
-  const std::optional<double> limit = here.limit(bench_);
+  const std::optional<double> limit = here.limit(bench_, block_ends_.front());
   if (!limit) return;
   const Unknown& unknown = *ladder.unknown;
   const double largest = std::min(largest_in_limits, unknown.largest / *limit);
@@ -226,22 +246,22 @@ void IdealObserver::allow_for_building(const std::vector<EffectLadder>& ladders,
       across(k, i) = signatures_[static_cast<std::size_t>(k)].dot(spread.col(i));
   }
   const Eigen::MatrixXd within = Eigen::MatrixXd::Identity(4, 4) + spread.transpose() * spread;
-  inner_ -= across * within.llt().solve(across.transpose());
+  inner_.front() -= across * within.llt().solve(across.transpose());
 }
 
-void IdealObserver::multiply_steps() {
+IdealObserver::View IdealObserver::view_of(const Eigen::MatrixXd& inner) const {
   const auto n = static_cast<Eigen::Index>(steps_.size());
-  Eigen::MatrixXd start = Eigen::MatrixXd::Zero(inner_.rows(), n), edge = start;
+  Eigen::MatrixXd start = Eigen::MatrixXd::Zero(inner.rows(), n), edge = start;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Step& step = steps_[static_cast<std::size_t>(i)];
     start(static_cast<Eigen::Index>(step.first), i) = step.sign;
     edge(static_cast<Eigen::Index>(step.second), i) += step.sign;
     edge(static_cast<Eigen::Index>(step.first), i) -= step.sign;
   }
-  const Eigen::MatrixXd from_start = inner_ * start, from_edge = inner_ * edge;
-  starts_ = start.transpose() * from_start;
-  starts_edges_ = start.transpose() * from_edge;
-  edges_ = edge.transpose() * from_edge;
+  const Eigen::MatrixXd from_start = inner * start, from_edge = inner * edge;
+  return {.starts = start.transpose() * from_start,
+          .starts_edges = start.transpose() * from_edge,
+          .edges = edge.transpose() * from_edge};
 }
 
 ObservedSensor IdealObserver::draw(const std::size_t n_effects, std::mt19937_64& random) const {
@@ -252,7 +272,7 @@ ObservedSensor IdealObserver::draw(const std::size_t n_effects, std::mt19937_64&
   unknowns.resize(n_effects);
   std::sort(unknowns.begin(), unknowns.end());
   ObservedSensor out{.unknowns = unknowns};
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(inner_.rows());
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(inner_.front().rows());
   for (const std::size_t unknown : unknowns) {
     std::vector<Path> paths;
     std::copy_if(paths_.begin(), paths_.end(), std::back_inserter(paths),
@@ -264,40 +284,33 @@ ObservedSensor IdealObserver::draw(const std::size_t n_effects, std::mt19937_64&
     share[static_cast<Eigen::Index>(step.second)] += step.sign * t;
     out.in_limits.push_back(step.low + t * (step.high - step.low));
   }
-  const Eigen::VectorXd noise =
-      Eigen::VectorXd::NullaryExpr(inner_.rows(), [&] { return normal(random); });
-  out.seen = inner_ * share + noise_root_ * noise;
+  for (std::size_t b = 0; b < inner_.size(); ++b) {
+    const Eigen::VectorXd noise =
+        Eigen::VectorXd::NullaryExpr(share.size(), [&] { return normal(random); });
+    out.seen.push_back(inner_[b] * share + noise_root_[b] * noise);
+  }
   return out;
 }
 
 /// ln of the likelihood over that of none: what is seen along each step less half of its square.
 template <std::size_t n>
 BoxNormal<n> IdealObserver::likelihood(const std::array<std::size_t, n>& steps,
-                                       const Eigen::VectorXd& along_start,
-                                       const Eigen::VectorXd& along_edge) const {
+                                       const Seen& seen) const {
   const auto at = [&](std::size_t i) { return static_cast<Eigen::Index>(steps[i]); };
   BoxNormal<n> out;
   for (std::size_t i = 0; i < n; ++i) {
-    out.value += along_start[at(i)];
-    out.slope[i] = along_edge[at(i)];
+    out.value += seen.start[at(i)];
+    out.slope[i] = seen.edge[at(i)];
     for (std::size_t k = 0; k < n; ++k) {
-      out.value -= 0.5 * starts_(at(i), at(k));
-      out.slope[i] -= starts_edges_(at(k), at(i));
-      out.curvature[i][k] = edges_(at(i), at(k));
+      out.value -= 0.5 * seen.view.starts(at(i), at(k));
+      out.slope[i] -= seen.view.starts_edges(at(k), at(i));
+      out.curvature[i][k] = seen.view.edges(at(i), at(k));
     }
   }
   return out;
 }
 
-Posterior IdealObserver::posterior_of(const ObservedSensor& sensor) const {
-  const auto n = static_cast<Eigen::Index>(steps_.size());
-  Eigen::VectorXd along_start(n), along_edge(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Step& step = steps_[static_cast<std::size_t>(i)];
-    const double first = sensor.seen[static_cast<Eigen::Index>(step.first)];
-    along_start[i] = step.sign * first;
-    along_edge[i] = step.sign * (sensor.seen[static_cast<Eigen::Index>(step.second)] - first);
-  }
+Posterior IdealObserver::posterior_of(const Seen& seen) const {
   // Each set of as many unknowns is as likely as another.
   const double m = static_cast<double>(there_.size());
   const auto& asked = bench_.asked;
@@ -311,9 +324,8 @@ Posterior IdealObserver::posterior_of(const ObservedSensor& sensor) const {
       unknowns[i] = steps_[steps[i]].unknown;
       prior += steps_[steps[i]].log_prior;
     }
-    sets.add(unknowns, prior, [&](double worth_it) {
-      return log_box_integral(likelihood(steps, along_start, along_edge), worth_it);
-    });
+    sets.add(unknowns, prior,
+             [&](double worth_it) { return log_box_integral(likelihood(steps, seen), worth_it); });
   };
   const auto differ = [&](std::size_t i, std::size_t k) {
     return steps_[i].unknown != steps_[k].unknown;
@@ -331,8 +343,19 @@ Posterior IdealObserver::posterior_of(const ObservedSensor& sensor) const {
   return sets.posterior();
 }
 
-ObserverAnswer IdealObserver::answer(const ObservedSensor& sensor) const {
-  const Posterior posterior = posterior_of(sensor);
+ObserverAnswer IdealObserver::answer(const ObservedSensor& sensor,
+                                     const std::size_t further) const {
+  Eigen::VectorXd along = sensor.seen.front();
+  if (further > 0) along += sensor.seen.at(further);
+  const auto n = static_cast<Eigen::Index>(steps_.size());
+  Seen seen{.view = views_.at(further), .start = Eigen::VectorXd(n), .edge = Eigen::VectorXd(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Step& step = steps_[static_cast<std::size_t>(i)];
+    const double first = along[static_cast<Eigen::Index>(step.first)];
+    seen.start[i] = step.sign * first;
+    seen.edge[i] = step.sign * (along[static_cast<Eigen::Index>(step.second)] - first);
+  }
+  const Posterior posterior = posterior_of(seen);
   ObserverAnswer out{.unknowns = posterior.front().second, .probability = posterior.front().first};
   double sum = 0.;
   for (std::size_t i = 0; i < posterior.size(); ++i) {

@@ -25,7 +25,8 @@ struct ObservedBench {
 struct ObservedSensor {
   std::vector<std::size_t> unknowns{};  // of named_unknowns(), ascending
   std::vector<double> in_limits{};      // size of each
-  Eigen::VectorXd seen{};               // inner products of the records with all signatures
+  /// Inner products of the records of each block with all signatures.
+  std::vector<Eigen::VectorXd> seen{};
 };
 
 struct ObserverAnswer {
@@ -46,12 +47,15 @@ class IdealObserver {
   /// Probability and set of unknowns, the likeliest first.
   using Posterior = std::vector<std::pair<double, std::vector<std::size_t>>>;
 
-  /// noise: of each line of the ladders, UnexplainedChange::noise.
+  /// noise: of each line of the ladders, UnexplainedChange::noise. block_ends: where the lines of
+  /// the usual session end, which make the detection limits, and those of each further experiment,
+  /// for which sensors must not be as built; nothing: all are of the usual one.
   IdealObserver(const std::vector<EffectLadder>& ladders, const std::vector<double>& noise,
-                const ObservedBench& bench);
+                const ObservedBench& bench, std::vector<std::size_t> block_ends = {});
 
   ObservedSensor draw(std::size_t n_effects, std::mt19937_64& random) const;
-  ObserverAnswer answer(const ObservedSensor& sensor) const;
+  /// By the usual session, and further experiment number 1, 2 ..; 0: none.
+  ObserverAnswer answer(const ObservedSensor& sensor, std::size_t further = 0) const;
 
  private:
   /// A step of a ladder, of one sign: start + t edge, t in 0..1.
@@ -64,24 +68,33 @@ class IdealObserver {
     std::size_t unknown = 0, first_step = 0, n_steps = 0;
   };
 
+  /// What a session shows of the steps: inner products of their starts and edges.
+  struct View {
+    Eigen::MatrixXd starts, starts_edges, edges;
+  };
+  /// What is seen along the steps of a sensor.
+  struct Seen {
+    const View& view;
+    Eigen::VectorXd start, edge;
+  };
+
   void add_ladder(const EffectLadder& ladder, const std::vector<double>& noise);
   void spread_priors();
   void allow_for_building(const std::vector<EffectLadder>& ladders,
                           const std::vector<double>& noise);
-  void multiply_steps();
+  View view_of(const Eigen::MatrixXd& inner) const;
   template <std::size_t n>
-  BoxNormal<n> likelihood(const std::array<std::size_t, n>& steps,
-                          const Eigen::VectorXd& along_start,
-                          const Eigen::VectorXd& along_edge) const;
-  Posterior posterior_of(const ObservedSensor& sensor) const;
+  BoxNormal<n> likelihood(const std::array<std::size_t, n>& steps, const Seen& seen) const;
+  Posterior posterior_of(const Seen& seen) const;
 
   ObservedBench bench_;
   std::vector<Eigen::VectorXd> signatures_;
   std::vector<Step> steps_;
   std::vector<Path> paths_;
   std::vector<std::size_t> there_;  // unknowns that this bench can show
-  Eigen::MatrixXd inner_, noise_root_;
-  Eigen::MatrixXd starts_, starts_edges_, edges_;  // inner products of the steps' starts and edges
+  std::vector<std::size_t> block_ends_;
+  std::vector<Eigen::MatrixXd> inner_, noise_root_;  // of each block
+  std::vector<View> views_;                          // of the first block alone and with each other
 };
 
 }  // namespace vibrissa::trial

@@ -65,6 +65,24 @@ TEST(IdealObserver, IsRightHalfOfTheTimesBetweenTwoThatLookAlike) {
   EXPECT_LE(rates.said, 0.5);
 }
 
+TEST(IdealObserver, AFurtherExperimentTellsApartWhatLooksAlike) {
+  const std::vector<double> sizes{0.002, 0.02, 0.2};
+  // Four lines of the usual session; of the last two each effect has its own.
+  const IdealObserver observer({straight("viscoelastic", {100.f, 200.f, 0.f, 0.f, 900.f}, sizes),
+                                straight("flow_lag", {100.f, 200.f, 0.f, 0.f, 0.f, 900.f}, sizes)},
+                               unit_noise, {}, {4, 6});
+  std::mt19937_64 random(6);
+  int right = 0, right_after = 0;
+  constexpr int n = 500;
+  for (int i = 0; i < n; ++i) {
+    const ObservedSensor sensor = observer.draw(1, random);
+    right += observer.answer(sensor).right ? 1 : 0;
+    right_after += observer.answer(sensor, 1).right ? 1 : 0;
+  }
+  EXPECT_NEAR(right, 0.5 * n, 0.1 * n);
+  EXPECT_GT(right_after, 0.95 * n);
+}
+
 TEST(IdealObserver, TellsApartWhatIsLargeAndUnlike) {
   const std::vector<double> sizes{0.02, 0.1, 0.5};
   const IdealObserver observer(
