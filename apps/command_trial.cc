@@ -13,6 +13,7 @@
 #include "report/pictures.h"
 #include "report/run_folder.h"
 #include "signals/error.h"
+#include "signals/number_text.h"
 #include "signals/progress.h"
 
 namespace vibrissa::apps {
@@ -108,7 +109,7 @@ void score(const TrialCommand& options) {
 void observe(const TrialCommand& options) {
   std::vector<std::string> words{"--benches", std::to_string(options.n_benches), "--seed",
                                  std::to_string(options.seed), "--asked"};
-  for (const double share : options.asked) words.push_back(std::to_string(share));
+  for (const double share : options.asked) words.push_back(signals::to_text(share));
   if (options.as_built) words.push_back("--as-built");
   if (options.run.further) words.push_back("--further");
   if (options.common.json) words.push_back("--json");

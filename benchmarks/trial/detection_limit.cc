@@ -5,7 +5,6 @@
 #include <complex>
 
 namespace vibrissa::trial {
-namespace {}  // namespace
 
 LikelihoodRatio::LikelihoodRatio(const World& plain, const Session& session)
     : change_(plain, session),
