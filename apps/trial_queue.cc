@@ -15,7 +15,7 @@ TrialQueue::TrialQueue() : counter_(std::make_unique<Counter>()) {
                    &counter_->window);
   if (rank() == 0) *counter_->value = 0;
   MPI_Win_lock_all(0, counter_->window);
-  barrier();
+  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TrialQueue::~TrialQueue() {
@@ -41,10 +41,6 @@ int TrialQueue::n_ranks() const {
   int n = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &n);
   return n;
-}
-
-void TrialQueue::barrier() const {
-  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 std::vector<unsigned long> TrialQueue::total(std::vector<unsigned long> numbers) const {

@@ -19,8 +19,6 @@ class TrialQueue {
   std::size_t next();
   int rank() const;
   int n_ranks() const;
-  /// Waits for all ranks.
-  void barrier() const;
   /// Sum of each number over all ranks, on every one of them.
   std::vector<unsigned long> total(std::vector<unsigned long> numbers) const;
 

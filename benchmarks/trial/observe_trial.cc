@@ -67,7 +67,7 @@ struct Options {
   std::size_t n_benches = 25;
   std::uint64_t seed = 1;
   bool as_built = false, further = false, json = false, quiet = false;
-  std::array<double, 4> asked{2., 9., 2., 1.};
+  std::array<double, 4> asked = trial::ObservedBench{}.asked;
   bool is_talkative() const { return !json && !quiet; }
 };
 
