@@ -28,28 +28,51 @@ bool has_exact_alias(const std::string& id) {
   return aliased.count(id) != 0;
 }
 
-/// Draws one of the list with a size; adds it to the case.
-void add_effect(TrialCase& out, const LikelihoodRatio& test, const std::vector<Unknown>& list,
-                std::mt19937_64& random, double low, double high) {
+/// Sizes in detection limits.
+struct Sizes {
+  double low = smallest_in_limits, high = largest_in_limits;
+};
+
+/// Adds an unknown of a size and shape by chance to the case, where the bench shows it in range.
+bool try_effect(TrialCase& out, const LikelihoodRatio& test, const Unknown& unknown,
+                std::mt19937_64& random, const Sizes& sizes) {
   std::uniform_real_distribution<double> uniform;
-  for (;;) {
-    const Unknown& unknown = list[random() % list.size()];
-    const double sign = unknown.either_sign && uniform(random) < 0.5 ? -1. : 1.;
-    const double shape = uniform(random), place = uniform(random);
-    if (out.kind == left_out && has_exact_alias(unknown.id)) continue;
-    if (std::any_of(out.effects.begin(), out.effects.end(),
-                    [&](const CaseEffect& there) { return there.id == unknown.id; }))
-      continue;
-    const std::optional<double> limit = detection_limit(test, unknown, sign, shape);
-    if (!limit || (unknown.fixed_size && high < 1.)) continue;
-    const double largest = std::min(high, unknown.largest / *limit);
-    if (largest < low) continue;
-    const double size =
-        unknown.fixed_size ? unknown.largest : *limit * low * std::pow(largest / low, place);
-    unknown.apply(out.world, sign * size, shape);
-    out.effects.push_back({unknown.id, sign * size, *limit});
-    return;
-  }
+  const double sign = unknown.either_sign && uniform(random) < 0.5 ? -1. : 1.;
+  const double shape = uniform(random), place = uniform(random);
+  if (std::any_of(out.effects.begin(), out.effects.end(),
+                  [&](const CaseEffect& there) { return there.id == unknown.id; }))
+    return false;
+  const std::optional<double> limit = detection_limit(test, unknown, sign, shape);
+  if (!limit || (unknown.fixed_size && sizes.high < 1.)) return false;
+  const double largest = std::min(sizes.high, unknown.largest / *limit);
+  if (largest < sizes.low) return false;
+  const double size = unknown.fixed_size
+                          ? unknown.largest
+                          : *limit * sizes.low * std::pow(largest / sizes.low, place);
+  unknown.apply(out.world, sign * size, shape);
+  out.effects.push_back({unknown.id, sign * size, *limit});
+  return true;
+}
+
+void add_by_chance(TrialCase& out, const LikelihoodRatio& test, const std::vector<Unknown>& list,
+                   std::mt19937_64& random, const Sizes& sizes) {
+  while (!try_effect(out, test, list[random() % list.size()], random, sizes)) continue;
+}
+
+/// How many cases of a kind come before the one of that number.
+std::size_t n_before(const CaseClass kind, const std::size_t number) {
+  const auto in = [&](std::size_t n) {
+    return static_cast<std::size_t>(std::count(turns.begin(), turns.begin() + n, kind));
+  };
+  return number / turns.size() * in(turns.size()) + in(number % turns.size());
+}
+
+/// The first that can be asked from the one whose turn it is.
+void add_in_turn(TrialCase& out, const LikelihoodRatio& test, std::size_t turn,
+                 std::mt19937_64& random, const Sizes& sizes) {
+  std::vector<Unknown> list = named_unknowns();
+  std::erase_if(list, [](const Unknown& unknown) { return has_exact_alias(unknown.id); });
+  while (!try_effect(out, test, list[turn % list.size()], random, sizes)) ++turn;
 }
 
 void take_as_built(World& world, std::mt19937_64& random) {
@@ -110,18 +133,19 @@ TrialCase draw_case(const std::uint64_t seed, const std::size_t number) {
   out.world = plain_world(random);
   const World plain = out.world;
   std::optional<LikelihoodRatio> test;
-  const auto add = [&](const std::vector<Unknown>& list, double low, double high) {
-    if (!test) test.emplace(plain, out.session);
-    add_effect(out, *test, list, random, low, high);
+  const auto ratio = [&]() -> const LikelihoodRatio& {
+    return test ? *test : test.emplace(plain, out.session);
   };
-  const std::size_t n_named = out.kind == triple                           ? 3
-                              : out.kind == pair                           ? 2
-                              : out.kind == single || out.kind == left_out ? 1
-                                                                           : 0;
+  const std::size_t n_named = out.kind == triple   ? 3
+                              : out.kind == pair   ? 2
+                              : out.kind == single ? 1
+                                                   : 0;
   for (std::size_t i = 0; i < n_named; ++i)
-    add(named_unknowns(), smallest_in_limits, largest_in_limits);
-  if (out.kind == nameless) add(nameless_unknowns(), smallest_in_limits, largest_in_limits);
-  if (out.kind == below_limit) add(named_unknowns(), 0.25, 0.2500001);
+    add_by_chance(out, ratio(), named_unknowns(), random, {});
+  if (out.kind == left_out) add_in_turn(out, ratio(), n_before(left_out, number), random, {});
+  if (out.kind == nameless) add_by_chance(out, ratio(), nameless_unknowns(), random, {});
+  if (out.kind == below_limit)
+    add_by_chance(out, ratio(), named_unknowns(), random, {0.25, 0.2500001});
   if (out.kind == left_out) out.left_out = {out.effects.front().id};
   if (out.kind == retune_only) take_as_built(out.world, random);
   return out;

@@ -43,9 +43,9 @@ struct TrialCase {
 /// A sensor as simulated on a bench of its own: how noisy its channels are is by chance.
 World plain_world(std::mt19937_64& random);
 
-/// Case number of a trial's seed: its class by turns, all else by chance. Sizes are log-uniform
-/// from 1 to 30 detection limits, within the usual range. Proven by
-/// tests/benchmarks/trial/detection_limit_test.cc.
+/// Case number of a trial's seed: its class by turns, what is left out of the catalogue, too, all
+/// else by chance. Sizes are log-uniform from 1 to 30 detection limits, within the usual range.
+/// Proven by tests/benchmarks/trial/detection_limit_test.cc.
 TrialCase draw_case(std::uint64_t seed, std::size_t number);
 
 /// The records of a case, its takes labelled as the bench's log says, which may be wrong.

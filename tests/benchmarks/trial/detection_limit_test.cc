@@ -70,6 +70,21 @@ TEST(DrawCase, IsTheSameForTheSameSeed) {
     EXPECT_GE(std::abs(effect.size) / effect.limit, 0.99) << effect.id;
 }
 
+TEST(DrawCase, TakesEachEffectOutOfTheCatalogueInTurn) {
+  // Two questions of twenty; what a bench cannot show gives way to the next.
+  std::vector<std::string> left_out;
+  for (const std::size_t number : {6u, 15u, 26u, 35u, 46u}) {
+    const TrialCase drawn = draw_case(3, number);
+    ASSERT_EQ(drawn.kind, CaseClass::left_out) << number;
+    ASSERT_EQ(drawn.left_out.size(), 1u);
+    EXPECT_EQ(drawn.left_out.front(), drawn.effects.front().id);
+    left_out.push_back(drawn.left_out.front());
+  }
+  // In the order of the catalogue, but for those that have an exact alias.
+  EXPECT_THAT(left_out, testing::ElementsAre("hardening", "viscoelastic", "softening_history",
+                                             "temperature_drift", "joint_friction"));
+}
+
 TEST(DrawCase, RecordsOfASensorThatIsAsDesignedAreTheSimulationAndNoise) {
   TrialCase plain = draw_case(3, 2);
   ASSERT_EQ(plain.kind, CaseClass::none);
