@@ -99,6 +99,10 @@ json answer(const TrialIndex& trial, const TrialEntry& entry,
 TrialRunSummary run_trial(const fs::path& folder, const TrialRunOptions& options) {
   const fem::SolverSession session;
   const TrialIndex trial = read_trial(folder);
+  if (options.further && trial.further_experiments.empty())
+    throw signals::UserError(folder.string() +
+                             " holds no further experiments, as none is made at finite strain: "
+                             "run it without --further");
   const diagnosis::NominalModel nominal =
       diagnosis::identify_nominal(signals::read_dataset(folder / "sim"));
   std::vector<const TrialEntry*> open;

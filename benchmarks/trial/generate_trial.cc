@@ -1,10 +1,12 @@
-// Writes a blind trial: generate_trial SEED FIRST COUNT FOLDER. Records go to FOLDER, the labels
-// into it under seal, the key beside it. The last line says what the labels are bound to.
+// Writes a blind trial: generate_trial SEED FIRST COUNT FOLDER [finite-strain]. Records go to
+// FOLDER, the labels into it under seal, the key beside it. The last line says what the labels are
+// bound to.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "benchmarks/trial/trial_case.h"
 #include "fem/solver_session.h"
@@ -52,17 +54,25 @@ json label_of(const trial::TrialCase& trial_case) {
   return {{"class", to_string(trial_case.kind)}, {"effects", effects}, {"seed", trial_case.seed}};
 }
 
-void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs::path& folder) {
+/// Those whose records are written.
+json further_names(const trial::Physics physics) {
+  json names = json::array();
+  if (physics == trial::Physics::finite_strain) return names;
+  for (const trial::FurtherExperiment& experiment : trial::further_experiments())
+    names.push_back(experiment.name);
+  return names;
+}
+
+void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs::path& folder,
+              const trial::Physics physics) {
   if (fs::exists(folder))
     throw signals::UserError(folder.string() + " exists: name another folder");
   const fs::path making = folder.string() + ".making", key_file = folder.string() + ".key";
   fs::remove_all(making);
-  write_dataset(making / "sim", trial::simulated_records(seed));
-  json labels = json::object(), cases = json::array(), further = json::array();
-  for (const trial::FurtherExperiment& experiment : trial::further_experiments())
-    further.push_back(experiment.name);
+  write_dataset(making / "sim", trial::simulated_records(seed, physics));
+  json labels = json::object(), cases = json::array();
   for (std::size_t i = first; i < first + count; ++i) {
-    const trial::TrialCase trial_case = trial::draw_case(seed, i);
+    const trial::TrialCase trial_case = trial::draw_case(seed, i, physics);
     const std::string name = case_name(i);
     write_dataset(making / name / "real", trial::records_of(trial_case));
     for (const auto& [experiment, records] : trial::further_records_of(trial_case))
@@ -75,7 +85,7 @@ void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs
                                      {"seed", seed},
                                      {"first", first},
                                      {"cases", cases},
-                                     {"further_experiments", further},
+                                     {"further_experiments", further_names(physics)},
                                      {"labels_commitment_sha256", seal.commitment},
                                      {"labels_sealed", seal.cipher}});
   signals::write_file(key_file, [&](std::ostream& out) { out << seal.key << "\n"; });
@@ -87,13 +97,15 @@ void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 5) {
-    std::cerr << "usage: generate_trial SEED FIRST COUNT FOLDER\n";
+  const bool finite_strain = argc == 6 && std::string(argv[5]) == "finite-strain";
+  if (argc != 5 && !finite_strain) {
+    std::cerr << "usage: generate_trial SEED FIRST COUNT FOLDER [finite-strain]\n";
     return 2;
   }
   signals::keep_freed_memory();
   const fem::SolverSession session;
-  generate(std::stoull(argv[1]), std::stoull(argv[2]), std::stoull(argv[3]), argv[4]);
+  generate(std::stoull(argv[1]), std::stoull(argv[2]), std::stoull(argv[3]), argv[4],
+           finite_strain ? trial::Physics::finite_strain : trial::Physics::modes);
   return 0;
 } catch (const std::exception& error) {
   std::cerr << "generate_trial: " << error.what() << "\n";

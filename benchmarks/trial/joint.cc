@@ -6,7 +6,6 @@
 namespace vibrissa::trial {
 namespace {
 
-constexpr std::array<double, 5> branch_times_s{3e-4, 3e-3, 3e-2, 3e-1, 3.};
 constexpr double forgetting_s = 20., warming_s = 30.;
 
 }  // namespace

@@ -6,6 +6,9 @@
 
 namespace vibrissa::trial {
 
+/// Of the relaxing branches.
+inline constexpr std::array<double, 5> branch_times_s{3e-4, 3e-3, 3e-2, 3e-1, 3.};
+
 /// What the hinge adds to its linear spring [N m], with its memory. Proven by
 /// tests/benchmarks/trial/joint_test.cc.
 class Joint {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/trial/motion.h"
 #include "benchmarks/trial/world.h"
 #include "signals/dataset.h"
 
@@ -35,16 +36,17 @@ struct FurtherExperiment {
 };
 std::vector<FurtherExperiment> further_experiments();
 
-constexpr double rate_hz = 500.;
-
 struct Session {
   std::vector<Take> takes;
   std::uint64_t seed = 1;
   bool noise = true;
 };
 
-/// The records that the bench writes. Modes and the hinge are integrated at 16 times the sampling
-/// rate; both sensors sample that on their own clocks. The hinge remembers from take to take.
+/// The records that the bench writes of a sensor that moves so; both sensors sample that on their
+/// own clocks.
+signals::Dataset record_session(Motion& motion, const Structure& structure, const World& world,
+                                const Session& session);
+/// By the modes.
 signals::Dataset record_session(const Structure& structure, const World& world,
                                 const Session& session);
 

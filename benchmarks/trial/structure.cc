@@ -10,19 +10,6 @@
 namespace vibrissa::trial {
 namespace {
 
-fem::SensorParameters parameters_of(const SolidChange& change) {
-  fem::SensorParameters out;
-  out.geometry.fin = meshes::FinShape::cross;
-  out.geometry.free_length = 6.57e-3;
-  out.model.n_modes = 44;
-  out.model.mesh_resolution = 1;
-  const double modulus = change.silicone_modulus;
-  out.materials.silicone = materials::make_yeoh(
-      {3.4e5 * modulus, 1.7152e5 * modulus, 1.32e8 * modulus}, 1.5e9, 1080., 0.);
-  out.materials.fin = materials::make_elastic(4.1e9, 0.35, 1230. * change.fin_density, 0.);
-  return out;
-}
-
 struct RigidFigures {
   double mass, first_moment, inertia;
 };
@@ -74,12 +61,25 @@ Structure reduced(const fem::Sensor& sensor) {
 }
 
 double first_frequency(const SolidChange& change) {
-  fem::SensorParameters parameters = parameters_of(change);
+  fem::SensorParameters parameters = sensor_parameters(change);
   parameters.model.n_modes = 2;
   return fem::Sensor(parameters).modes().front().frequency_hz;
 }
 
 }  // namespace
+
+fem::SensorParameters sensor_parameters(const SolidChange& change) {
+  fem::SensorParameters out;
+  out.geometry.fin = meshes::FinShape::cross;
+  out.geometry.free_length = 6.57e-3;
+  out.model.n_modes = 44;
+  out.model.mesh_resolution = 1;
+  const double modulus = change.silicone_modulus;
+  out.materials.silicone = materials::make_yeoh(
+      {3.4e5 * modulus, 1.7152e5 * modulus, 1.32e8 * modulus}, 1.5e9, 1080., 0.);
+  out.materials.fin = materials::make_elastic(4.1e9, 0.35, 1230. * change.fin_density, 0.);
+  return out;
+}
 
 Eigen::VectorXd Structure::hinge() const {
   // Share of each mode's energy that the hinge would hold if it carried the whole base moment; it
@@ -97,7 +97,7 @@ Structure solve_structure(const SolidChange& change) {
   SolidChange stiffer = change, softer = change;
   stiffer.silicone_modulus *= 1. + step;
   softer.silicone_modulus *= 1. - step;
-  Structure out = reduced(fem::Sensor(parameters_of(change)));
+  Structure out = reduced(fem::Sensor(sensor_parameters(change)));
   // Stiffness goes with the square of the frequency; what the silicone adds to it is its share.
   out.joint_share = 2. * std::log(first_frequency(stiffer) / first_frequency(softer)) /
                     std::log((1. + step) / (1. - step));

@@ -2,6 +2,10 @@
 
 #include <Eigen/Core>
 
+namespace vibrissa::fem {
+struct SensorParameters;
+}
+
 namespace vibrissa::trial {
 
 /// What differs in the solid from the one that is simulated; 1 is as simulated.
@@ -31,6 +35,9 @@ struct Structure {
   /// other modes, in which the silicone itself swings, have what is left of its compliance.
   Eigen::VectorXd hinge() const;
 };
+
+/// The sensor as designed, with what differs.
+fem::SensorParameters sensor_parameters(const SolidChange& change);
 
 /// Meshes, assembles and solves (about a second).
 Structure solve_structure(const SolidChange& change);

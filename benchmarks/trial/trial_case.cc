@@ -8,6 +8,7 @@
 #include <set>
 
 #include "benchmarks/trial/detection_limit.h"
+#include "benchmarks/trial/solid_motion.h"
 
 namespace vibrissa::trial {
 namespace {
@@ -54,6 +55,18 @@ bool try_effect(TrialCase& out, const LikelihoodRatio& test, const Unknown& unkn
   return true;
 }
 
+bool can_do(const Physics physics, const Unknown& unknown) {
+  if (physics == Physics::modes) return true;
+  World world;
+  unknown.apply(world, unknown.largest, 0.5);
+  return is_of_the_solid(world);
+}
+
+std::vector<Unknown> those_of(const Physics physics, std::vector<Unknown> list) {
+  std::erase_if(list, [&](const Unknown& unknown) { return !can_do(physics, unknown); });
+  return list;
+}
+
 void add_by_chance(TrialCase& out, const LikelihoodRatio& test, const std::vector<Unknown>& list,
                    std::mt19937_64& random, const Sizes& sizes) {
   while (!try_effect(out, test, list[random() % list.size()], random, sizes)) continue;
@@ -68,9 +81,8 @@ std::size_t n_before(const CaseClass kind, const std::size_t number) {
 }
 
 /// The first that can be asked from the one whose turn it is.
-void add_in_turn(TrialCase& out, const LikelihoodRatio& test, std::size_t turn,
-                 std::mt19937_64& random, const Sizes& sizes) {
-  std::vector<Unknown> list = named_unknowns();
+void add_in_turn(TrialCase& out, const LikelihoodRatio& test, std::vector<Unknown> list,
+                 std::size_t turn, std::mt19937_64& random, const Sizes& sizes) {
   std::erase_if(list, [](const Unknown& unknown) { return has_exact_alias(unknown.id); });
   while (!try_effect(out, test, list[turn % list.size()], random, sizes)) ++turn;
 }
@@ -84,6 +96,13 @@ void take_as_built(World& world, std::mt19937_64& random) {
   world.damping = off(built_damping);
   world.sensor_gain = off(built_gain);
   world.drag = off(built_drag);
+}
+
+signals::Dataset recorded(const Physics physics, const World& world, const Session& session) {
+  const Structure& structure = structure_of(world.solid);
+  if (physics == Physics::modes) return record_session(structure, world, session);
+  SolidMotion motion(world);
+  return record_session(motion, structure, world, session);
 }
 
 }  // namespace
@@ -123,8 +142,9 @@ std::string to_string(const CaseClass kind) {
   return "";
 }
 
-TrialCase draw_case(const std::uint64_t seed, const std::size_t number) {
+TrialCase draw_case(const std::uint64_t seed, const std::size_t number, const Physics physics) {
   TrialCase out;
+  out.physics = physics;
   out.kind = turns[number % turns.size()];
   out.seed = seed * 100000 + number;
   std::mt19937_64 random(out.seed);
@@ -133,6 +153,8 @@ TrialCase draw_case(const std::uint64_t seed, const std::size_t number) {
   out.world = plain_world(random);
   const World plain = out.world;
   std::optional<LikelihoodRatio> test;
+  const std::vector<Unknown> named = those_of(physics, named_unknowns()),
+                             nameless_ones = those_of(physics, nameless_unknowns());
   const auto ratio = [&]() -> const LikelihoodRatio& {
     return test ? *test : test.emplace(plain, out.session);
   };
@@ -140,20 +162,18 @@ TrialCase draw_case(const std::uint64_t seed, const std::size_t number) {
                               : out.kind == pair   ? 2
                               : out.kind == single ? 1
                                                    : 0;
-  for (std::size_t i = 0; i < n_named; ++i)
-    add_by_chance(out, ratio(), named_unknowns(), random, {});
-  if (out.kind == left_out) add_in_turn(out, ratio(), n_before(left_out, number), random, {});
-  if (out.kind == nameless) add_by_chance(out, ratio(), nameless_unknowns(), random, {});
-  if (out.kind == below_limit)
-    add_by_chance(out, ratio(), named_unknowns(), random, {0.25, 0.2500001});
+  for (std::size_t i = 0; i < n_named; ++i) add_by_chance(out, ratio(), named, random, {});
+  if (out.kind == left_out)
+    add_in_turn(out, ratio(), named, n_before(left_out, number), random, {});
+  if (out.kind == nameless) add_by_chance(out, ratio(), nameless_ones, random, {});
+  if (out.kind == below_limit) add_by_chance(out, ratio(), named, random, {0.25, 0.2500001});
   if (out.kind == left_out) out.left_out = {out.effects.front().id};
   if (out.kind == retune_only) take_as_built(out.world, random);
   return out;
 }
 
 signals::Dataset records_of(const TrialCase& trial_case) {
-  signals::Dataset out =
-      record_session(structure_of(trial_case.world.solid), trial_case.world, trial_case.session);
+  signals::Dataset out = recorded(trial_case.physics, trial_case.world, trial_case.session);
   if (trial_case.kind != wrong_metadata) return out;
   // By turns: a fan that was off, and a period that is not the drive's.
   if (trial_case.seed / turns.size() % 2 == 0) {
@@ -170,6 +190,7 @@ std::vector<std::pair<std::string, signals::Dataset>> further_records_of(
     const TrialCase& trial_case) {
   constexpr std::uint64_t another_day = 50000;
   std::vector<std::pair<std::string, signals::Dataset>> out;
+  if (trial_case.physics == Physics::finite_strain) return out;
   for (const FurtherExperiment& experiment : further_experiments())
     out.emplace_back(
         experiment.name,
@@ -178,13 +199,13 @@ std::vector<std::pair<std::string, signals::Dataset>> further_records_of(
   return out;
 }
 
-signals::Dataset simulated_records(const std::uint64_t seed) {
+signals::Dataset simulated_records(const std::uint64_t seed, const Physics physics) {
   World world;
   Session session{.takes = usual_takes(), .seed = seed * 100000 + 99999, .noise = false};
   std::erase_if(session.takes, [](const Take& take) {
     return take.split != signals::Split::fit || take.is_at_rest();
   });
-  return record_session(structure_of({}), world, session);
+  return recorded(physics, world, session);
 }
 
 }  // namespace vibrissa::trial

@@ -24,6 +24,12 @@ enum class CaseClass {
 };
 std::string to_string(CaseClass kind);
 
+/// What the sensor's motion is computed by.
+enum class Physics {
+  modes,         // modal_motion.h
+  finite_strain  // solid_motion.h
+};
+
 struct CaseEffect {
   std::string id;
   double size = 0.;   // signed, in the unit of unknowns.h
@@ -33,6 +39,7 @@ struct CaseEffect {
 /// One sensor to be diagnosed, with the truth about it.
 struct TrialCase {
   CaseClass kind = CaseClass::none;
+  Physics physics = Physics::modes;
   std::vector<CaseEffect> effects;
   std::vector<std::string> left_out;  // of the catalogue; public
   std::uint64_t seed = 0;
@@ -45,17 +52,19 @@ World plain_world(std::mt19937_64& random);
 
 /// Case number of a trial's seed: its class by turns, what is left out of the catalogue, too, all
 /// else by chance. Sizes are log-uniform from 1 to 30 detection limits, within the usual range.
-/// Proven by tests/benchmarks/trial/detection_limit_test.cc.
-TrialCase draw_case(std::uint64_t seed, std::size_t number);
+/// Of finite strain only what the solid can do is asked, in detection limits of the modes. Proven
+/// by tests/benchmarks/trial/detection_limit_test.cc.
+TrialCase draw_case(std::uint64_t seed, std::size_t number, Physics physics = Physics::modes);
 
 /// The records of a case, its takes labelled as the bench's log says, which may be wrong.
 signals::Dataset records_of(const TrialCase& trial_case);
 
-/// What further experiments would show of it, on another day: their records by name.
+/// What further experiments would show of it, on another day: their records by name. None of finite
+/// strain, where they would take an hour.
 std::vector<std::pair<std::string, signals::Dataset>> further_records_of(
     const TrialCase& trial_case);
 
 /// The simulation of the sensor as designed: the same takes without one at rest, free of noise.
-signals::Dataset simulated_records(std::uint64_t seed);
+signals::Dataset simulated_records(std::uint64_t seed, Physics physics = Physics::modes);
 
 }  // namespace vibrissa::trial

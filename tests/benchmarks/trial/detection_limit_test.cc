@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "benchmarks/trial/solid_motion.h"
 #include "benchmarks/trial/trial_case.h"
 
 namespace vibrissa::trial {
@@ -83,6 +84,14 @@ TEST(DrawCase, TakesEachEffectOutOfTheCatalogueInTurn) {
   // In the order of the catalogue, but for those that have an exact alias.
   EXPECT_THAT(left_out, testing::ElementsAre("hardening", "viscoelastic", "softening_history",
                                              "temperature_drift", "joint_friction"));
+}
+
+TEST(DrawCase, OfFiniteStrainAsksWhatTheSolidCanDo) {
+  for (std::size_t number = 0; number < 20; ++number) {
+    const TrialCase drawn = draw_case(3, number, Physics::finite_strain);
+    EXPECT_TRUE(is_of_the_solid(drawn.world)) << number;
+    EXPECT_TRUE(further_records_of(drawn).empty());
+  }
 }
 
 TEST(DrawCase, RecordsOfASensorThatIsAsDesignedAreTheSimulationAndNoise) {
