@@ -266,6 +266,20 @@ TEST(Trial, RanksShareOneQueue) {
   EXPECT_EQ(json::parse(child.output)["answered"], 4) << child.output;
 }
 
+TEST(Trial, RefusesFurtherExperimentsThatItDoesNotHold) {
+  const Folder folder;
+  folder.write("trial.json", json{{"schema", "vibrissa-trial-1"},
+                                  {"seed", 1},
+                                  {"cases", json::array()},
+                                  {"further_experiments", json::array()},
+                                  {"labels_commitment_sha256", ""},
+                                  {"labels_sealed", ""}}
+                                 .dump());
+  const auto run = vibrissa("trial run --further " + quoted(folder.file("")));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.errors, HasSubstr("without --further"));
+}
+
 TEST(Trial, RefusesAFolderThatIsNone) {
   const auto run = vibrissa("trial run /nonexistent");
   EXPECT_EQ(run.status, 2);
