@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <random>
 #include <set>
 
-#include "benchmarks/trial/detection_limit.h"
+#include "benchmarks/trial/effect_draw.h"
 #include "benchmarks/trial/solid_motion.h"
 
 namespace vibrissa::trial {
@@ -29,32 +28,6 @@ bool has_exact_alias(const std::string& id) {
   return aliased.count(id) != 0;
 }
 
-/// Sizes in detection limits.
-struct Sizes {
-  double low = smallest_in_limits, high = largest_in_limits;
-};
-
-/// Adds an unknown of a size and shape by chance to the case, where the bench shows it in range.
-bool try_effect(TrialCase& out, const LikelihoodRatio& test, const Unknown& unknown,
-                std::mt19937_64& random, const Sizes& sizes) {
-  std::uniform_real_distribution<double> uniform;
-  const double sign = unknown.either_sign && uniform(random) < 0.5 ? -1. : 1.;
-  const double shape = uniform(random), place = uniform(random);
-  if (std::any_of(out.effects.begin(), out.effects.end(),
-                  [&](const CaseEffect& there) { return there.id == unknown.id; }))
-    return false;
-  const std::optional<double> limit = detection_limit(test, unknown, sign, shape);
-  if (!limit || (unknown.fixed_size && sizes.high < 1.)) return false;
-  const double largest = std::min(sizes.high, unknown.largest / *limit);
-  if (largest < sizes.low) return false;
-  const double size = unknown.fixed_size
-                          ? unknown.largest
-                          : *limit * sizes.low * std::pow(largest / sizes.low, place);
-  unknown.apply(out.world, sign * size, shape);
-  out.effects.push_back({unknown.id, sign * size, *limit});
-  return true;
-}
-
 bool can_do(const Physics physics, const Unknown& unknown) {
   if (physics == Physics::modes) return true;
   World world;
@@ -67,9 +40,9 @@ std::vector<Unknown> those_of(const Physics physics, std::vector<Unknown> list) 
   return list;
 }
 
-void add_by_chance(TrialCase& out, const LikelihoodRatio& test, const std::vector<Unknown>& list,
-                   std::mt19937_64& random, const Sizes& sizes) {
-  while (!try_effect(out, test, list[random() % list.size()], random, sizes)) continue;
+std::vector<Unknown> without_aliases(std::vector<Unknown> list) {
+  std::erase_if(list, [](const Unknown& unknown) { return has_exact_alias(unknown.id); });
+  return list;
 }
 
 /// How many cases of a kind come before the one of that number.
@@ -80,11 +53,19 @@ std::size_t n_before(const CaseClass kind, const std::size_t number) {
   return number / turns.size() * in(turns.size()) + in(number % turns.size());
 }
 
-/// The first that can be asked from the one whose turn it is.
-void add_in_turn(TrialCase& out, const LikelihoodRatio& test, std::vector<Unknown> list,
-                 std::size_t turn, std::mt19937_64& random, const Sizes& sizes) {
-  std::erase_if(list, [](const Unknown& unknown) { return has_exact_alias(unknown.id); });
-  while (!try_effect(out, test, list[turn % list.size()], random, sizes)) ++turn;
+void add_effects(TrialCase& out, const std::size_t number, std::mt19937_64& random) {
+  const std::vector<Unknown> named = those_of(out.physics, named_unknowns());
+  EffectDraw draw(out, random);
+  const std::size_t n_named = out.kind == triple   ? 3
+                              : out.kind == pair   ? 2
+                              : out.kind == single ? 1
+                                                   : 0;
+  for (std::size_t i = 0; i < n_named; ++i) draw.add_by_chance(named);
+  if (out.kind == nameless) draw.add_by_chance(those_of(out.physics, nameless_unknowns()));
+  if (out.kind == below_limit) draw.add_by_chance(named, {0.25, 0.2500001});
+  if (out.kind != left_out) return;
+  draw.add_in_turn(without_aliases(named), n_before(left_out, number));
+  out.left_out = {out.effects.front().id};
 }
 
 void take_as_built(World& world, std::mt19937_64& random) {
@@ -151,23 +132,7 @@ TrialCase draw_case(const std::uint64_t seed, const std::size_t number, const Ph
   out.session = {.takes = usual_takes(), .seed = out.seed};
   for (const Take& take : transfer_takes()) out.session.takes.push_back(take);
   out.world = plain_world(random);
-  const World plain = out.world;
-  std::optional<LikelihoodRatio> test;
-  const std::vector<Unknown> named = those_of(physics, named_unknowns()),
-                             nameless_ones = those_of(physics, nameless_unknowns());
-  const auto ratio = [&]() -> const LikelihoodRatio& {
-    return test ? *test : test.emplace(plain, out.session);
-  };
-  const std::size_t n_named = out.kind == triple   ? 3
-                              : out.kind == pair   ? 2
-                              : out.kind == single ? 1
-                                                   : 0;
-  for (std::size_t i = 0; i < n_named; ++i) add_by_chance(out, ratio(), named, random, {});
-  if (out.kind == left_out)
-    add_in_turn(out, ratio(), named, n_before(left_out, number), random, {});
-  if (out.kind == nameless) add_by_chance(out, ratio(), nameless_ones, random, {});
-  if (out.kind == below_limit) add_by_chance(out, ratio(), named, random, {0.25, 0.2500001});
-  if (out.kind == left_out) out.left_out = {out.effects.front().id};
+  add_effects(out, number, random);
   if (out.kind == retune_only) take_as_built(out.world, random);
   return out;
 }

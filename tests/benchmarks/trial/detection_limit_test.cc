@@ -87,7 +87,7 @@ TEST(DrawCase, TakesEachEffectOutOfTheCatalogueInTurn) {
 }
 
 TEST(DrawCase, OfFiniteStrainAsksWhatTheSolidCanDo) {
-  for (std::size_t number = 0; number < 20; ++number) {
+  for (std::size_t number = 0; number < 10; ++number) {
     const TrialCase drawn = draw_case(3, number, Physics::finite_strain);
     EXPECT_TRUE(is_of_the_solid(drawn.world)) << number;
     EXPECT_TRUE(further_records_of(drawn).empty());

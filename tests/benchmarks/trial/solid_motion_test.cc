@@ -13,7 +13,7 @@
 namespace vibrissa::trial {
 namespace {
 
-constexpr double duration_s = 0.4, from_s = 0.2;
+constexpr double duration_s = 0.3, from_s = 0.15;
 
 /// Of a stage that shakes at two frequencies around the resonance, with a rise of its own.
 double stage(double t) {
