@@ -136,6 +136,24 @@ std::vector<Take> usual_takes() {
        .drive = 8}};
 }
 
+std::vector<Take> short_takes() {
+  const auto multisine = [](const std::string& name, double rms, std::uint64_t drive) {
+    return Take{
+        .name = name, .base_rms = rms, .n_samples = 2048, .period_samples = 1024, .drive = drive};
+  };
+  return {{.name = "quiet", .n_samples = 2000, .drive = 1},
+          multisine("base_low", 0.8, 2),
+          multisine("base_high", 4.4, 3),
+          {.name = "wind", .wind_mean = 1.6, .n_samples = 2500, .drive = 5},
+          {.name = "combined", .base_rms = 2.5, .wind_mean = 1.6, .n_samples = 2500, .drive = 6},
+          {.name = "held_out",
+           .base_rms = 2.9,
+           .wind_mean = 2.,
+           .n_samples = 2500,
+           .split = signals::Split::held_out,
+           .drive = 7}};
+}
+
 std::vector<Take> transfer_takes() {
   using signals::Split;
   return {{.name = "other_level",

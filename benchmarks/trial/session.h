@@ -26,6 +26,9 @@ struct Take {
 
 /// At rest, two levels, the higher one twice, wind, both; two more are held out.
 std::vector<Take> usual_takes();
+/// Two thirds less of all, for motions that take long to compute: at rest, two levels, wind, both;
+/// one more is held out.
+std::vector<Take> short_takes();
 /// Another level and another wind, to see how far an answer carries.
 std::vector<Take> transfer_takes();
 

@@ -26,7 +26,7 @@ class SolidMotion : public Motion {
   ~SolidMotion() override;
 
   std::size_t steps_per_sample() const override { return 8; }
-  /// Some 3 ms a step.
+  /// Some 5 ms a step.
   std::vector<double> base_moment(const std::vector<double>& acceleration,
                                   const std::vector<double>& wind, std::uint64_t seed) override;
 

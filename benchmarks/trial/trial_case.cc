@@ -79,6 +79,13 @@ void take_as_built(World& world, std::mt19937_64& random) {
   world.drag = off(built_drag);
 }
 
+std::vector<Take> takes_of(const Physics physics) {
+  if (physics == Physics::finite_strain) return short_takes();
+  std::vector<Take> out = usual_takes();
+  for (const Take& take : transfer_takes()) out.push_back(take);
+  return out;
+}
+
 signals::Dataset recorded(const Physics physics, const World& world, const Session& session) {
   const Structure& structure = structure_of(world.solid);
   if (physics == Physics::modes) return record_session(structure, world, session);
@@ -129,8 +136,7 @@ TrialCase draw_case(const std::uint64_t seed, const std::size_t number, const Ph
   out.kind = turns[number % turns.size()];
   out.seed = seed * 100000 + number;
   std::mt19937_64 random(out.seed);
-  out.session = {.takes = usual_takes(), .seed = out.seed};
-  for (const Take& take : transfer_takes()) out.session.takes.push_back(take);
+  out.session = {.takes = takes_of(physics), .seed = out.seed};
   out.world = plain_world(random);
   add_effects(out, number, random);
   if (out.kind == retune_only) take_as_built(out.world, random);
@@ -166,7 +172,7 @@ std::vector<std::pair<std::string, signals::Dataset>> further_records_of(
 
 signals::Dataset simulated_records(const std::uint64_t seed, const Physics physics) {
   World world;
-  Session session{.takes = usual_takes(), .seed = seed * 100000 + 99999, .noise = false};
+  Session session{.takes = takes_of(physics), .seed = seed * 100000 + 99999, .noise = false};
   std::erase_if(session.takes, [](const Take& take) {
     return take.split != signals::Split::fit || take.is_at_rest();
   });
