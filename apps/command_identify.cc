@@ -11,6 +11,7 @@
 #include "separation/identify.h"
 #include "separation/identify_response.h"
 #include "separation/output_only.h"
+#include "separation/sampled_bvrm.h"
 #include "signals/error.h"
 #include "signals/formats/response_file.h"
 
@@ -76,7 +77,7 @@ void identify_from_response(const IdentifyCommandOptions& options) {
       separation::identify_response(response, {.order = options.identify.order,
                                                .max_order = options.identify.max_order,
                                                .direct_term = !options.no_direct_term});
-  if (options.model_file) separation::write_bvrm(*options.model_file, found.fit.model);
+  if (options.model_file) separation::write_bvrm(*options.model_file, {found.fit.model});
   if (options.common.json) {
     print_json(separation::identified_response_json(found));
     return;
@@ -117,12 +118,13 @@ void identify(const IdentifyCommandOptions& options) {
           ? separation::SplitRecord{all, options.record.read(*options.held_out_file)}
           : separation::hold_out_last_third(all);
   const auto result = separation::identify_bvrm(fit, held_out, identify);
-  if (options.model_file) separation::write_bvrm(*options.model_file, result.fit.model);
+  const separation::ModelEvidence evidence = separation::examine(result, fit, held_out);
+  if (options.model_file)
+    separation::write_bvrm(*options.model_file, {result.fit.model, result.hold});
   if (options.c_header_file) {
     separation::write_c_header(*options.c_header_file, result.fit.model,
                                {all.sampling_rate_hz(), result.hold});
   }
-  const separation::ModelEvidence evidence = separation::examine(result, fit, held_out);
   if (options.common.json) {
     print_json(separation::identification_report(result, evidence, options.method));
     return;

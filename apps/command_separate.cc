@@ -12,7 +12,7 @@
 #include "diagnosis/record_simulation.h"
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
-#include "separation/input_hold.h"
+#include "separation/sampled_bvrm.h"
 #include "separation/stream_methods.h"
 #include "separation/wind_speed.h"
 #include "signals/error.h"
@@ -29,7 +29,7 @@ struct SeparateOptions {
   RecordOptions record;
   std::string record_file;
   std::optional<std::string> model_file, truth_column, output_file, dtw_path_file;
-  std::string hold = "first_order";
+  std::optional<std::string> hold;
   separation::FdafOptions fdaf = {64, 512, {}, {}, 0.};
   std::vector<std::string> methods = {"fdaf"};
   std::optional<std::string> sensor_model_file;
@@ -48,6 +48,19 @@ std::vector<double> separate_by_mended_model(const std::string& file,
   return wind;
 }
 
+/// The base acceleration between its samples as told, else as the model's fit took it.
+std::unique_ptr<separation::BvrmSeparator> bvrm_separator(const SeparateOptions& options,
+                                                          const double sampling_rate_hz) {
+  const separation::SampledBvrm bvrm = separation::read_bvrm(*options.model_file);
+  std::optional<separation::Hold> told;
+  if (options.hold) told = separation::parse_hold(*options.hold);
+  const separation::Hold hold = bvrm.hold_or(told);
+  if (bvrm.hold && hold != *bvrm.hold && !options.common.quiet)
+    std::cerr << "vibrissa: " << *options.model_file << " was fitted to a " << to_string(*bvrm.hold)
+              << " base acceleration, which --hold takes as " << to_string(hold) << "\n";
+  return std::make_unique<separation::BvrmSeparator>(bvrm.model, sampling_rate_hz, hold);
+}
+
 std::vector<SeparatedSignal> separate_all(const SeparateOptions& options,
                                           const signals::Record& record,
                                           const std::vector<double>& truth) {
@@ -58,9 +71,8 @@ std::vector<SeparatedSignal> separate_all(const SeparateOptions& options,
     signals.push_back(score("mended_model", separate_by_mended_model(*options.model_file, record),
                             record, truth, options.settling_s));
   } else if (options.model_file) {
-    separation::BvrmSeparator bvrm(separation::read_bvrm(*options.model_file),
-                                   record.sampling_rate_hz(), separation::parse_hold(options.hold));
-    signals.push_back(score("bvrm", separation::separate_record(bvrm, record), record, truth,
+    const auto bvrm = bvrm_separator(options, record.sampling_rate_hz());
+    signals.push_back(score("bvrm", separation::separate_record(*bvrm, record), record, truth,
                             options.settling_s));
   }
   for (const auto& name : options.methods) {
@@ -118,10 +130,7 @@ void separate_as_stream(const SeparateOptions& options) {
   signals::RecordStream record(options.record_file, options.record.read_options());
   std::vector<NamedSeparator> methods;
   if (options.model_file)
-    methods.push_back(
-        {"bvrm", std::make_unique<separation::BvrmSeparator>(
-                     separation::read_bvrm(*options.model_file), record.sampling_rate_hz(),
-                     separation::parse_hold(options.hold))});
+    methods.push_back({"bvrm", bvrm_separator(options, record.sampling_rate_hz())});
   for (const auto& name : options.methods)
     methods.push_back({name, separation::stream_method(name).make(options.fdaf)});
   separate_stream(record, methods, *options.output_file, options.common.is_talkative());
@@ -178,10 +187,9 @@ void add_separate_command(CLI::App& app) {
       "--model", options->model_file,
       "BVRM as JSON, from 'vibrissa identify -o', or mended_model.json of a diagnosis (without it: "
       "adaptive filter only)");
-  command
-      ->add_option("--hold", options->hold,
-                   "Base acceleration between samples: first_order, zero_order or band_limited")
-      ->capture_default_str();
+  command->add_option("--hold", options->hold,
+                      "Base acceleration between samples: first_order, zero_order or band_limited "
+                      "(default: as the model was fitted, else first_order)");
   std::string known;
   for (const auto& method : separation::stream_methods())
     known += "\n  " + method.name + ": " + method.about;

@@ -26,6 +26,7 @@
 #include "separation/bvrm_separator.h"
 #include "separation/fdaf.h"
 #include "separation/identify.h"
+#include "separation/sampled_bvrm.h"
 #include "signals/band_limited_simulation.h"
 #include "signals/error.h"
 #include "signals/record_io.h"
@@ -145,7 +146,8 @@ void write_results(const report::RunFolder& folder, const fem::Sensor& sensor,
   signals::write_record(folder.file("records/both.csv"), results.records.both);
   signals::write_record(folder.file("records/separated.csv"),
                         separated_record(results.records, results.separated));
-  separation::write_bvrm(folder.file("bvrm.json"), results.identified.fit.model);
+  separation::write_bvrm(folder.file("bvrm.json"),
+                         {results.identified.fit.model, results.identified.hold});
   folder.write_text("metrics.csv", separation_table(results.separated).to_csv());
   for (const auto& figure : figures) report::write_figure(folder.path(), figure);
 }

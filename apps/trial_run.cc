@@ -1,5 +1,6 @@
 #include "apps/trial_run.h"
 
+#include <exception>
 #include <random>
 
 #include "apps/trial_files.h"
@@ -18,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr int bad_input = 2, too_poor_data = 3, fault = 70;
 
 /// What is said once the records of a further experiment are there, too.
 json answer_after(const std::string& experiment, const fs::path& folder, signals::Dataset real,
@@ -44,20 +43,20 @@ std::string by_chance(std::vector<std::string> experiments, const std::string& r
   return experiments.empty() ? "" : experiments[random() % experiments.size()];
 }
 
-/// After the recommended experiment and after another one; why not, where that fails: the first
-/// answer stands.
+/// After the recommended experiment and after another one.
 json answers_after(const TrialIndex& trial, const TrialEntry& entry, const signals::Dataset& real,
                    const diagnosis::NominalModel& nominal,
                    const diagnosis::DiagnoseOptions& settings, const std::string& recommended) {
-  const fs::path folder = trial.folder / entry.name;
-  json out = json::object();
-  try {
-    out["recommended"] = answer_after(recommended, folder, real, nominal, settings);
-    const std::string other = by_chance(trial.further_experiments, recommended, entry.name);
-    if (!other.empty()) out["by_chance"] = answer_after(other, folder, real, nominal, settings);
-  } catch (const std::exception& error) {
-    out["further_message"] = error.what();
-  }
+  const auto after = [&](const std::string& experiment) -> json {
+    try {
+      return answer_after(experiment, trial.folder / entry.name, real, nominal, settings);
+    } catch (const std::exception& error) {
+      return {{"experiment", experiment}, {"message", error.what()}};
+    }
+  };
+  json out{{"recommended", after(recommended)}};
+  const std::string other = by_chance(trial.further_experiments, recommended, entry.name);
+  if (!other.empty()) out["by_chance"] = after(other);
   return out;
 }
 
@@ -113,16 +112,23 @@ TrialRunSummary run_trial(const fs::path& folder, const TrialRunOptions& options
   // Every rank has made the same list before the first answer is written.
   TrialQueue queue;
   signals::Progress progress("sensors", open.size(), options.show_progress && queue.rank() == 0);
-  for (std::size_t i = queue.next(); i < open.size(); i = queue.next()) {
-    const json said = answer(trial, *open[i], nominal, options);
-    signals::write_file(trial.answer_file(*open[i]),
-                        [&](std::ostream& out) { out << said.dump(1) << "\n"; });
-    const int status = said["exit_status"];
-    ++(status == 0 ? summary.answered : status == fault ? summary.failed : summary.refused);
-    progress.advance(static_cast<std::size_t>(queue.n_ranks()));
+  std::exception_ptr failure;
+  try {
+    for (std::size_t i = queue.next(); i < open.size(); i = queue.next()) {
+      const json said = answer(trial, *open[i], nominal, options);
+      signals::write_file(trial.answer_file(*open[i]),
+                          [&](std::ostream& out) { out << said.dump(1) << "\n"; });
+      const int status = said["exit_status"];
+      ++(status == 0 ? summary.answered : status == fault ? summary.failed : summary.refused);
+      progress.advance(static_cast<std::size_t>(queue.n_ranks()));
+    }
+  } catch (...) {
+    // The other ranks wait for this one at the end, disk or no disk.
+    failure = std::current_exception();
   }
   const std::vector<unsigned long> all =
       queue.total({summary.answered, summary.refused, summary.failed});
+  if (failure) std::rethrow_exception(failure);
   summary.answered = all[0];
   summary.refused = all[1];
   summary.failed = all[2];

@@ -148,6 +148,8 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
 std::optional<bool> resolved(const ScoredCase& c, const json& answer, const char* which) {
   if (!answer.contains(which)) return std::nullopt;
   const json& after = answer.at(which);
+  // What no answer came of has resolved nothing.
+  if (!after.contains("verdict")) return false;
   return diagnosis::n_known(after.at("confidence_set").get<std::vector<std::string>>()) == 1 &&
          is_right(c.kind, c.truth, after.at("verdict"));
 }
@@ -165,7 +167,7 @@ ScoredCase scored(const std::string& name, const json& label, const json& answer
   out.exit_status = answer.at("exit_status");
   if (out.exit_status != 0) {
     out.verdict = "refused";
-    out.right = out.kind == "wrong_metadata";
+    out.right = out.kind == "wrong_metadata" && out.exit_status == bad_input;
     return out;
   }
   out.seconds = answer.at("seconds");
@@ -187,7 +189,8 @@ void count(TrialScore& out, const ScoredCase& c) {
   if (c.kind == "single" && c.size_in_limits >= well_above) {
     out.shares["single at 3 limits, right"].add(c.right);
     out.shares["single at 3 limits, right within sets"].add(c.right_within_set);
-    out.shares["single at 3 limits, not called none"].add(c.verdict != "none");
+    out.shares["single at 3 limits, not called none"].add(c.exit_status == 0 &&
+                                                          c.verdict != "none");
   }
   if (c.kind == "single") out.shares["single of all sizes, right"].add(c.right);
   if (in_catalogue) out.shares["top three"].add(c.in_top_three);

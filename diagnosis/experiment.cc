@@ -385,9 +385,12 @@ ChannelNoise channel_noise(const signals::Dataset& dataset) {
       const std::size_t n_periods = period > 0 && entry.record.n_samples() % period == 0
                                         ? entry.record.n_samples() / period
                                         : 1;
+      // What no period repeats is noise, but of the moment where wind blows: gusts do not either.
+      const bool repeats =
+          n_periods > 1 && !(name == channel::base_moment && entry.excitation.wind);
       // The upper half of the spectrum: slow drift is no noise of the samples.
       for (std::size_t k = lines.end / 2; k + 1 < lines.end; ++k)
-        if (still || (n_periods > 1 && k % n_periods != 0)) {
+        if (still || (repeats && k % n_periods != 0)) {
           sum += std::norm(lines.spectrum[k]) / n;
           count += 1.;
         }

@@ -28,6 +28,12 @@ double positive(const JsonEntry& entry) {
   return value;
 }
 
+double not_negative(const JsonEntry& entry) {
+  const double value = entry.number();
+  entry.require(value >= 0., "must not be negative");
+  return value;
+}
+
 StructuralMode read_mode(const JsonEntry& entry) {
   return {.frequency_rad_s = positive(entry["frequency_rad_s"]),
           .damping_ratio = positive(entry["damping_ratio"]),
@@ -125,7 +131,7 @@ Scales read_scales(const JsonEntry& entry) {
   return {.joint_moment_n_m = positive(entry["joint_moment_n_m"]),
           .duration_s = positive(entry["duration_s"]),
           .first_mode_rad_s = positive(entry["first_mode_rad_s"]),
-          .static_gain = positive(entry["static_gain_n_m_per_m_s2"]),
+          .static_gain = not_negative(entry["static_gain_n_m_per_m_s2"]),
           .moment_rms_n_m = positive(entry["moment_rms_n_m"])};
 }
 

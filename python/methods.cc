@@ -15,6 +15,7 @@
 #include "separation/bvrm_separator.h"
 #include "separation/identification_json.h"
 #include "separation/identify.h"
+#include "separation/sampled_bvrm.h"
 #include "separation/stream_methods.h"
 #include "signals/decimal_point.h"
 #include "signals/output_file.h"
@@ -23,7 +24,7 @@ namespace vibrissa::python {
 namespace {
 
 namespace py = pybind11;
-using separation::Bvrm;
+using separation::SampledBvrm;
 using signals::Record;
 
 py::array_t<double> to_array(const std::vector<double>& values) {
@@ -31,12 +32,11 @@ py::array_t<double> to_array(const std::vector<double>& values) {
 }
 
 // Model and report of `vibrissa identify --json`.
-std::pair<Bvrm, std::string> identify(const Record& record, const std::optional<Record>& held_out,
-                                      const std::optional<std::size_t> order,
-                                      const std::size_t max_order, const std::size_t period_samples,
-                                      const std::string& method,
-                                      const std::optional<std::string>& hold,
-                                      const bool direct_term) {
+std::pair<SampledBvrm, std::string> identify(
+    const Record& record, const std::optional<Record>& held_out,
+    const std::optional<std::size_t> order, const std::size_t max_order,
+    const std::size_t period_samples, const std::string& method,
+    const std::optional<std::string>& hold, const bool direct_term) {
   separation::IdentifyOptions options;
   options.method = separation::parse_identify_method(method);
   options.order = order;
@@ -49,21 +49,22 @@ std::pair<Bvrm, std::string> identify(const Record& record, const std::optional<
   const auto found = separation::identify_bvrm(fit, scored, options);
   const auto report =
       separation::identification_report(found, separation::examine(found, fit, scored), method);
-  return {found.fit.model, report.dump()};
+  return {{found.fit.model, found.hold}, report.dump()};
 }
 
 std::map<std::string, py::array_t<double>> separate(const Record& record,
-                                                    const std::optional<Bvrm>& model,
+                                                    const std::optional<SampledBvrm>& model,
                                                     const std::vector<std::string>& methods,
                                                     const std::size_t block, const std::size_t taps,
                                                     const std::optional<double> step,
-                                                    const std::string& hold) {
+                                                    const std::optional<std::string>& hold) {
   std::map<std::string, std::vector<double>> found;
   {
     const py::gil_scoped_release released;
     if (model) {
-      separation::BvrmSeparator bvrm(*model, record.sampling_rate_hz(),
-                                     separation::parse_hold(hold));
+      std::optional<separation::Hold> told;
+      if (hold) told = separation::parse_hold(*hold);
+      separation::BvrmSeparator bvrm(model->model, record.sampling_rate_hz(), model->hold_or(told));
       found["bvrm"] = separation::separate_record(bvrm, record);
     }
     separation::FdafOptions options = {block, taps, {}, {}, 0.};
@@ -113,25 +114,25 @@ py::array_t<double> simulate(const diagnosis::MendedModel& model, const Record& 
 }
 
 void add_models(py::module_& module) {
-  py::class_<Bvrm>(module, "Bvrm",
-                   "Base vibration response model: base acceleration to base moment.")
+  py::class_<SampledBvrm>(module, "Bvrm",
+                          "Base vibration response model: base acceleration to base moment.")
       .def_static("read", &separation::read_bvrm, py::arg("file"))
       .def(
           "write",
-          [](const Bvrm& model, const std::filesystem::path& file) {
+          [](const SampledBvrm& model, const std::filesystem::path& file) {
             separation::write_bvrm(file, model);
           },
           py::arg("file"))
       .def(
           "response",
-          [](const Bvrm& model, const std::vector<double>& frequency_hz) {
-            const auto values = separation::response(model, frequency_hz);
+          [](const SampledBvrm& model, const std::vector<double>& frequency_hz) {
+            const auto values = separation::response(model.model, frequency_hz);
             return py::array_t<std::complex<double>>(static_cast<py::ssize_t>(values.size()),
                                                      values.data());
           },
           py::arg("frequency_hz"), "Base moment over base acceleration [kg m], exp(+j w t).")
-      .def_property_readonly("json",
-                             [](const Bvrm& model) { return separation::to_json(model).dump(); });
+      .def_property_readonly(
+          "json", [](const SampledBvrm& model) { return separation::to_json(model).dump(); });
   py::class_<diagnosis::MendedModel>(
       module, "Model", "A simulation: nominal model and the effects known to be there.")
       .def_static("read", &read_model, py::arg("file"), "model.json or mended_model.json.")

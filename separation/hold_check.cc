@@ -55,6 +55,12 @@ Candidate try_hold(const Bvrm& model, std::span<const Segment> segments, double 
   return result;
 }
 
+bool is_told_from_aliases(const Bvrm& model, const Hold hold, const double rate_hz) {
+  return std::ranges::all_of(model.modes, [&](const ModalTerm& mode) {
+    return std::sqrt(mode.a0) < highest_rad_s(hold, rate_hz);
+  });
+}
+
 // Differences below this share of the squared moment are rounding.
 bool smaller_residual(const Candidate& told, const Candidate& other, double mean_square_moment) {
   const double gain =
@@ -106,8 +112,9 @@ HoldDiagnosis check_hold(const Bvrm& model, std::span<const Segment> segments,
                          double sampling_rate_hz, const SrivcOptions& told) {
   if (model.modes.empty()) throw signals::UserError("hold check: the model has no mode");
   std::vector<Candidate> candidates{try_hold(model, segments, sampling_rate_hz, told, told.hold)};
+  // A mode that a band-limited input tells from its aliases may be beyond what others do.
   for (const Hold hold : {Hold::zero_order, Hold::first_order, Hold::band_limited})
-    if (hold != told.hold)
+    if (hold != told.hold && is_told_from_aliases(model, hold, sampling_rate_hz))
       candidates.push_back(try_hold(model, segments, sampling_rate_hz, told, hold));
 
   HoldDiagnosis diagnosis{.told = told.hold, .likely = told.hold, .words = {}, .trials = {}};

@@ -90,7 +90,9 @@ ModelEvidence examine(const Identification& identification, const signals::Recor
   SrivcOptions told;
   told.hold = identification.hold;
   told.direct_term = model.direct_term_kg_m != 0.;
-  return {poles_and_zeros(identification.fit), test_residual(residual, input),
+  ResidualTestOptions lags;
+  lags.max_lag = std::min(lags.max_lag, residual.size() / samples_per_lag);
+  return {poles_and_zeros(identification.fit), test_residual(residual, input, lags),
           check_hold(model, segments, fitted.sampling_rate_hz(), told)};
 }
 

@@ -2,7 +2,6 @@
 
 #include <complex>
 #include <cstddef>
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -56,7 +55,5 @@ nlohmann::json to_json(const Bvrm& model);
 /// missing, unknown, of the wrong kind, not finite, unstable, or for a frequency_hz or
 /// damping_ratio that contradicts a0 and a1.
 Bvrm bvrm_from_json(const nlohmann::json& json, const std::string& where);
-Bvrm read_bvrm(const std::filesystem::path& file);
-void write_bvrm(const std::filesystem::path& file, const Bvrm& model);
 
 }  // namespace vibrissa::separation

@@ -4,9 +4,7 @@
 
 #include "separation/rational_model.h"
 #include "signals/error.h"
-#include "signals/json_input.h"
 #include "signals/number_text.h"
-#include "signals/output_file.h"
 
 namespace vibrissa::separation {
 
@@ -102,16 +100,6 @@ Bvrm bvrm_from_json(const json& value, const std::string& where) {
   model.direct_term_kg_m = object.number("direct_term_kg_m");
   model.delay_s = object.has("delay_s") ? object.number("delay_s") : 0.;
   return model;
-}
-
-Bvrm read_bvrm(const std::filesystem::path& file) {
-  return bvrm_from_json(signals::read_json(file), file.string());
-}
-
-void write_bvrm(const std::filesystem::path& file, const Bvrm& model) {
-  check(model);
-  signals::write_file(file,
-                      [&](std::ostream& stream) { stream << to_json(model).dump(2) << '\n'; });
 }
 
 }  // namespace vibrissa::separation

@@ -115,10 +115,10 @@ ResidualTests test_residual(std::span<const double> residual,
   if (base_acceleration.size() != n)
     throw UserError("residual tests: " + std::to_string(n) + " samples of residual, but " +
                     std::to_string(base_acceleration.size()) + " of base acceleration");
-  if (options.max_lag == 0 || n < 8 * options.max_lag)
+  if (options.max_lag == 0 || n < samples_per_lag * options.max_lag)
     throw UserError("residual tests: " + std::to_string(n) +
                     " samples are too few for lags up to " + std::to_string(options.max_lag) +
-                    " (at least 8 a lag, and one lag)");
+                    " (at least " + std::to_string(samples_per_lag) + " a lag, and one lag)");
   if (!(options.false_alarm > 0. && options.false_alarm < 1.))
     throw UserError("residual tests: false_alarm must lie between 0 and 1");
   const auto memory = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));

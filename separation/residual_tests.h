@@ -7,6 +7,9 @@
 
 namespace vibrissa::separation {
 
+/// At least.
+inline constexpr std::size_t samples_per_lag = 8;
+
 struct ResidualTestOptions {
   std::size_t max_lag = 25;
   /// Chance that a residual that has nothing to hide is called suspicious, over all lags together.
@@ -39,7 +42,7 @@ struct ResidualTests {
 /// Asks of a residual (measured minus simulated moment) whether the model left something that the
 /// data tell: is it white, and does it still follow the base acceleration? A coloured residual
 /// alone does no harm to a model fitted by output error; one that follows the input does. Means are
-/// removed. Throws UserError for unequal lengths, fewer than 8 samples a lag, a constant signal,
+/// removed. Throws UserError for unequal lengths, fewer samples a lag, a constant signal,
 /// values that are not finite, or a false_alarm outside (0, 1). Proven by
 /// tests/separation/residual_tests_test.cc: rates of false alarms and of detection.
 ResidualTests test_residual(std::span<const double> residual,

@@ -19,6 +19,10 @@ const std::vector<std::string> record_keys{
     "file",    "excitation",    "period_samples", "split",      "setup", "sampling_rate_hz",
     "readout", "clock_start_s", "columns",        "remove_mean"};
 
+/// Of the whole; those that records share as well.
+const std::vector<std::string> file_keys{
+    "schema", "records", "sampling_rate_hz", "columns", "remove_mean", "readout", "setup"};
+
 /// Where an entry of dataset.json stands, and what is wrong with it.
 [[noreturn]] void refuse(const std::string& where, const std::string& reason) {
   throw UserError(where + ": " + reason);
@@ -116,6 +120,21 @@ ReadOptions options_of(const json& document, const json& entry, const std::strin
   return options;
 }
 
+/// Entries that mean nothing may stand beside those of the whole, but for those that would have
+/// meant something: of a record alone, or misspelt.
+void refuse_misplaced(const json& document, const std::string& name) {
+  const auto holds = [](const std::vector<std::string>& keys, const std::string& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
+  for (const auto& item : document.items()) {
+    if (holds(file_keys, item.key())) continue;
+    if (holds(record_keys, item.key()))
+      refuse(name + ": /" + item.key(), "is told of each record, not of the whole dataset");
+    if (!nearest_name(item.key(), file_keys).empty())
+      refuse(name, unknown_name("entry", item.key(), file_keys));
+  }
+}
+
 DatasetRecord read_entry(const fs::path& folder, const json& document, const json& entry,
                          const std::string& where, const ReadOptions& given) {
   if (!entry.is_object()) refuse(where, "is no object");
@@ -148,6 +167,7 @@ Dataset read_described(const fs::path& folder, const fs::path& file, const ReadO
   if (!document.contains("records") || !document["records"].is_array() ||
       document["records"].empty())
     refuse(name + ": /records", "must list at least one record");
+  refuse_misplaced(document, name);
   Dataset dataset;
   for (std::size_t i = 0; i < document["records"].size(); ++i)
     dataset.records.push_back(read_entry(folder, document, document["records"][i],

@@ -37,7 +37,9 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 // Longer input is no slip of the finger, and its distance to every name would cost too much.
 constexpr std::size_t longest_name = 200;
 
-// Empty when nothing is near enough: a wrong hint is worse than none.
+}  // namespace
+
+// A wrong hint is worse than none.
 std::string nearest_name(const std::string& given, const std::vector<std::string>& known) {
   if (given.size() > longest_name) return {};
   const std::string lower_given = lower_case(given);
@@ -56,8 +58,6 @@ std::string nearest_name(const std::string& given, const std::vector<std::string
   }
   return nearest;
 }
-
-}  // namespace
 
 std::string unknown_name(const std::string& kind, const std::string& given,
                          const std::vector<std::string>& known) {

@@ -175,7 +175,7 @@ std::vector<FurtherExperiment> further_experiments() {
         .name = name, .base_rms = rms, .n_samples = 4096, .period_samples = 2048, .drive = drive};
   };
   FurtherExperiment levels{.name = "level_ladder", .takes = {}}, winds{"wind_ladder", {}},
-      wide{"wide_band", {multisine("wide_band", 4.4, 51)}};
+      wide{"wide_band", {multisine("wide_band", 4.4, 91)}};
   for (const double factor : {0.25, 0.5, 1., 2.})
     levels.takes.push_back(
         multisine("level_" + std::to_string(levels.takes.size() + 1), 4.4 * factor, 41));

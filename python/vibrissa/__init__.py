@@ -87,10 +87,11 @@ def identify(record, *, held_out=None, order=None, max_order=6, period_samples=0
 
 
 def separate(record, *, model=None, methods=("fdaf",), block=64, taps=512, step=None,
-             hold="first_order"):
+             hold=None):
     """The wind's part of the base moment [N m], one array for each method.
 
-    `model`, a Bvrm or an Identification, adds the method "bvrm".
+    `model`, a Bvrm or an Identification, adds the method "bvrm". `hold`, how the base acceleration
+    runs between its samples, is by default as the model was fitted, else "first_order".
     """
     if isinstance(model, Identification):
         model = model.model

@@ -96,7 +96,7 @@ def separate(
     block: int = ...,
     taps: int = ...,
     step: Optional[float] = ...,
-    hold: str = ...,
+    hold: Optional[str] = ...,
 ) -> dict[str, _Array]: ...
 def diagnose(
     real: Union[_Path, Dataset],

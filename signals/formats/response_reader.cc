@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -55,6 +56,7 @@ class Columns {
     if (at == names.end()) return {};
     return static_cast<std::size_t>(at - names.begin());
   }
+  const std::string& name(const std::size_t column) const { return table_.columns()[column]; }
   Values values(const std::size_t column) const {
     const std::array<std::size_t, 1> wanted{column};
     return table_.read({wanted, 1, table_.n_rows()}).columns.front();
@@ -85,13 +87,21 @@ std::optional<Complex> by_parts(const Columns& columns, const std::string& real,
   return value;
 }
 
+bool is_in_decibels(std::string column) {
+  std::transform(column.begin(), column.end(), column.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return column.ends_with("db");
+}
+
 std::optional<Complex> by_magnitude(const Columns& columns) {
   const auto magnitude = columns.find_start("magnitude");
   const auto degrees = columns.find("phase_deg"), radians = columns.find("phase_rad");
   if (!magnitude || (!degrees && !radians)) return {};
   const double unit = degrees ? std::numbers::pi / 180. : 1.;
-  const Values r = columns.values(*magnitude),
-               phase = columns.values(degrees ? *degrees : *radians);
+  Values r = columns.values(*magnitude);
+  const Values phase = columns.values(degrees ? *degrees : *radians);
+  if (is_in_decibels(columns.name(*magnitude)))
+    for (double& value : r) value = std::pow(10., value / 20.);
   Complex value;
   for (std::size_t i = 0; i < r.size(); ++i)
     value.push_back(std::polar(1., unit * phase[i]) * r[i]);
@@ -107,8 +117,8 @@ Complex responses(const Columns& columns, const std::string& name) {
     if (auto value = by_parts(columns, "real", "imaginary")) return *value;
     if (auto value = by_magnitude(columns)) return *value;
     columns.refuse(
-        "no response (response_real and response_imaginary, real and imaginary, or magnitude and "
-        "phase_deg)");
+        "no response (response_real and response_imaginary, real and imaginary, or magnitude or "
+        "magnitude_dB and phase_deg)");
   }
   columns.refuse("no columns '" + name + "_real' and '" + name + "_imaginary'");
 }

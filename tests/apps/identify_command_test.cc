@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <random>
 
@@ -52,6 +53,38 @@ TEST(Identify, FindsTheSensorByEveryMethodAndSaysWhich) {
   const auto unknown = vibrissa("identify '" + record + "' --method arx");
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.errors, HasSubstr("output-error, srivc, frequency"));
+}
+
+TEST(Identify, OfAFewHundredSamplesEndsWithATableAndAModel) {
+  const Folder folder;
+  const std::string record = folder.file("r.csv"), model = folder.file("model.json");
+  signals::write_record(record, measured(300));
+  const auto result = vibrissa("identify --order 2 '" + record + "' -o '" + model + "'");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("31."));
+  EXPECT_TRUE(std::filesystem::exists(model));
+}
+
+/// What lies between the samples is told once, to identify.
+TEST(Separate, TakesTheInputBetweenSamplesAsTheModelWasFitted) {
+  const Folder folder;
+  const std::string record = folder.file("r.csv"), model = folder.file("model.json");
+  signals::write_record(record, measured(3000));
+  ASSERT_EQ(
+      vibrissa("identify --order 2 --hold zero_order '" + record + "' -o '" + model + "'").status,
+      0);
+  const auto wind = [&](const std::string& options) {
+    const std::string out = folder.file("wind.csv");
+    const auto result =
+        vibrissa("separate '" + record + "' --model '" + model + "' -o '" + out + "' " + options);
+    EXPECT_EQ(result.status, 0) << result.errors;
+    const bool is_told = result.errors.find("zero_order") != std::string::npos;
+    EXPECT_EQ(is_told, options.find("first_order") != std::string::npos) << result.errors;
+    return content(out);
+  };
+  EXPECT_EQ(wind(""), wind("--hold zero_order"));
+  EXPECT_NE(wind(""), wind("--hold first_order"));
+  EXPECT_EQ(wind("--stream"), wind("--stream --hold zero_order"));
 }
 
 TEST(Identify, FindsResonanceAndDampingWithoutAnyInputChannel) {

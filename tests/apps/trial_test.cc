@@ -158,11 +158,27 @@ TEST_F(WrittenTrial, CountsWhatFurtherExperimentsResolve) {
   undecided["recommended"] = after("sensor_lowpass", {"sensor_lowpass"});
   undecided.erase("by_chance");
   add("single", delay, undecided);
+  // An experiment that came to no answer resolved nothing.
+  undecided["recommended"] = {{"experiment", "wide_band"}, {"message", "no such file"}};
+  add("single", delay, undecided);
   const TrialScore score = score_trial(trial_, labels_);
   const Share recommended = score.shares.at("undecided, the recommended experiment resolves"),
               by_chance = score.shares.at("undecided, another one resolves");
-  EXPECT_EQ(std::pair(recommended.hits, recommended.of), std::pair(std::size_t{1}, std::size_t{2}));
+  EXPECT_EQ(std::pair(recommended.hits, recommended.of), std::pair(std::size_t{1}, std::size_t{3}));
   EXPECT_EQ(std::pair(by_chance.hits, by_chance.of), std::pair(std::size_t{0}, std::size_t{1}));
+}
+
+TEST_F(WrittenTrial, CountsNoFaultAsAnAnswer) {
+  const json delay = {{{"id", "delay"}, {"size", 1e-3}, {"limit", 1e-4}}};
+  for (const int status : {bad_input, too_poor_data, fault}) {
+    add("wrong_metadata", json::array(), {{"exit_status", status}, {"message", ""}});
+    add("single", delay, {{"exit_status", status}, {"message", ""}});
+  }
+  const TrialScore score = score_trial(trial_, labels_);
+  const Share noticed = score.shares.at("wrong metadata, noticed"),
+              named = score.shares.at("single at 3 limits, not called none");
+  EXPECT_EQ(std::pair(noticed.hits, noticed.of), std::pair(std::size_t{1}, std::size_t{3}));
+  EXPECT_EQ(std::pair(named.hits, named.of), std::pair(std::size_t{0}, std::size_t{3}));
 }
 
 TEST_F(WrittenTrial, CountsTheGapThatStandsOutOfTheNoiseOfItsOwnRecords) {

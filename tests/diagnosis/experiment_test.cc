@@ -126,6 +126,23 @@ TEST(ChannelNoise, IsTakenFromRestWhereThereIsSome) {
   EXPECT_NEAR(found.acceleration_m_s2, 0.05, 0.005);
 }
 
+/// Gusts repeat no more than noise does.
+TEST(ChannelNoise, IsNotWhatWindAddsToAPeriodicDrive) {
+  signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
+  const double before = channel_noise(dataset).moment_n_m;
+  signals::DatasetRecord& driven = dataset.records[1];
+  ASSERT_GT(driven.period_samples, 0u);
+  std::mt19937 random(1);
+  std::normal_distribution<double> gust(0., 1e-4);
+  const auto still = driven.record.channel(signals::channel::base_moment);
+  std::vector<double> moved(still.begin(), still.end());
+  for (double& m : moved) m += gust(random);
+  driven.record.set_channel(signals::channel::base_moment, moved);
+  EXPECT_GT(channel_noise(dataset).moment_n_m, 10. * before);
+  driven.excitation.wind = true;
+  EXPECT_NEAR(channel_noise(dataset).moment_n_m, before, 0.1 * before);
+}
+
 TEST(PrepareExperiment, LeavesOutRecordsThatAreTooShort) {
   const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
   signals::Dataset dataset = test::rig_dataset(test::noisy_rig());

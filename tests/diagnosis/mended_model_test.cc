@@ -128,6 +128,13 @@ TEST_F(MendedModelFile, KeepsWhatAFiniteElementModelTold) {
   EXPECT_NE(simulate_moment(model, inputs), simulate_moment(soft_model(true), inputs));
 }
 
+TEST_F(MendedModelFile, OfASimulationWithoutBaseMotionIsReadBack) {
+  MendedModel model = soft_model(true);
+  for (KnownEffect& known : model.effects) known.scales.static_gain = 0.;
+  write(mended_model_json(model));
+  EXPECT_EQ(mended_model_json(read_mended_model(file_)), mended_model_json(model));
+}
+
 TEST_F(MendedModelFile, RefusesPathsAndCurvesThatDoNotFit) {
   const std::string good = mended_model_json(model_with_paths());
   EXPECT_THAT(message_of(replaced(good, "0.28", "0.28, 0.3")),

@@ -3,22 +3,23 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "separation/rational_model.h"
+#include "separation/sampled_bvrm.h"
 #include "signals/error.h"
 #include "tests/fuzz/file_of_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vibrissa;
   const fuzz::FileOfBytes file(data, size);
-  separation::Bvrm model;
+  separation::SampledBvrm model;
   try {
     model = separation::read_bvrm(file.path());
   } catch (const signals::UserError&) {
     return 0;
   }
-  separation::check(model);
+  separation::check(model.model);
   const auto json = separation::to_json(model);
-  const auto again = separation::bvrm_from_json(nlohmann::json::parse(json.dump()), "again");
+  const auto again =
+      separation::sampled_bvrm_from_json(nlohmann::json::parse(json.dump()), "again");
   if (separation::to_json(again) != json) std::abort();
   return 0;
 }

@@ -57,6 +57,15 @@ TEST(HoldCheck, IsSilentAboutTheViscousPartOfTheMoment) {
   EXPECT_EQ(diagnose(truth, Hold::zero_order, Hold::first_order, true).likely, Hold::zero_order);
 }
 
+TEST(HoldCheck, LeavesOutHoldsUnderWhichAModeIsNotToldFromItsAlias) {
+  Bvrm truth = test::sensor(1, -2e-7);
+  truth.modes.push_back(make_modal_term(0.64 * rate_hz, 0.02, -1e-6));
+  const HoldDiagnosis found = diagnose(truth, Hold::band_limited, Hold::band_limited, true);
+  EXPECT_EQ(found.trials.size(), 1u);
+  EXPECT_EQ(found.likely, Hold::band_limited);
+  EXPECT_THAT(found.words, IsEmpty());
+}
+
 TEST(HoldCheck, SaysHowLargeTheDelayIsAndThatAShiftLooksTheSame) {
   EXPECT_THAT(
       diagnose(test::sensor(1, -2e-7), Hold::zero_order, Hold::first_order, true).words,

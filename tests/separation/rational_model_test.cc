@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -59,38 +57,6 @@ TEST(Bvrm, IsRefusedWhenAModeIsUnstableOrNotFinite) {
   model = test::sensor(1);
   model.delay_s = std::numeric_limits<double>::infinity();
   EXPECT_THAT([&] { check(model); }, ThrowsMessage<UserError>(HasSubstr("delay_s")));
-}
-
-void expect_equal(const Bvrm& a, const Bvrm& b) {
-  ASSERT_EQ(a.modes.size(), b.modes.size());
-  for (std::size_t k = 0; k < a.modes.size(); ++k) {
-    EXPECT_EQ(a.modes[k].b1, b.modes[k].b1);
-    EXPECT_EQ(a.modes[k].b0, b.modes[k].b0);
-    EXPECT_EQ(a.modes[k].a1, b.modes[k].a1);
-    EXPECT_EQ(a.modes[k].a0, b.modes[k].a0);
-  }
-  EXPECT_EQ(a.direct_term_kg_m, b.direct_term_kg_m);
-  EXPECT_EQ(a.delay_s, b.delay_s);
-}
-
-TEST(BvrmFile, ReadsBackExactlyWhatWasWritten) {
-  Bvrm model = test::sensor(3, 1. / 3.);
-  model.delay_s = -0.1 / 3.;
-  const auto file = std::filesystem::temp_directory_path() / "vibrissa_bvrm_test.json";
-  write_bvrm(file, model);
-  expect_equal(read_bvrm(file), model);
-  std::filesystem::remove(file);
-}
-
-TEST(BvrmFile, NamesTheFileThatIsMissingOrNoJson) {
-  const auto file = std::filesystem::temp_directory_path() / "vibrissa_bvrm_test_bad.json";
-  std::filesystem::remove(file);
-  EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr(file.string())));
-  std::ofstream(file) << "{\"schema\": ";
-  EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr("no valid JSON")));
-  std::ofstream(file) << "{\"delay_s\": 1e400}";  // beyond every double
-  EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr("1e400")));
-  std::filesystem::remove(file);
 }
 
 TEST(BvrmJson, NamesTheEntryThatIsWrong) {

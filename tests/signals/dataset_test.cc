@@ -129,6 +129,16 @@ TEST_F(DatasetFolder, RefusesUnknownWordsAndListsTheKnown) {
   expect_refused(R"({"file": "a.csv", "excitation": "base", "periods": 3})", "period_samples");
 }
 
+TEST_F(DatasetFolder, RefusesBesideTheRecordsWhatWouldHaveMeantSomething) {
+  const std::string entry = R"({"file": "a.csv", "excitation": "base"})";
+  describe(entry, R"(, "period_samples": 64)");
+  expect_error("/period_samples: is told of each record");
+  describe(entry, R"(, "read_out": "rotation")");
+  expect_error("did you mean 'readout'?");
+  describe(entry, R"(, "comment": "on the stage", "author": "me")");
+  EXPECT_EQ(read_dataset(folder_.path()).records.size(), 1u);
+}
+
 TEST_F(DatasetFolder, RefusesEntriesOfTheWrongKindAndSaysWhichOne) {
   expect_refused(R"("a.csv")", "/records/0");
   expect_refused(R"({"excitation": "base"})", "names no file");

@@ -84,6 +84,17 @@ TEST_F(ResponseReader, ReadsMagnitudeAndPhase) {
   EXPECT_LT(std::abs(found.value[1] - std::complex<double>(0., 4e-5)), 1e-19);
 }
 
+TEST_F(ResponseReader, TakesDecibelsForWhatTheyAre) {
+  for (const std::string column : {"magnitude_dB", "magnitude_db", "magnitudeDB"}) {
+    const auto response =
+        read_response(write("m.csv", "frequency_hz," + column +
+                                         ",phase_deg\n10,-20,90\n20,6.020599913279624,0\n"),
+                      {});
+    EXPECT_NEAR(response.value[0].imag(), 0.1, 1e-15) << column;
+    EXPECT_NEAR(response.value[1].real(), 2., 1e-14) << column;
+  }
+}
+
 TEST_F(ResponseReader, ConvertsUnitsOfTheFileAndThoseThatAreGiven) {
   const auto source = two_functions();
   const std::complex<double> expected = sensor_response().value[3] * 1e-6 / 9.80665;
