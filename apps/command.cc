@@ -1,6 +1,7 @@
 #include "apps/command.h"
 
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,29 @@ namespace vibrissa::apps {
 void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--json", options.json, "Print the result as JSON on standard output");
   command.add_flag("-q,--quiet", options.quiet, "No progress bar, no remarks");
+}
+
+namespace {
+
+CLI::Validator number_that(const std::string& must, const std::string& type,
+                           const std::function<bool(double)>& is_so) {
+  const auto check = [=](const std::string& text) -> std::string {
+    double value = 0.;
+    if (CLI::detail::lexical_cast(text, value) && is_so(value)) return "";
+    return "must be " + must + ", not " + text;
+  };
+  return CLI::Validator(check, type);
+}
+
+}  // namespace
+
+CLI::Validator positive_number() {
+  return number_that("a positive number", "POSITIVE", [](double value) { return value > 0.; });
+}
+
+CLI::Validator not_negative_number() {
+  return number_that("a number that is not negative", "NONNEGATIVE",
+                     [](double value) { return value >= 0.; });
 }
 
 std::vector<std::string> given_command_line() {

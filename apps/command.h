@@ -18,6 +18,10 @@ struct CommonOptions {
 /// Adds --json and --quiet.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
+/// Checks of an option's value; their messages say what it must be.
+CLI::Validator positive_number();
+CLI::Validator not_negative_number();
+
 /// The words this program was started with, for the run's own record.
 std::vector<std::string> given_command_line();
 

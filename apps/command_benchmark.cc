@@ -57,6 +57,7 @@ std::string report_text(const std::vector<ScenarioResult>& results,
 }
 
 void benchmark_separation(const SuiteOptions& options) {
+  report::RunFolder::refuse_taken(options.folder);
   const bool quiet = options.common.quiet || options.common.json;
   std::vector<std::string> left_out;
   const auto scenarios = scenarios_of(options, !quiet, left_out);

@@ -138,6 +138,7 @@ void add_bode_command(CLI::App& app) {
   command
       ->add_option("--segment", options->response.segment_samples,
                    "Segment length of Welch's method [samples]")
+      ->check(positive_number())
       ->capture_default_str();
   command->add_option("--low", options->low_hz, "Lowest frequency of a model's diagram [Hz]")
       ->capture_default_str();

@@ -5,6 +5,7 @@
 
 #include "apps/command.h"
 #include "apps/record_options.h"
+#include "signals/error.h"
 #include "signals/formats/file_format.h"
 #include "signals/formats/mat_file.h"
 #include "signals/formats/response_file.h"
@@ -23,6 +24,9 @@ struct ConvertOptions {
 };
 
 void convert_response(const ConvertOptions& options) {
+  if (options.mat_version != "5")
+    throw signals::UserError("--mat-version " + options.mat_version +
+                             " is for records; frequency responses are written as version 5");
   const auto response = signals::formats::read_response(options.from, {options.response_as});
   signals::formats::write_response(options.to, response,
                                    std::filesystem::path(options.from).stem().string());
@@ -77,6 +81,7 @@ void add_convert_command(CLI::App& app) {
       "  vibrissa convert record.csv record.uff\n"
       "  vibrissa convert modal_test.uff response.mat --frequency-response");
   command->callback([options] {
+    refuse_overwriting(options->from, options->to);
     if (options->frequency_response || !options->response_as.empty())
       convert_response(*options);
     else

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -46,6 +47,23 @@ void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& d
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
 
+/// A simulation that is compared with itself has no gap, and noise of its own that no other has.
+void refuse_the_same(const signals::Dataset& simulated, const signals::Dataset& real) {
+  const auto is_simulated = [&](const signals::DatasetRecord& measured) {
+    const auto moment = measured.record.channel(signals::channel::base_moment);
+    return std::any_of(simulated.records.begin(), simulated.records.end(),
+                       [&](const signals::DatasetRecord& entry) {
+                         const auto other = entry.record.channel(signals::channel::base_moment);
+                         return std::equal(moment.begin(), moment.end(), other.begin(),
+                                           other.end());
+                       });
+  };
+  if (std::all_of(real.records.begin(), real.records.end(), is_simulated))
+    throw signals::UserError(
+        "--real holds the very samples of --sim: between a record and itself there is no gap; "
+        "give records of the sensor on the bench as --real");
+}
+
 void diagnose_records(const DiagnoseCommand& options) {
   if (!options.real)
     throw signals::UserError(
@@ -55,6 +73,8 @@ void diagnose_records(const DiagnoseCommand& options) {
   const bool show = options.common.is_talkative();
   const auto [model, rate_hz] = options.simulation.read(show);
   const signals::Dataset real = signals::read_dataset(*options.real, options.record.read_options());
+  if (options.simulation.simulation)
+    refuse_the_same(signals::read_dataset(*options.simulation.simulation), real);
   // About forty single effects and combinations are fitted.
   constexpr std::size_t usual_fits = 75;
   signals::Progress progress("fitting effects", usual_fits, show);
@@ -72,6 +92,7 @@ void diagnose_records(const DiagnoseCommand& options) {
 }
 
 void diagnose(const DiagnoseCommand& options) {
+  report::RunFolder::refuse_taken(options.folder);
   if (!options.figures.is_given()) return diagnose_records(options);
   if (options.real || options.simulation.simulation)
     throw signals::UserError(

@@ -12,10 +12,13 @@
 
 #include "apps/command.h"
 #include "apps/record_options.h"
+#include "signals/channel_name.h"
 #include "signals/error.h"
 #include "signals/excitation.h"
 #include "signals/number_text.h"
 #include "signals/output_file.h"
+#include "signals/record.h"
+#include "signals/unit.h"
 
 namespace vibrissa::apps {
 
@@ -49,7 +52,7 @@ struct ExciteOptions {
               wav_format = "float32", channel = "base_acceleration";
   std::optional<std::size_t> period_samples;
   std::optional<double> resolution_hz;
-  std::optional<std::string> folder;
+  std::optional<std::string> folder, unit;
   bool wav = false;
 };
 
@@ -80,6 +83,11 @@ std::size_t period_of(const ExciteOptions& options) {
 
 signals::ExcitationDesign resolved(const ExciteOptions& options) {
   signals::ExcitationDesign design = options.design;
+  const std::string channel = full_channel_name(options.channel);
+  if (options.unit)
+    design.unit = *options.unit;
+  else if (channel != signals::channel::base_acceleration)
+    design.unit = signals::unit_of_channel(channel);
   design.kind = chosen(kinds, options.kind, "--kind");
   design.grid = chosen(grids, options.grid, "--grid");
   design.phase = chosen(phases, options.phase, "--phase");
@@ -113,7 +121,12 @@ void check_options(const ExciteOptions& options) {
   if (options.wav && rate != std::floor(rate))
     throw signals::UserError("--wav: a sound file's rate is a whole number of hertz, not " +
                              signals::to_text(rate) + "; choose another --rate");
-  channel_of(options);
+  const std::string channel = channel_of(options);
+  try {
+    if (options.unit) signals::convert_unit(*options.unit, signals::unit_of_channel(channel));
+  } catch (const signals::UnitError& error) {
+    throw signals::UserError("--unit, of " + channel + ": " + error.what());
+  }
   chosen(formats, options.wav_format, "--wav-format");
 }
 
@@ -216,8 +229,11 @@ void add_signal_options(CLI::App& command, ExciteOptions& options) {
   command.add_option("--fade", design.fade_s, "Fade at both ends of a sweep [s]")
       ->capture_default_str();
   command.add_option("--peak", design.peak, "Peak at level 1, in the unit")->capture_default_str();
-  command.add_option("--unit", design.unit, "Unit of the drive")->capture_default_str();
+  command.add_option(
+      "--unit", options.unit,
+      "Unit of peak and WAV, e.g. g; a CSV is in SI (default: the channel's, m/s^2)");
   command.add_option("--seed", design.seed, "Seed of phases, lines left out and noise")
+      ->check(not_negative_number())
       ->capture_default_str();
 }
 

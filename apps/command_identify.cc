@@ -19,6 +19,9 @@ namespace vibrissa::apps {
 
 namespace {
 
+/// Beyond it nothing is told apart, and trying takes hours.
+constexpr int highest_order = 40;
+
 struct IdentifyCommandOptions {
   CommonOptions common;
   RecordOptions record;
@@ -151,14 +154,19 @@ void add_identify_command(CLI::App& app) {
   command->add_option("record", options->record_file, "Record, or frequency response")->required();
   command->add_option("--held-out", options->held_out_file,
                       "CSV record that only scores the model (default: last third of the record)");
-  command->add_option("--order", options->identify.order,
-                      "Number of poles, two for each mode (default: by information criterion)");
+  command
+      ->add_option("--order", options->identify.order,
+                   "Number of poles, two for each mode (default: by information criterion)")
+      ->check(CLI::Range(1, highest_order));
   command->add_option("--max-order", options->identify.max_order, "Highest order tried")
+      ->check(CLI::Range(1, highest_order))
       ->capture_default_str();
   command->add_flag("--cross-validation", options->cross_validation,
                     "Choose the order by a held-out part of the fit record instead");
-  command->add_option("--period", options->identify.period_samples,
-                      "Period of a periodic record [samples]");
+  command
+      ->add_option("--period", options->identify.period_samples,
+                   "Period of a periodic record [samples]")
+      ->check(not_negative_number());
   command->add_option("--hold", options->hold,
                       "Input between samples: first_order, zero_order or band_limited (default: "
                       "first_order or band_limited, whichever fits better)");
@@ -176,6 +184,7 @@ void add_identify_command(CLI::App& app) {
       ->add_option("--lags", options->max_lags,
                    "--output-only: half the longest lag of the covariances [samples]; a few "
                    "periods of the lowest resonance should fit into twice as many")
+      ->check(positive_number())
       ->capture_default_str();
   command->add_flag("--frequency-response", options->frequency_response,
                     "The file holds a measured frequency response base acceleration -> base "

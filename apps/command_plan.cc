@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numbers>
 
 #include "apps/command.h"
 #include "apps/nominal_input.h"
@@ -10,6 +11,7 @@
 #include "report/run_folder.h"
 #include "signals/dataset.h"
 #include "signals/error.h"
+#include "signals/number_text.h"
 #include "signals/progress.h"
 
 namespace vibrissa::apps {
@@ -58,9 +60,20 @@ diagnosis::NominalModel nominal_model(const PlanCommand& options, bool show) {
   return model.nominal;
 }
 
+void refuse_slow_sampling(const diagnosis::NominalModel& nominal, const double rate_hz) {
+  if (nominal.modes.empty()) return;
+  const double first_hz = nominal.modes.front().frequency_rad_s / (2. * std::numbers::pi);
+  if (rate_hz <= 2. * first_hz)
+    throw signals::UserError("--rate: " + signals::to_text(rate_hz) +
+                             " Hz is not twice the first mode's " + signals::to_text(first_hz) +
+                             " Hz: such records do not show the sensor");
+}
+
 void plan(const PlanCommand& options) {
+  report::RunFolder::refuse_taken(options.folder);
   const bool show = options.common.is_talkative();
   const diagnosis::NominalModel nominal = nominal_model(options, show);
+  refuse_slow_sampling(nominal, options.rate_hz);
   const std::vector<diagnosis::PlannedInput> inputs = planned_inputs(options, nominal);
   signals::Progress progress("trying effects", diagnosis::n_plan_steps(nominal, inputs), show);
   const diagnosis::ExperimentPlan result = diagnosis::plan_experiments(
@@ -83,7 +96,7 @@ void add_options(CLI::App& command, PlanCommand& options) {
   command
       .add_option("--rate", options.rate_hz,
                   "Sampling rate of the records planned for --model [Hz]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command
       .add_option("--quiet-record", options.quiet_s,
@@ -92,12 +105,12 @@ void add_options(CLI::App& command, PlanCommand& options) {
   command
       .add_option("--moment-noise", options.noise.moment_n_m,
                   "Noise of the base moment, standard deviation of a sample [N m]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command
       .add_option("--acceleration-noise", options.noise.acceleration_m_s2,
                   "Noise of the accelerometer, standard deviation of a sample [m/s^2]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command.add_option("-o,--out,--output", options.folder,
                      "New folder for plan.json, detection_limits.csv and the picture");

@@ -64,6 +64,7 @@ std::string report_text(const Reproduction& result) {
 }
 
 void reproduce(const ReproduceOptions& options) {
+  report::RunFolder::refuse_taken(options.folder);
   const bool quiet = options.common.quiet || options.common.json;
   const Reproduction result = reproduce_paper(options, !quiet);
   const auto folder = report::RunFolder::given_or_free(options.folder, "runs/reproduce");

@@ -16,6 +16,7 @@
 #include "separation/stream_methods.h"
 #include "separation/wind_speed.h"
 #include "signals/error.h"
+#include "signals/formats/file_format.h"
 #include "signals/output_file.h"
 #include "signals/record_io.h"
 #include "signals/reduced_model.h"
@@ -122,11 +123,27 @@ void add_wind_speeds(const SeparateOptions& options, const std::vector<Separated
   }
 }
 
+void remark_dead_accelerometer(const signals::Record& record) {
+  if (!record.has(signals::channel::base_acceleration)) return;
+  const auto a = record.channel(signals::channel::base_acceleration);
+  const auto [low, high] = std::minmax_element(a.begin(), a.end());
+  if (*low == *high)
+    std::cerr << "vibrissa: base_acceleration is " << *low
+              << " throughout: no vibration is taken off; is the accelerometer's column the right "
+                 "one?\n";
+}
+
 void separate_as_stream(const SeparateOptions& options) {
   if (!options.output_file || options.truth_column || options.sensor_model_file)
     throw signals::UserError(
         "--stream writes wind moments as it reads (name the file: -o) and holds no record, which "
         "--truth, --dtw-path and --sensor-model need");
+  if (signals::formats::extension_of(*options.output_file) != ".csv")
+    throw signals::UserError("--stream writes CSV: give -o a name that ends in .csv");
+  if (options.model_file && diagnosis::is_mended_model(*options.model_file))
+    throw signals::UserError(*options.model_file +
+                             ": a mended model is simulated whole: leave --stream out, or give a "
+                             "model of 'vibrissa identify'");
   signals::RecordStream record(options.record_file, options.record.read_options());
   std::vector<NamedSeparator> methods;
   if (options.model_file)
@@ -141,6 +158,7 @@ void separate_as_stream(const SeparateOptions& options) {
 }
 
 void separate(const SeparateOptions& options) {
+  if (options.output_file) refuse_overwriting(options.record_file, *options.output_file);
   if (options.stream) return separate_as_stream(options);
   if (options.sensor_model_file && !options.output_file) {
     throw signals::UserError("--sensor-model adds wind speeds to the output record: name it (-o)");
@@ -151,6 +169,7 @@ void separate(const SeparateOptions& options) {
         "column (--truth)");
   }
   const signals::Record record = options.record.read(options.record_file);
+  if (!options.common.quiet) remark_dead_accelerometer(record);
   std::vector<double> truth;
   if (options.truth_column) {
     truth = options.record.read_column(options.record_file, *options.truth_column);
@@ -203,7 +222,7 @@ void add_separate_command(CLI::App& app) {
   command
       ->add_option("--moment-deviation", options->moment_deviation_n_m,
                    "Standard deviation of the separated moment, for the speed's interval [N m]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative_number())
       ->capture_default_str();
   command->add_option("--truth", options->truth_column,
                       "Column with the true wind moment [N m], for the scores");
@@ -223,7 +242,7 @@ void add_separate_command(CLI::App& app) {
   command->add_option("--step", options->fdaf.step.step, "Step size mu of the adaptive filter")
       ->capture_default_str();
   command->add_option("--settling", options->settling_s, "Start left out of the scores [s]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative_number())
       ->capture_default_str();
   command->add_flag("--stream", options->stream,
                     "For records of any length: reads and writes (-o, CSV) block by block, without "

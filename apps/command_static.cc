@@ -88,6 +88,7 @@ void write_results(const report::RunFolder& folder, const std::vector<SteadyCurv
 }
 
 void find_equilibria(const StaticCommandOptions& options) {
+  report::RunFolder::refuse_taken(options.folder);
   const auto curves = make_curves(options);
   const auto folder = report::RunFolder::given_or_free(options.folder, "runs/static");
   nlohmann::json document = steady_json(curves);

@@ -120,7 +120,7 @@ void observe(const TrialCommand& options) {
 
 void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   auto* command = trial.add_subcommand("make", "Write records of sensors whose effect is sealed");
-  command->add_option("--cases", options->n_cases, "How many")->check(CLI::PositiveNumber);
+  command->add_option("--cases", options->n_cases, "How many")->check(positive_number());
   command->add_option("--first", options->first, "Number of the first, to go on with a seed");
   command->add_option("--seed", options->seed, "All sensors follow from it");
   command->add_option("-o,--out,--output", options->folder, "New folder")->required();
@@ -162,7 +162,7 @@ void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) 
       "observe",
       "How often could anyone be right? Asks who knows the form of every effect and the bench");
   command->add_option("--benches", options->n_benches, "How many, of 22 sensors each")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command->add_option("--seed", options->seed, "All sensors follow from it")->capture_default_str();
   auto* as_built =

@@ -1,6 +1,7 @@
 #include "apps/record_options.h"
 
 #include <charconv>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -23,6 +24,12 @@ std::size_t whole_number(const std::string& text, const std::string& option) {
 }
 
 }  // namespace
+
+void refuse_overwriting(const std::string& input, const std::string& output) {
+  std::error_code missing;
+  if (std::filesystem::equivalent(input, output, missing))
+    throw signals::UserError(output + ": is the file that is read; name another one to write");
+}
 
 RowRange parse_rows(const std::string& text, const std::string& option) {
   const auto colon = text.find(':');

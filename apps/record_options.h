@@ -33,6 +33,10 @@ nlohmann::json written_record_json(const std::string& file, const signals::Recor
 /// The same as a line.
 std::string written_record_text(const std::string& file, const signals::Record& record);
 
+/// Throws UserError where the output is the very file that is read: a recording is not replaced by
+/// what was made of it.
+void refuse_overwriting(const std::string& input, const std::string& output);
+
 /// FIRST:LAST, data rows counted from 1. Throws UserError naming the option.
 struct RowRange {
   std::size_t first = 1, count = 0;

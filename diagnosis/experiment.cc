@@ -370,6 +370,16 @@ double quietest_deviation(const signals::Dataset& dataset, const std::string& na
   return std::isfinite(least) ? std::sqrt(least) : 0.;
 }
 
+/// A step of 13 bits, spread evenly. Less is a simulation's, which no model follows any closer.
+double least_noise(const signals::Dataset& dataset, const std::string& name) {
+  const double of_peak = 1. / (8192. * std::sqrt(12.));
+  double peak = 0.;
+  for (const DatasetRecord& entry : dataset.records)
+    if (entry.split == signals::Split::fit && entry.record.has(name))
+      for (const double value : entry.record.channel(name)) peak = std::max(peak, std::abs(value));
+  return of_peak * peak;
+}
+
 }  // namespace
 
 ChannelNoise channel_noise(const signals::Dataset& dataset) {
@@ -405,6 +415,9 @@ ChannelNoise channel_noise(const signals::Dataset& dataset) {
                                 ? std::sqrt(acceleration / n_acceleration)
                                 : std::min(usual_acceleration_noise,
                                            quietest_deviation(dataset, channel::base_acceleration));
+  noise.moment_n_m = std::max(noise.moment_n_m, least_noise(dataset, channel::base_moment));
+  noise.acceleration_m_s2 =
+      std::max(noise.acceleration_m_s2, least_noise(dataset, channel::base_acceleration));
   return noise;
 }
 

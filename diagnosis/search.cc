@@ -13,6 +13,7 @@
 #include "diagnosis/form_errors.h"
 #include "diagnosis/parallel.h"
 #include "diagnosis/resemblance.h"
+#include "signals/error.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -133,6 +134,10 @@ class Searcher {
     SearchResult result;
     result.candidates = candidates(Kept::possible);
     result.refuted = candidates(Kept::refuted);
+    if (result.candidates.empty())
+      throw signals::UserError(
+          "no answer has a likelihood that is a number: are the records' values in the units that "
+          "they are said to be?");
     set_probabilities(result);
     result.fits = std::move(fits_);
     return result;

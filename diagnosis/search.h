@@ -34,7 +34,8 @@ struct SearchOptions {
 
 /// Fits none, every single effect, then combinations: the best ones of a size are each joined with
 /// the effects whose shape the residual resembles most. Each candidate is one hypothesis with one
-/// choice of retune effects; its prior pays for every effect named.
+/// choice of retune effects; its prior pays for every effect named. Throws UserError where none has
+/// a likelihood that is a number.
 SearchResult search(const Experiment& experiment, const SearchOptions& options = {});
 
 /// Probabilities of the candidates, the best of which comes first, from their posteriors; and the

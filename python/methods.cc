@@ -136,8 +136,12 @@ void add_models(py::module_& module) {
   py::class_<diagnosis::MendedModel>(
       module, "Model", "A simulation: nominal model and the effects known to be there.")
       .def_static("read", &read_model, py::arg("file"), "model.json or mended_model.json.")
-      .def_static("from_records", &diagnosis::identify_nominal, py::arg("simulated"),
-                  "The nominal model that simulated records say.")
+      .def_static(
+          "from_records",
+          [](const signals::Dataset& simulated) {
+            return diagnosis::MendedModel(diagnosis::identify_nominal(simulated));
+          },
+          py::arg("simulated"), "The nominal model that simulated records say.")
       .def(
           "write",
           [](const diagnosis::MendedModel& model, const std::filesystem::path& file) {

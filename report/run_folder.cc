@@ -36,6 +36,10 @@ RunFolder RunFolder::given_or_free(const std::optional<std::filesystem::path>& g
   return given ? RunFolder(*given) : first_free(base);
 }
 
+void RunFolder::refuse_taken(const std::optional<std::filesystem::path>& given) {
+  if (given && std::filesystem::exists(*given)) signals::make_new_folder(*given);
+}
+
 std::filesystem::path RunFolder::file(const std::string& name) const {
   const auto relative = std::filesystem::path(name).lexically_normal();
   if (!relative.has_filename() || relative.is_absolute() || *relative.begin() == ".." ||

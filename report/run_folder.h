@@ -31,6 +31,10 @@ class RunFolder {
   static RunFolder given_or_free(const std::optional<std::filesystem::path>& given,
                                  const std::filesystem::path& base);
 
+  /// Before long work: throws UserError where the folder that was asked for could not be made as
+  /// above, for it is there.
+  static void refuse_taken(const std::optional<std::filesystem::path>& given);
+
   const std::filesystem::path& path() const { return path_; }
 
   /// Path of a file in the folder; makes the sub-folder that the name asks for ("figures/a.csv").

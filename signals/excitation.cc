@@ -7,12 +7,14 @@
 #include <random>
 
 #include "signals/band_noise.h"
+#include "signals/channel_name.h"
 #include "signals/crest_factor.h"
 #include "signals/error.h"
 #include "signals/fft.h"
 #include "signals/multisine.h"
 #include "signals/number_text.h"
 #include "signals/record_io.h"
+#include "signals/unit.h"
 
 namespace vibrissa::signals {
 
@@ -190,6 +192,8 @@ DesignedExcitation design_excitation(const ExcitationDesign& design) {
 void write_drive_record(const std::filesystem::path& file, const DesignedExcitation& excitation,
                         const Drive& drive, const std::string& channel) {
   std::vector<double> samples = excitation.samples(drive);
+  const double scale = convert_unit(excitation.design.unit, unit_of_channel(channel)).scale;
+  for (double& x : samples) x *= scale;
   Record record(excitation.design.sampling_rate_hz, samples.size());
   record.set_channel(channel, std::move(samples));
   write_record(file, record);

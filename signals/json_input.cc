@@ -22,6 +22,7 @@ std::string reason_of(const nlohmann::json::exception& error) {
 }  // namespace
 
 nlohmann::json read_json(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) throw UserError(file.string() + ": is a folder");
   std::ifstream stream(file);
   if (!stream) throw UserError(file.string() + ": cannot be opened for reading");
   const auto is_shallow = [&](const int depth, nlohmann::json::parse_event_t, nlohmann::json&) {

@@ -49,16 +49,19 @@ Sources chosen_sources(const formats::RecordTable& file, const std::vector<Colum
   return sources;
 }
 
-std::vector<Source> channels_by_name(const formats::RecordTable& file,
-                                     const std::optional<Source>& time) {
-  std::vector<Source> channels;
+/// Those that were not chosen, of columns that were not; other measured columns where none was.
+void add_channels_by_name(const formats::RecordTable& file, Sources& sources) {
+  const std::vector<Source> chosen = sources.channels;
   for (std::size_t i = 0; i < file.columns().size(); ++i) {
     const std::string& name = file.columns()[i];
-    const bool is_time = name == time_channel || (time && time->column == i);
-    const bool is_channel = full_channel_name(name) == name || ends_with_unit(name);
-    if (!is_time && is_channel) channels.push_back({name, i});
+    const bool is_time = name == time_channel || (sources.time && sources.time->column == i);
+    const bool is_channel =
+        full_channel_name(name) == name || (chosen.empty() && ends_with_unit(name));
+    const bool is_chosen = std::any_of(chosen.begin(), chosen.end(), [&](const Source& source) {
+      return source.column == i || source.channel == name;
+    });
+    if (!is_time && is_channel && !is_chosen) sources.channels.push_back({name, i});
   }
-  return channels;
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -70,11 +73,8 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 Sources find_sources(const formats::RecordTable& file, const ReadOptions& options) {
-  const bool by_name =
-      std::all_of(options.columns.begin(), options.columns.end(),
-                  [](const auto& choice) { return choice.channel == time_channel; });
   Sources sources = chosen_sources(file, options.columns);
-  if (by_name) sources.channels = channels_by_name(file, sources.time);
+  add_channels_by_name(file, sources);
   if (const auto time = find_column(file, time_channel); time && !sources.time)
     sources.time = {time_channel, *time};
   if (sources.channels.empty())

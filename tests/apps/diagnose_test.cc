@@ -47,6 +47,28 @@ TEST(DiagnoseCommand, LeavesTheExplanationInAFolder) {
   EXPECT_THAT(content(folder.file("out/report.html")), HasSubstr("Likeliest: stiffness"));
 }
 
+TEST(DiagnoseCommand, SaysNothingWhereItsFolderIsTaken) {
+  const Folder folder;
+  folder.write("mine.txt", "mine");
+  const auto result = vibrissa("diagnose --example paper-gap --json -o " + quoted(folder.file("")));
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.output, "");
+  EXPECT_THAT(result.errors, HasSubstr("not overwritten"));
+}
+
+TEST(DiagnoseCommand, RefusesASimulationAsItsOwnBench) {
+  const Folder folder;
+  std::ostringstream csv;
+  csv << "time_s,base_acceleration_m_s2,base_moment_N_m\n";
+  for (int i = 0; i < 2000; ++i)
+    csv << 0.002 * i << "," << std::sin(0.02 * i + 1e-5 * i * i) << ","
+        << 1e-5 * std::sin(0.02 * i + 1e-5 * i * i + 0.1) << "\n";
+  const std::string record = quoted(folder.write("r.csv", csv.str()));
+  const auto result = vibrissa("diagnose --sim " + record + " --real " + record);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("between a record and itself there is no gap"));
+}
+
 TEST(DiagnoseCommand, RefusesFiguresThatContradict) {
   const std::vector<std::array<std::string, 2>> cases{
       {"--resonance 37.32:31.47 --real x", "either figures or records"},

@@ -87,6 +87,37 @@ TEST(Separate, TakesTheInputBetweenSamplesAsTheModelWasFitted) {
   EXPECT_EQ(wind("--stream"), wind("--stream --hold zero_order"));
 }
 
+TEST(Separate, NeitherReplacesARecordingNorTrustsADeadAccelerometer) {
+  const Folder folder;
+  const std::string record = folder.file("r.csv");
+  signals::Record dead = measured(3000);
+  signals::write_record(record, dead);
+  const std::string before = content(record);
+  for (const std::string stream : {"", " --stream"}) {
+    const auto result = vibrissa("separate '" + record + "' -o '" + record + "'" + stream);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.errors, HasSubstr("is the file that is read"));
+  }
+  EXPECT_EQ(vibrissa("convert '" + record + "' '" + record + "'").status, 2);
+  EXPECT_EQ(content(record), before);
+  dead.set_channel(signals::channel::base_acceleration, std::vector<double>(3000, 0.));
+  signals::write_record(record, dead);
+  const auto result = vibrissa("separate '" + record + "'");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.errors, HasSubstr("0 throughout"));
+}
+
+TEST(Identify, RefusesOrdersThatAreNone) {
+  const Folder folder;
+  const std::string record = folder.file("r.csv");
+  signals::write_record(record, measured(300));
+  for (const std::string option : {"--order -2", "--order 1000", "--period -1", "--lags -1"}) {
+    const auto result = vibrissa("identify '" + record + "' " + option);
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_LT(result.errors.size(), 200u) << result.errors;
+  }
+}
+
 TEST(Identify, FindsResonanceAndDampingWithoutAnyInputChannel) {
   const Folder folder;
   const auto both = measured(30000);

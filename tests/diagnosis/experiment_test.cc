@@ -126,6 +126,19 @@ TEST(ChannelNoise, IsTakenFromRestWhereThereIsSome) {
   EXPECT_NEAR(found.acceleration_m_s2, 0.05, 0.005);
 }
 
+/// A simulation free of noise is weighed as if it had been written down with 13 bits.
+TEST(ChannelNoise, IsNeverLessThanAConverterLeaves) {
+  const signals::Dataset dataset =
+      test::rig_dataset(test::OneModeRig{}, {.quiet = false, .held_out = false});
+  const ChannelNoise found = channel_noise(dataset);
+  double peak = 0.;
+  for (const signals::DatasetRecord& entry : dataset.records)
+    for (const double m : entry.record.channel(signals::channel::base_moment))
+      peak = std::max(peak, std::abs(m));
+  EXPECT_GT(found.moment_n_m, 0.999 * peak / 8192. / std::sqrt(12.));
+  EXPECT_GT(found.acceleration_m_s2, 0.);
+}
+
 /// Gusts repeat no more than noise does.
 TEST(ChannelNoise, IsNotWhatWindAddsToAPeriodicDrive) {
   signals::Dataset dataset = test::rig_dataset(test::noisy_rig());

@@ -115,6 +115,20 @@ class Module(unittest.TestCase):
         self.assertIn(found.verdict, str(found.report["ranking"][0]["effect"]))
         np.testing.assert_array_equal(found.mended.simulate(record).shape, (len(record),))
 
+    def test_takes_simulated_records_for_the_simulation(self):
+        simulated = vibrissa.read_dataset(self.path / "r.csv")
+        model = vibrissa.Model.from_records(simulated)
+        self.assertEqual(len(model.simulate(self.record)), len(self.record))
+        record = self.record
+        scaled = {name: record[name].copy() for name in record.channel_names}
+        scaled["base_moment_N_m"] *= 1.3
+        vibrissa.write_record(self.path / "scaled.csv", vibrissa.Record(
+            record.sampling_rate_hz, scaled, record.start_s))
+        found = vibrissa.diagnose(self.path / "scaled.csv", simulation=simulated, max_effects=1)
+        said = program("diagnose", "--sim", str(self.path / "r.csv"), "--real",
+                       str(self.path / "scaled.csv"), "--max-effects", "1", "--json")
+        self.assertEqual(found.report, json.loads(said))
+
     def test_a_users_mistake_is_a_value_error(self):
         with self.assertRaisesRegex(vibrissa.UserError, "unknown channel"):
             vibrissa.read_record(self.path / "r.csv", columns={"base_acc": "x"})

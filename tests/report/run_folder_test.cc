@@ -26,6 +26,16 @@ TEST(RunFolder, RefusesToWriteOverAnEarlierRun) {
   EXPECT_EQ(content_of(base.path() / "run" / "result.csv"), "1\n");
 }
 
+TEST(RunFolder, IsRefusedBeforeTheWorkAsAfterIt) {
+  const TemporaryFolder base;
+  EXPECT_NO_THROW(RunFolder::refuse_taken(std::nullopt));
+  EXPECT_NO_THROW(RunFolder::refuse_taken(base.path() / "new"));
+  EXPECT_FALSE(std::filesystem::exists(base.path() / "new"));
+  base.file("there.txt", "");
+  EXPECT_THAT([&] { RunFolder::refuse_taken(base.path()); },
+              ThrowsMessage<UserError>(HasSubstr("not overwritten")));
+}
+
 TEST(RunFolder, FindsAFreeName) {
   const TemporaryFolder base;
   EXPECT_EQ(RunFolder::first_free(base.path() / "run").path(), base.path() / "run");

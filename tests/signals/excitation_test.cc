@@ -148,6 +148,20 @@ TEST(Excitation, FilesHoldTheSameDrive) {
   }
 }
 
+TEST(Excitation, IsWrittenInTheUnitOfItsChannel) {
+  const testing::TemporaryFolder folder;
+  const DesignedExcitation excitation = design_excitation({.peak = 0.4, .unit = "g"});
+  write_drive_record(folder.path() / "g.csv", excitation, excitation.drives[0],
+                     channel::base_acceleration);
+  const Record record = read_record(folder.path() / "g.csv");
+  const auto a = record.channel(channel::base_acceleration);
+  EXPECT_NEAR(*std::max_element(a.begin(), a.end()),
+              9.80665 * std::ranges::max(excitation.samples(excitation.drives[0])), 1e-12);
+  EXPECT_THROW(write_drive_record(folder.path() / "b.csv", excitation, excitation.drives[0],
+                                  channel::base_moment),
+               UserError);
+}
+
 TEST(Excitation, RefusesADesignThatContradictsItself) {
   const auto design = [](ExcitationDesign wanted) { return [=] { design_excitation(wanted); }; };
   EXPECT_THAT(design({.high_hz = 250.}),

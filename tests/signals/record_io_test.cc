@@ -128,6 +128,20 @@ TEST_F(ReadRecord, TakesForeignColumnsByNameScaleAndRate) {
   EXPECT_DOUBLE_EQ(record.channel(channel::base_moment)[0], 3.6e-4);
 }
 
+TEST_F(ReadRecord, TakesChannelsByTheirNameBesideThoseThatAreChosen) {
+  const std::string content =
+      csv("time_s,ax,other_mT,base_moment_N_m,wind_speed_m_s",
+          [](const std::size_t i) { return time_at_500_hz(i) + ",1,oops,2,3"; });
+  const Record record = read(content, {.columns = {parse_column_choice("base_acceleration=ax[g]"),
+                                                   parse_column_choice("wind_speed=ax")}});
+  EXPECT_THAT(record.channel_names(),
+              ::testing::UnorderedElementsAre(channel::base_acceleration, channel::wind_speed,
+                                              channel::base_moment));
+  EXPECT_EQ(record.channel(channel::base_acceleration)[0], 9.80665);
+  EXPECT_EQ(record.channel(channel::base_moment)[0], 2.);
+  EXPECT_EQ(record.channel(channel::wind_speed)[0], 1.) << "chosen, whatever has its name";
+}
+
 TEST_F(ReadRecord, TakesAForeignColumnOfTime) {
   const std::string content = csv("t_ms,base_moment_N_m", [](const std::size_t i) {
     return std::to_string(std::lround(1000. + 11.4 * static_cast<double>(i))) + ",1";
