@@ -54,15 +54,6 @@ json label_of(const trial::TrialCase& trial_case) {
   return {{"class", to_string(trial_case.kind)}, {"effects", effects}, {"seed", trial_case.seed}};
 }
 
-/// Those whose records are written.
-json further_names(const trial::Physics physics) {
-  json names = json::array();
-  if (physics == trial::Physics::finite_strain) return names;
-  for (const trial::FurtherExperiment& experiment : trial::further_experiments())
-    names.push_back(experiment.name);
-  return names;
-}
-
 void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs::path& folder,
               const trial::Physics physics) {
   if (fs::exists(folder))
@@ -70,7 +61,9 @@ void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs
   const fs::path making = folder.string() + ".making", key_file = folder.string() + ".key";
   fs::remove_all(making);
   write_dataset(making / "sim", trial::simulated_records(seed, physics));
-  json labels = json::object(), cases = json::array();
+  json labels = json::object(), cases = json::array(), further = json::array();
+  for (const trial::FurtherExperiment& experiment : trial::further_experiments(physics))
+    further.push_back(experiment.name);
   for (std::size_t i = first; i < first + count; ++i) {
     const trial::TrialCase trial_case = trial::draw_case(seed, i, physics);
     const std::string name = case_name(i);
@@ -85,7 +78,7 @@ void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs
                                      {"seed", seed},
                                      {"first", first},
                                      {"cases", cases},
-                                     {"further_experiments", further_names(physics)},
+                                     {"further_experiments", further},
                                      {"labels_commitment_sha256", seal.commitment},
                                      {"labels_sealed", seal.cipher}});
   signals::write_file(key_file, [&](std::ostream& out) { out << seal.key << "\n"; });

@@ -23,16 +23,12 @@ std::size_t run_up(const Take& take) {
 class Bench {
  public:
   Bench(Motion& motion, const Structure& structure, const World& world, const Session& session)
-      : motion_(motion),
-        structure_(structure),
-        world_(world),
-        session_(session),
-        steps_(motion.steps_per_sample()),
-        fine_hz_(motion.fine_hz()) {}
+      : motion_(motion), structure_(structure), world_(world), session_(session) {}
 
   signals::DatasetRecord record(const Take& take, std::uint64_t number) {
-    const std::size_t before = run_up(take) * steps_;
-    const std::size_t n = before + (take.n_samples + margin) * steps_;
+    const std::size_t steps = motion_.steps_per_sample();
+    const std::size_t before = run_up(take) * steps;
+    const std::size_t n = before + (take.n_samples + margin) * steps;
     const std::uint64_t drive = session_.seed * 1000 + take.drive * 10;
     const std::uint64_t noise = session_.seed * 1000 + 500 + number * 7;
     const std::vector<double> a = stage_motion(take, n, drive);
@@ -42,8 +38,12 @@ class Bench {
     const std::vector<double> probe = wind_at_probe(take, n, drive + 2);
     const std::vector<double> felt = wind_at_sensor(take, probe, noise + 1);
     const std::vector<double> moment = motion_.base_moment(a, felt, noise + 2);
-    const FineRecord fine{a,      across,   probe,
-                          moment, fine_hz_, -static_cast<double>(before) / fine_hz_};
+    const FineRecord fine{a,
+                          across,
+                          probe,
+                          moment,
+                          motion_.fine_hz(),
+                          -static_cast<double>(before) / motion_.fine_hz()};
     signals::DatasetRecord out{.name = take.name,
                                .record = read_out(world_, structure_, fine, take.n_samples, rate_hz,
                                                   noise + 3, session_.noise),
@@ -58,9 +58,10 @@ class Bench {
                                    const std::uint64_t seed) const {
     if (take.base_rms == 0.) return std::vector<double>(n, 0.);
     if (take.period_samples == 0)
-      return band_noise(n, fine_hz_, take.low_hz, take.high_hz, take.base_rms, seed);
-    const std::vector<double> period = odd_multisine(
-        take.period_samples * steps_, fine_hz_, take.low_hz, take.high_hz, take.base_rms, seed);
+      return band_noise(n, motion_.fine_hz(), take.low_hz, take.high_hz, take.base_rms, seed);
+    const std::vector<double> period =
+        odd_multisine(take.period_samples * motion_.steps_per_sample(), motion_.fine_hz(),
+                      take.low_hz, take.high_hz, take.base_rms, seed);
     std::vector<double> out(n);
     // The record begins after the run-up, which is whole periods.
     for (std::size_t i = 0; i < n; ++i) out[i] = period[i % period.size()];
@@ -74,7 +75,8 @@ class Bench {
     wind.turbulence_intensity = intensity;
     wind.length_scale = length_scale;
     wind.maximum_speed = 10. * mean;
-    return below(flow::make_wind(wind, fine_hz_, n, seed), fine_hz_, smallest_eddy_hz);
+    return below(flow::make_wind(wind, motion_.fine_hz(), n, seed), motion_.fine_hz(),
+                 smallest_eddy_hz);
   }
 
   std::vector<double> wind_at_probe(const Take& take, const std::size_t n,
@@ -93,7 +95,7 @@ class Bench {
       for (std::size_t i = 0; i < out.size(); ++i) out[i] += gusts[i] - take.wind_mean;
     }
     if (world_.flow_lag_s > 0.) {
-      const double late = std::exp(-1. / (fine_hz_ * world_.flow_lag_s));
+      const double late = std::exp(-1. / (motion_.fine_hz() * world_.flow_lag_s));
       double state = out.front();
       for (double& u : out) u = state = late * state + (1. - late) * u;
     }
@@ -104,46 +106,45 @@ class Bench {
   const Structure& structure_;
   const World& world_;
   const Session& session_;
-  std::size_t steps_;
-  double fine_hz_;
 };
+
+/// Of a multisine.
+Take two_periods(const std::string& name, const double rms, const std::size_t period,
+                 const std::uint64_t drive) {
+  return {.name = name,
+          .base_rms = rms,
+          .n_samples = 2 * period,
+          .period_samples = period,
+          .drive = drive};
+}
 
 }  // namespace
 
 std::vector<Take> usual_takes() {
   using signals::Split;
-  return {
-      {.name = "quiet", .n_samples = 2000, .drive = 1},
-      {.name = "base_low", .base_rms = 0.8, .n_samples = 4096, .period_samples = 2048, .drive = 2},
-      {.name = "base_high", .base_rms = 4.4, .n_samples = 4096, .period_samples = 2048, .drive = 3},
-      {.name = "base_high_2",
-       .base_rms = 4.4,
-       .n_samples = 4096,
-       .period_samples = 2048,
-       .drive = 4},
-      {.name = "wind", .wind_mean = 1.6, .n_samples = 5000, .drive = 5},
-      {.name = "combined", .base_rms = 2.5, .wind_mean = 1.6, .n_samples = 5000, .drive = 6},
-      {.name = "held_out",
-       .base_rms = 2.9,
-       .wind_mean = 2.,
-       .n_samples = 5000,
-       .split = Split::held_out,
-       .drive = 7},
-      {.name = "held_out_base",
-       .base_rms = 1.8,
-       .n_samples = 5000,
-       .split = Split::held_out,
-       .drive = 8}};
+  return {{.name = "quiet", .n_samples = 2000, .drive = 1},
+          two_periods("base_low", 0.8, 2048, 2),
+          two_periods("base_high", 4.4, 2048, 3),
+          two_periods("base_high_2", 4.4, 2048, 4),
+          {.name = "wind", .wind_mean = 1.6, .n_samples = 5000, .drive = 5},
+          {.name = "combined", .base_rms = 2.5, .wind_mean = 1.6, .n_samples = 5000, .drive = 6},
+          {.name = "held_out",
+           .base_rms = 2.9,
+           .wind_mean = 2.,
+           .n_samples = 5000,
+           .split = Split::held_out,
+           .drive = 7},
+          {.name = "held_out_base",
+           .base_rms = 1.8,
+           .n_samples = 5000,
+           .split = Split::held_out,
+           .drive = 8}};
 }
 
 std::vector<Take> short_takes() {
-  const auto multisine = [](const std::string& name, double rms, std::uint64_t drive) {
-    return Take{
-        .name = name, .base_rms = rms, .n_samples = 2048, .period_samples = 1024, .drive = drive};
-  };
   return {{.name = "quiet", .n_samples = 2000, .drive = 1},
-          multisine("base_low", 0.8, 2),
-          multisine("base_high", 4.4, 3),
+          two_periods("base_low", 0.8, 1024, 2),
+          two_periods("base_high", 4.4, 1024, 3),
           {.name = "wind", .wind_mean = 1.6, .n_samples = 2500, .drive = 5},
           {.name = "combined", .base_rms = 2.5, .wind_mean = 1.6, .n_samples = 2500, .drive = 6},
           {.name = "held_out",
@@ -170,15 +171,11 @@ std::vector<Take> transfer_takes() {
 }
 
 std::vector<FurtherExperiment> further_experiments() {
-  const auto multisine = [](const std::string& name, double rms, std::uint64_t drive) {
-    return Take{
-        .name = name, .base_rms = rms, .n_samples = 4096, .period_samples = 2048, .drive = drive};
-  };
   FurtherExperiment levels{.name = "level_ladder", .takes = {}}, winds{"wind_ladder", {}},
-      wide{"wide_band", {multisine("wide_band", 4.4, 91)}};
+      wide{"wide_band", {two_periods("wide_band", 4.4, 2048, 91)}};
   for (const double factor : {0.25, 0.5, 1., 2.})
     levels.takes.push_back(
-        multisine("level_" + std::to_string(levels.takes.size() + 1), 4.4 * factor, 41));
+        two_periods("level_" + std::to_string(levels.takes.size() + 1), 4.4 * factor, 2048, 41));
   for (const int speed : {1, 2, 3, 4}) {
     const std::string name = "wind_" + std::to_string(speed);
     const auto drive = static_cast<std::uint64_t>(60 + speed);

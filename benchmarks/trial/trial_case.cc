@@ -157,12 +157,16 @@ signals::Dataset records_of(const TrialCase& trial_case) {
   return out;
 }
 
+std::vector<FurtherExperiment> further_experiments(const Physics physics) {
+  if (physics == Physics::finite_strain) return {};
+  return further_experiments();
+}
+
 std::vector<std::pair<std::string, signals::Dataset>> further_records_of(
     const TrialCase& trial_case) {
   constexpr std::uint64_t another_day = 50000;
   std::vector<std::pair<std::string, signals::Dataset>> out;
-  if (trial_case.physics == Physics::finite_strain) return out;
-  for (const FurtherExperiment& experiment : further_experiments())
+  for (const FurtherExperiment& experiment : further_experiments(trial_case.physics))
     out.emplace_back(
         experiment.name,
         record_session(structure_of(trial_case.world.solid), trial_case.world,

@@ -59,8 +59,9 @@ TrialCase draw_case(std::uint64_t seed, std::size_t number, Physics physics = Ph
 /// The records of a case, its takes labelled as the bench's log says, which may be wrong.
 signals::Dataset records_of(const TrialCase& trial_case);
 
-/// What further experiments would show of it, on another day: their records by name. None of finite
-/// strain, where they would take an hour.
+/// What the bench can do besides. Nothing of finite strain, where it would take an hour.
+std::vector<FurtherExperiment> further_experiments(Physics physics);
+/// What further experiments would show of it, on another day: their records by name.
 std::vector<std::pair<std::string, signals::Dataset>> further_records_of(
     const TrialCase& trial_case);
 
