@@ -71,19 +71,18 @@ void diagnose_records(const DiagnoseCommand& options) {
         "alone as --resonance SIMULATED_HZ:MEASURED_HZ");
   diagnosis::check_menu_names(options.possible_experiments);
   const bool show = options.common.is_talkative();
-  const auto [model, rate_hz] = options.simulation.read(show);
+  const NominalInput::Simulation simulation = options.simulation.read(show);
   const signals::Dataset real = signals::read_dataset(*options.real, options.record.read_options());
-  if (options.simulation.simulation)
-    refuse_the_same(signals::read_dataset(*options.simulation.simulation), real);
+  refuse_the_same(simulation.dataset, real);
   // About forty single effects and combinations are fitted.
   constexpr std::size_t usual_fits = 75;
   signals::Progress progress("fitting effects", usual_fits, show);
   diagnosis::DiagnoseOptions settings;
-  settings.simulated_rate_hz = rate_hz;
+  settings.simulated_rate_hz = simulation.sampling_rate_hz();
   settings.search.max_effects = options.max_effects;
   settings.possible_experiments = options.possible_experiments;
   settings.search.on_fit = [&] { progress.advance(); };
-  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(model, real, settings);
+  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(simulation.model, real, settings);
   if (options.common.json)
     std::cout << diagnosis::diagnosis_json(diagnosis) << std::endl;
   else

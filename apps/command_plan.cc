@@ -27,12 +27,28 @@ struct PlanCommand {
   double rate_hz = 500.;
 };
 
+void refuse_slow_sampling(const diagnosis::NominalModel& nominal, const double rate_hz) {
+  if (nominal.modes.empty()) return;
+  const double first_hz = nominal.modes.front().frequency_rad_s / (2. * std::numbers::pi);
+  if (rate_hz <= 2. * first_hz)
+    throw signals::UserError("--rate: " + signals::to_text(rate_hz) +
+                             " Hz is not twice the first mode's " + signals::to_text(first_hz) +
+                             " Hz: such records do not show the sensor");
+}
+
+std::vector<diagnosis::PlannedInput> inputs_without_quiet(
+    const PlanCommand& options, const NominalInput::Simulation& simulation) {
+  const diagnosis::NominalModel& nominal = simulation.model.nominal;
+  if (options.records)
+    return diagnosis::inputs_of(nominal, signals::read_dataset(*options.records));
+  if (!simulation.dataset.records.empty()) return diagnosis::inputs_of(nominal, simulation.dataset);
+  refuse_slow_sampling(nominal, options.rate_hz);
+  return diagnosis::usual_inputs(nominal, options.rate_hz);
+}
+
 std::vector<diagnosis::PlannedInput> planned_inputs(const PlanCommand& options,
-                                                    const diagnosis::NominalModel& nominal) {
-  const auto& dataset = options.records ? options.records : options.nominal.simulation;
-  std::vector<diagnosis::PlannedInput> inputs =
-      dataset ? diagnosis::inputs_of(nominal, signals::read_dataset(*dataset))
-              : diagnosis::usual_inputs(nominal, options.rate_hz);
+                                                    const NominalInput::Simulation& simulation) {
+  std::vector<diagnosis::PlannedInput> inputs = inputs_without_quiet(options, simulation);
   if (options.quiet_s)
     inputs.push_back(diagnosis::quiet_input(*options.quiet_s, inputs.front().sampling_rate_hz));
   return inputs;
@@ -51,30 +67,21 @@ void write_results(const PlanCommand& options, const diagnosis::ExperimentPlan& 
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
 
-diagnosis::NominalModel nominal_model(const PlanCommand& options, bool show) {
-  const diagnosis::MendedModel model = options.nominal.read(show).model;
-  if (!model.effects.empty())
+NominalInput::Simulation simulation_of(const PlanCommand& options, bool show) {
+  NominalInput::Simulation simulation = options.nominal.read(show);
+  if (!simulation.model.effects.empty())
     throw signals::UserError(*options.nominal.model +
                              ": a plan starts from a simulation without effects: give the one that "
                              "was mended");
-  return model.nominal;
-}
-
-void refuse_slow_sampling(const diagnosis::NominalModel& nominal, const double rate_hz) {
-  if (nominal.modes.empty()) return;
-  const double first_hz = nominal.modes.front().frequency_rad_s / (2. * std::numbers::pi);
-  if (rate_hz <= 2. * first_hz)
-    throw signals::UserError("--rate: " + signals::to_text(rate_hz) +
-                             " Hz is not twice the first mode's " + signals::to_text(first_hz) +
-                             " Hz: such records do not show the sensor");
+  return simulation;
 }
 
 void plan(const PlanCommand& options) {
   report::RunFolder::refuse_taken(options.folder);
   const bool show = options.common.is_talkative();
-  const diagnosis::NominalModel nominal = nominal_model(options, show);
-  refuse_slow_sampling(nominal, options.rate_hz);
-  const std::vector<diagnosis::PlannedInput> inputs = planned_inputs(options, nominal);
+  const NominalInput::Simulation simulation = simulation_of(options, show);
+  const diagnosis::NominalModel& nominal = simulation.model.nominal;
+  const std::vector<diagnosis::PlannedInput> inputs = planned_inputs(options, simulation);
   signals::Progress progress("trying effects", diagnosis::n_plan_steps(nominal, inputs), show);
   const diagnosis::ExperimentPlan result = diagnosis::plan_experiments(
       nominal, inputs, options.noise, {.on_effect = [&] { progress.advance(); }});

@@ -21,6 +21,10 @@ signals::ReducedModel solve_case(const std::string& file, bool show_progress) {
 
 }  // namespace
 
+double NominalInput::Simulation::sampling_rate_hz() const {
+  return dataset.records.empty() ? 0. : dataset.records.front().record.sampling_rate_hz();
+}
+
 signals::ReducedModel NominalInput::read_model(const bool show_progress) const {
   const bool is_case = std::filesystem::path(*model).extension() == ".prm";
   return is_case ? solve_case(*model, show_progress) : signals::read_reduced_model(*model);
@@ -31,12 +35,11 @@ NominalInput::Simulation NominalInput::read(const bool show_progress) const {
     throw signals::UserError(
         "give the simulation either as --model CASE.prm|model.json or as --sim DATASET");
   if (simulation) {
-    const signals::Dataset dataset = signals::read_dataset(*simulation);
-    return {diagnosis::identify_nominal(dataset),
-            dataset.records.front().record.sampling_rate_hz()};
+    signals::Dataset dataset = signals::read_dataset(*simulation);
+    return {diagnosis::identify_nominal(dataset), std::move(dataset)};
   }
-  if (diagnosis::is_mended_model(*model)) return {diagnosis::read_mended_model(*model), 0.};
-  return {diagnosis::nominal_from(read_model(show_progress)), 0.};
+  if (diagnosis::is_mended_model(*model)) return {diagnosis::read_mended_model(*model), {}};
+  return {diagnosis::nominal_from(read_model(show_progress)), {}};
 }
 
 }  // namespace vibrissa::apps

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "diagnosis/mended_model.h"
+#include "signals/dataset.h"
 #include "signals/reduced_model.h"
 
 namespace vibrissa::apps {
@@ -12,11 +13,13 @@ namespace vibrissa::apps {
 struct NominalInput {
   std::optional<std::string> model, simulation;
 
-  /// The simulation and the rate of its records, 0 when it is a model. Throws UserError unless one
-  /// of the two is given, and what their readers throw.
+  /// The simulation and its records, none when it is a model. Throws UserError unless one of the
+  /// two is given, and what their readers throw.
   struct Simulation {
     diagnosis::MendedModel model;
-    double sampling_rate_hz = 0.;
+    signals::Dataset dataset;
+    /// Of the first record; 0: none.
+    double sampling_rate_hz() const;
   };
   Simulation read(bool show_progress) const;
   /// The model alone, which must be a case file or a reduced model.

@@ -131,9 +131,7 @@ void FrequencyProblem::weigh(const std::vector<double>& standard_deviation) {
 }
 
 bool FrequencyProblem::admissible(const ModalTerm& mode) const {
-  if (!(mode.a1 > 0. && mode.a0 > 0.)) return false;
-  const double damped_square = mode.a0 - 0.25 * mode.a1 * mode.a1;
-  return damped_square < std::pow(highest_damped_rad_s_, 2);
+  return is_stable_below(mode, highest_damped_rad_s_);
 }
 
 FrequencyProblem::ModeResponse FrequencyProblem::mode_response(const ModalTerm& mode,

@@ -57,7 +57,7 @@ Candidate try_hold(const Bvrm& model, std::span<const Segment> segments, double 
 
 bool is_told_from_aliases(const Bvrm& model, const Hold hold, const double rate_hz) {
   return std::ranges::all_of(model.modes, [&](const ModalTerm& mode) {
-    return std::sqrt(mode.a0) < highest_rad_s(hold, rate_hz);
+    return is_stable_below(mode, highest_rad_s(hold, rate_hz));
   });
 }
 

@@ -106,9 +106,7 @@ OutputErrorProblem::OutputErrorProblem(std::size_t n_modes, double delay_s,
 }
 
 bool OutputErrorProblem::admissible(const ModalTerm& mode) const {
-  if (!(mode.a1 > 0. && mode.a0 > 0.)) return false;
-  const double damped_square = mode.a0 - 0.25 * mode.a1 * mode.a1;
-  return damped_square < std::pow(highest_rad_s(options_.hold, sampling_rate_hz_), 2);
+  return is_stable_below(mode, highest_rad_s(options_.hold, sampling_rate_hz_));
 }
 
 bool OutputErrorProblem::linearise(const Eigen::VectorXd& unknowns, NormalEquations& equations) {

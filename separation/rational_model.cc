@@ -40,6 +40,11 @@ ModalTerm make_modal_term(double frequency_hz, double damping_ratio, double stat
           .a0 = omega * omega};
 }
 
+bool is_stable_below(const ModalTerm& mode, const double highest_rad_s) {
+  if (!(mode.a1 > 0. && mode.a0 > 0.)) return false;
+  return mode.a0 - 0.25 * mode.a1 * mode.a1 < highest_rad_s * highest_rad_s;
+}
+
 void check(const Bvrm& model) {
   for (std::size_t k = 0; k < model.modes.size(); ++k) {
     const ModalTerm& mode = model.modes[k];

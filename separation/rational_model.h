@@ -27,6 +27,10 @@ struct ModalTerm {
 ModalTerm make_modal_term(double frequency_hz, double damping_ratio, double static_gain_kg_m,
                           double viscous_gain_kg_m_s = 0.);
 
+/// Is the mode stable, and its free oscillation, damped as it is, below this angular frequency? Two
+/// real poles do not oscillate.
+bool is_stable_below(const ModalTerm& mode, double highest_rad_s);
+
 /// Base-vibration response model (BVRM): base moment per base acceleration,
 ///   G(s) = exp(-s delay) [ sum_k (b1_k s + b0_k) / (s^2 + a1_k s + a0_k) + D ]   [N m s^2/m = kg
 ///   m]

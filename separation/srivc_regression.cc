@@ -138,8 +138,7 @@ SrivcRegression::SrivcRegression(std::size_t n_modes, double delay_s,
 bool SrivcRegression::admissible(const Bvrm& model) const {
   const double highest = highest_rad_s(options_.hold, sampling_rate_hz_);
   return std::ranges::all_of(model.modes, [&](const ModalTerm& mode) {
-    return mode.a1 > 0. && mode.a0 > 0. && std::isfinite(mode.a1) && std::isfinite(mode.a0) &&
-           mode.a0 - 0.25 * mode.a1 * mode.a1 < highest * highest;
+    return std::isfinite(mode.a1) && std::isfinite(mode.a0) && is_stable_below(mode, highest);
   });
 }
 

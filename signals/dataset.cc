@@ -23,6 +23,10 @@ const std::vector<std::string> record_keys{
 const std::vector<std::string> file_keys{
     "schema", "records", "sampling_rate_hz", "columns", "remove_mean", "readout", "setup"};
 
+bool holds(const std::vector<std::string>& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
 /// Where an entry of dataset.json stands, and what is wrong with it.
 [[noreturn]] void refuse(const std::string& where, const std::string& reason) {
   throw UserError(where + ": " + reason);
@@ -123,9 +127,6 @@ ReadOptions options_of(const json& document, const json& entry, const std::strin
 /// Entries that mean nothing may stand beside those of the whole, but for those that would have
 /// meant something: of a record alone, or misspelt.
 void refuse_misplaced(const json& document, const std::string& name) {
-  const auto holds = [](const std::vector<std::string>& keys, const std::string& key) {
-    return std::find(keys.begin(), keys.end(), key) != keys.end();
-  };
   for (const auto& item : document.items()) {
     if (holds(file_keys, item.key())) continue;
     if (holds(record_keys, item.key()))
@@ -139,7 +140,7 @@ DatasetRecord read_entry(const fs::path& folder, const json& document, const jso
                          const std::string& where, const ReadOptions& given) {
   if (!entry.is_object()) refuse(where, "is no object");
   for (const auto& item : entry.items())
-    if (std::find(record_keys.begin(), record_keys.end(), item.key()) == record_keys.end())
+    if (!holds(record_keys, item.key()))
       refuse(where, unknown_name("entry", item.key(), record_keys));
   const std::string file = text_of(entry, "file", where, "");
   if (file.empty()) refuse(where, "names no file");
