@@ -160,6 +160,10 @@ void CaseFile::set(const std::string& section, const std::string& entry, const s
   for (std::size_t i = 0; i < path.size(); ++i) prm_->leave_subsection();
 }
 
+std::string CaseFile::get(const std::string& section, const std::string& entry) const {
+  return prm_->get(dealii::Utilities::split_string_list(section, '/'), entry);
+}
+
 Case CaseFile::read() {
   try {
     return parse_case(*prm_);

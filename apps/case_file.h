@@ -77,6 +77,8 @@ class CaseFile {
   /// Overrides one entry, as a command-line option does; option is named in the error.
   void set(const std::string& section, const std::string& entry, const std::string& value,
            const std::string& option);
+  /// The text of a declared entry.
+  std::string get(const std::string& section, const std::string& entry) const;
   /// Throws UserError naming entries and lines when values contradict each other.
   Case read();
   /// The file with every default filled in, as text that reads back to the same case.

@@ -73,6 +73,28 @@ void set_range(CaseFile& file, const std::string& text) {
   file.set(section_of(full_channel_name(name), "--range"), "Range", value, "--range");
 }
 
+bool is_recorded(const CaseFile& file, const std::string& channel) {
+  const std::string& section = recorded_sections().at(channel);
+  return file.get(section.substr(0, section.find('/')), "Kind") == "recorded";
+}
+
+// What is said of a recording's file must not be lost because the run takes no recording.
+void refuse_unread(const CaseFile& file, const std::vector<std::string>& texts,
+                   const std::string& option) {
+  for (const std::string& text : texts) {
+    const bool is_for_all = option == "--rate" && text.find('=') == std::string::npos;
+    const std::string name = text.substr(0, text.find('='));
+    bool is_read = false;
+    for (const auto& [channel, section] : recorded_sections())
+      is_read = is_read ||
+                (is_recorded(file, channel) && (is_for_all || full_channel_name(name) == channel));
+    if (!is_read)
+      throw UserError(option + " " + text +
+                      ": this run reads no such recording; give one by --base-acceleration FILE or "
+                      "--wind FILE, or leave the option out");
+  }
+}
+
 void set_entry(CaseFile& file, const std::string& text) {
   const auto [path, value] = split(text, "--set");
   const auto slash = path.rfind('/');
@@ -141,6 +163,11 @@ CaseFile CaseOptions::load() const {
   if (duration_s) file.set("Records", "Duration", *duration_s, "--duration");
   if (output_folder) file.set("Output", "Folder", *output_folder, "--output");
   for (const auto& text : settings) set_entry(file, text);
+  refuse_unread(file, columns, "--column");
+  refuse_unread(file, rates, "--rate");
+  refuse_unread(file, rows, "--rows");
+  refuse_unread(file, ranges, "--range");
+  refuse_unread(file, remove_means, "--remove-mean");
   return file;
 }
 

@@ -26,7 +26,8 @@ struct CaseOptions {
   void add_folder_to(CLI::App& command);
   /// Whether nothing overrides the case file.
   bool is_plain() const;
-  /// The case file with the overrides set. Throws UserError naming the option.
+  /// The case file with the overrides set. Throws UserError naming the option, also where it is
+  /// about a recording that the run does not read.
   CaseFile load() const;
 };
 

@@ -9,7 +9,7 @@ namespace vibrissa::apps {
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--json", options.json, "Print the result as JSON on standard output");
-  command.add_flag("-q,--quiet", options.quiet, "No progress bar, no remarks");
+  command.add_flag("-q,--quiet", options.quiet, "No progress bar, no remarks; warnings stay");
 }
 
 namespace {

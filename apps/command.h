@@ -11,7 +11,7 @@ namespace vibrissa::apps {
 /// What every command takes.
 struct CommonOptions {
   bool json = false;   // the result as one JSON document on standard output, nothing else there
-  bool quiet = false;  // no progress bar, no remarks
+  bool quiet = false;  // no progress bar, no remarks; warnings stay
   bool is_talkative() const { return !json && !quiet; }
 };
 

@@ -123,12 +123,12 @@ void add_wind_speeds(const SeparateOptions& options, const std::vector<Separated
   }
 }
 
-void remark_dead_accelerometer(const signals::Record& record) {
+void warn_of_dead_accelerometer(const signals::Record& record) {
   if (!record.has(signals::channel::base_acceleration)) return;
   const auto a = record.channel(signals::channel::base_acceleration);
   const auto [low, high] = std::minmax_element(a.begin(), a.end());
   if (*low == *high)
-    std::cerr << "vibrissa: base_acceleration is " << *low
+    std::cerr << "warning: base_acceleration is " << *low
               << " throughout: no vibration is taken off; is the accelerometer's column the right "
                  "one?\n";
 }
@@ -169,7 +169,7 @@ void separate(const SeparateOptions& options) {
         "column (--truth)");
   }
   const signals::Record record = options.record.read(options.record_file);
-  if (!options.common.quiet) remark_dead_accelerometer(record);
+  warn_of_dead_accelerometer(record);
   std::vector<double> truth;
   if (options.truth_column) {
     truth = options.record.read_column(options.record_file, *options.truth_column);

@@ -65,6 +65,8 @@ void simulate(const SimulateOptions& options) {
   }
   if (options.input_file)
     throw signals::UserError("--inputs is for a mended model; a case file names its own inputs");
+  if (options.periodic)
+    throw signals::UserError("--periodic is for the --inputs of a mended model");
   const Case parameters = options.chosen.load().read();
   check_reduced_wind(parameters);
   const Inputs inputs = make_inputs(parameters);

@@ -1,6 +1,7 @@
 #include "apps/manual.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "apps/command_names.h"
@@ -25,11 +26,14 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+bool takes_value(const CLI::Option& option) {
+  return option.get_expected_max() > 0 && option.get_type_size() != 0;
+}
+
 std::string option_heading(const CLI::Option& option) {
   std::string heading = option.get_name(false, true);
   std::replace(heading.begin(), heading.end(), ',', ' ');
-  if (option.get_expected_max() > 0 && option.get_type_size() != 0 && !option.get_positional())
-    heading += " " + option.get_type_name();
+  if (takes_value(option) && !option.get_positional()) heading += " " + option.get_type_name();
   return heading;
 }
 
@@ -60,6 +64,14 @@ void add_commands(CLI::App& app, const std::string& before, std::ostream& page) 
   }
 }
 
+nlohmann::json option_json(const CLI::Option& option) {
+  return {{"name", option.get_name(true, true)},
+          {"description", option.get_description()},
+          {"value", takes_value(option) ? option.get_type_name() : ""},
+          {"default", option.get_default_str()},
+          {"is_required", option.get_required()}};
+}
+
 std::string words(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text.append(text.empty() ? "" : " ").append(name);
@@ -77,6 +89,18 @@ std::string manual_page(CLI::App& app) {
   page << ".SH COMMANDS\n";
   add_commands(app, "vibrissa ", page);
   return page.str();
+}
+
+nlohmann::json manual_json(const CLI::App& app) {
+  nlohmann::json options = nlohmann::json::array(), commands = nlohmann::json::array();
+  for (const CLI::Option* const option : app.get_options()) options.push_back(option_json(*option));
+  for (const CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(manual_json(*command));
+  return {{"name", app.get_name()},
+          {"description", app.get_description()},
+          {"options", options},
+          {"footer", app.get_footer()},
+          {"commands", commands}};
 }
 
 std::string completion_script(CLI::App& app, const std::string& shell) {

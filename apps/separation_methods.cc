@@ -48,7 +48,8 @@ SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n
   if (skipped + 64 > record.n_samples()) {
     throw signals::UserError("the record of " + std::to_string(record.duration_s()) +
                              " s is too short to leave out the settling time of " +
-                             std::to_string(settling_s) + " s; shorten the settling time");
+                             std::to_string(settling_s) +
+                             " s; shorten it (--settling, or Separation/Settling time of a case)");
   }
   SeparatedSignal signal;
   signal.name = name;

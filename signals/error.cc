@@ -1,18 +1,13 @@
 #include "signals/error.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <limits>
 
+#include "signals/lower_case.h"
+
 namespace vibrissa::signals {
 namespace {
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](const unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 // Insertions, deletions, replacements and swaps of neighbours that lead from one text to the other
 // (optimal string alignment).

@@ -1,7 +1,6 @@
 #include "signals/formats/file_format.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "signals/formats/csv_record.h"
 #include "signals/formats/csv_table.h"
@@ -9,6 +8,7 @@
 #include "signals/formats/mat_file.h"
 #include "signals/formats/npy_file.h"
 #include "signals/formats/uff58_record.h"
+#include "signals/lower_case.h"
 #include "signals/wav_file.h"
 
 namespace vibrissa::signals::formats {
@@ -50,10 +50,7 @@ const std::vector<FileFormat>& file_formats() {
 }
 
 std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](const unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lower_case(file.extension().string());
 }
 
 bool FileFormat::has(const std::string& extension) const {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -9,6 +8,7 @@
 #include "signals/error.h"
 #include "signals/formats/file_format.h"
 #include "signals/formats/response_file.h"
+#include "signals/lower_case.h"
 #include "signals/number_text.h"
 #include "signals/scaled_name.h"
 #include "signals/unit.h"
@@ -87,10 +87,8 @@ std::optional<Complex> by_parts(const Columns& columns, const std::string& real,
   return value;
 }
 
-bool is_in_decibels(std::string column) {
-  std::transform(column.begin(), column.end(), column.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return column.ends_with("db");
+bool is_in_decibels(const std::string& column) {
+  return lower_case(column).ends_with("db");
 }
 
 std::optional<Complex> by_magnitude(const Columns& columns) {

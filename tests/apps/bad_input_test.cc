@@ -127,6 +127,40 @@ TEST_F(BadCase, FolderThatCannotBeMadeIsNamed) {
                  HasSubstr("plain"));
 }
 
+TEST_F(BadCase, OptionsAboutARecordingThatIsNotReadAreRefused) {
+  const std::string simulate =
+      "simulate '" + case_file("flow_sensor.prm") + "' -o '" + folder.file("record.csv") + "' ";
+  for (const std::string option :
+       {"--column base_acceleration=ax", "--rate 500", "--rate wind_speed=500",
+        "--rows base_acceleration=1:100", "--range wind_speed=0:4", "--remove-mean wind_speed"})
+    expect_refusal(vibrissa(simulate + option),
+                   AllOf(HasSubstr(option), HasSubstr("--base-acceleration FILE")));
+  expect_refusal(vibrissa(simulate + "--periodic"), HasSubstr("mended model"));
+  EXPECT_EQ(folder.n_entries(), 0u);
+}
+
+TEST(TakenFolder, IsRefusedBeforeTheWork) {
+  const Folder folder;
+  std::filesystem::create_directory(folder.file("taken"));
+  folder.write("taken/report.html", "old");
+  for (const std::string command : {"plan --sim nowhere", "diagnose --sim nowhere --real nowhere",
+                                    "reproduce", "benchmark separation", "static nowhere.prm"}) {
+    SCOPED_TRACE(command);
+    expect_refusal(vibrissa(command + " -o '" + folder.file("taken") + "'"), HasSubstr("taken"));
+  }
+  EXPECT_EQ(content(folder.file("taken/report.html")), "old");
+}
+
+TEST(BadModel, SamplingTooSlowForItsFirstModeIsRefused) {
+  expect_refusal(vibrissa("plan --model '" + case_file("flow_sensor.prm") + "' --rate 10 --quiet"),
+                 AllOf(HasSubstr("--rate"), HasSubstr("first mode")));
+}
+
+TEST(BadModel, ResponsesInMatlabsNewerVersionAreRefused) {
+  expect_refusal(vibrissa("convert nowhere.csv out.mat --frequency-response --mat-version 7.3"),
+                 HasSubstr("written as version 5"));
+}
+
 /// A record of 400 samples whose rows a test can spoil.
 std::string record_text(const std::function<std::string(int, std::string)>& spoil) {
   std::ostringstream text;
@@ -137,6 +171,17 @@ std::string record_text(const std::function<std::string(int, std::string)>& spoi
     text << spoil(i, row.str()) << "\n";
   }
   return text.str();
+}
+
+TEST(BadModel, FolderIsNoFile) {
+  const Folder folder;
+  const std::string model = folder.file("model.json");
+  std::filesystem::create_directory(model);
+  const std::string record =
+      folder.write("r.csv", record_text([](int, const std::string& row) { return row; }));
+  expect_refusal(vibrissa("plan --model '" + model + "'"), HasSubstr("is a folder"));
+  expect_refusal(vibrissa("separate '" + record + "' --settling 0 --model '" + model + "'"),
+                 HasSubstr("is a folder"));
 }
 
 class BadRecord : public testing::Test {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "tests/apps/program.h"
@@ -27,6 +28,30 @@ TEST(Manual, ManReadsItWithoutAWarning) {
   // Lines are justified with further spaces, which lines before them may shift.
   EXPECT_THAT(std::regex_replace(content(folder.file("text")), std::regex("\\s+"), " "),
               HasSubstr("Base vibration response model"));
+}
+
+// Commands that hold others do nothing themselves.
+void expect_json_option(const nlohmann::json& command, const std::string& path) {
+  for (const auto& inner : command["commands"])
+    expect_json_option(inner, path + " " + inner["name"].get<std::string>());
+  if (!command["commands"].empty()) return;
+  std::string names;
+  for (const auto& option : command["options"]) names += option["name"].get<std::string>() + " ";
+  EXPECT_THAT(names, HasSubstr("--json ")) << path;
+}
+
+TEST(Manual, EveryCommandTakesJson) {
+  const ProgramResult page = vibrissa("manual --json");
+  ASSERT_EQ(page.status, 0);
+  const auto document = nlohmann::json::parse(page.output);
+  EXPECT_GT(document["commands"].size(), 15u);
+  expect_json_option(document, "vibrissa");
+}
+
+TEST(Completion, IsJsonOnDemand) {
+  const auto document = nlohmann::json::parse(vibrissa("completion zsh --json").output);
+  EXPECT_EQ(document["shell"], "zsh");
+  EXPECT_EQ(document["script"], vibrissa("completion zsh").output);
 }
 
 TEST(Completion, BashCompletesCommandsAndOptions) {

@@ -56,5 +56,21 @@ TEST(Stream, RefusesWhatNeedsTheWholeRecord) {
   EXPECT_THAT(mean.errors, HasSubstr("--remove-mean needs the whole record"));
 }
 
+TEST(Stream, RefusesFilesAndModelsThatAreWhole) {
+  const Folder folder;
+  const std::string record = quoted(write_long_record(folder));
+  const ProgramResult mat =
+      vibrissa("separate " + record + " --stream -o " + quoted(folder.file("s.mat")));
+  EXPECT_EQ(mat.status, 2);
+  EXPECT_THAT(mat.errors, HasSubstr("--stream writes CSV"));
+  const std::string mended = quoted(
+      folder.write("mended.json", R"({"schema": "vibrissa-mended-model-1", "effects": []})"));
+  const ProgramResult model = vibrissa("separate " + record + " --stream --model " + mended +
+                                       " -o " + quoted(folder.file("s.csv")));
+  EXPECT_EQ(model.status, 2);
+  EXPECT_THAT(model.errors, HasSubstr("a mended model is simulated whole"));
+  EXPECT_EQ(folder.n_entries(), 2u);
+}
+
 }  // namespace
 }  // namespace vibrissa::apps
