@@ -3,6 +3,7 @@
 #include <map>
 
 #include "apps/record_options.h"
+#include "signals/channel_name.h"
 #include "signals/error.h"
 #include "signals/record_io.h"
 
@@ -24,7 +25,10 @@ std::string section_of(const std::string& channel, const std::string& option) {
   const auto found = recorded_sections().find(channel);
   if (found == recorded_sections().end()) {
     throw UserError(option + ": '" + channel +
-                    "' is no input of a run; inputs are base_acceleration and wind_speed");
+                    "' is no input of a run; inputs are base_acceleration and wind_speed" +
+                    (channel == signals::time_channel
+                         ? "; a file without a column time_s has its clock from --rate HZ"
+                         : ""));
   }
   return found->second;
 }
@@ -133,7 +137,10 @@ void CaseOptions::add_to(CLI::App& command) {
 }
 
 void CaseOptions::add_folder_to(CLI::App& command) {
-  command.add_option("-o,--output,--out", output_folder, "Results folder; must not exist yet");
+  command.add_option(
+      "-o,--output,--out", output_folder,
+      "Results folder; must not exist yet (default: Output/Folder of the case, else a "
+      "new one in runs/)");
 }
 
 bool CaseOptions::is_plain() const {

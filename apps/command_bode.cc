@@ -88,6 +88,9 @@ void write_folder(const std::string& folder, const MeasuredResponse& measured) {
 }
 
 void bode(const BodeOptions& options) {
+  FileNames inputs(options.realisations.begin(), options.realisations.end());
+  inputs.push_back(options.input);
+  refuse_overwriting(inputs, {options.response_file});
   const MeasuredResponse measured = make_response(options);
   if (options.response_file)
     signals::formats::write_response(*options.response_file, measured.curve.response,
@@ -104,6 +107,7 @@ void bode(const BodeOptions& options) {
     print_json(response_json(measured));
     return;
   }
+  if (options.common.quiet && (options.response_file || options.folder)) return;
   if (options.response_file)
     std::cout << "wrote " << *options.response_file << ": "
               << measured.curve.response.frequency_hz.size() << " frequencies\n";
@@ -117,9 +121,7 @@ void add_bode_command(CLI::App& app) {
   const auto options = std::make_shared<BodeOptions>();
   auto* command = app.add_subcommand(
       "bode", "Frequency response base acceleration -> base moment of a case, a model or a record");
-  command
-      ->add_option("input", options->input,
-                   "Case file (.prm), reduced model (.json) or record (.csv)")
+  command->add_option("input", options->input, "Case file (.prm), reduced model (.json) or record")
       ->required();
   options->chosen.add_settings_to(*command);
   command->add_option("-o,--output,--out", options->folder,

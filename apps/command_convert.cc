@@ -81,7 +81,7 @@ void add_convert_command(CLI::App& app) {
       "  vibrissa convert record.csv record.uff\n"
       "  vibrissa convert modal_test.uff response.mat --frequency-response");
   command->callback([options] {
-    refuse_overwriting(options->from, options->to);
+    refuse_overwriting({options->from}, {options->to});
     if (options->frequency_response || !options->response_as.empty())
       convert_response(*options);
     else

@@ -31,13 +31,15 @@ struct DiagnoseCommand {
   std::vector<std::string> possible_experiments;
 };
 
+constexpr std::size_t whole_verdict = 1000;
+
 void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& diagnosis) {
   const auto folder =
       report::RunFolder::given_or_free(options.folder, std::filesystem::path("results/diagnosis"));
   folder.write_run({.command_line = given_command_line()});
   folder.write_text("diagnosis.json", diagnosis::diagnosis_json(diagnosis));
   folder.write_text("mended_model.json", diagnosis::mended_model_json(diagnosis.mended));
-  folder.write_text("verdict.txt", diagnosis::verdict_text(diagnosis));
+  folder.write_text("verdict.txt", diagnosis::verdict_text(diagnosis, whole_verdict));
   folder.write_text("ranking.csv", ranking_table(diagnosis).to_csv());
   for (const report::Figure& figure : diagnosis_figures(diagnosis))
     report::write_figure(folder.path(), figure);
@@ -71,8 +73,9 @@ void diagnose_records(const DiagnoseCommand& options) {
         "alone as --resonance SIMULATED_HZ:MEASURED_HZ");
   diagnosis::check_menu_names(options.possible_experiments);
   const bool show = options.common.is_talkative();
-  const NominalInput::Simulation simulation = options.simulation.read(show);
+  options.simulation.check_one_is_given();
   const signals::Dataset real = signals::read_dataset(*options.real, options.record.read_options());
+  const NominalInput::Simulation simulation = options.simulation.read(show);
   refuse_the_same(simulation.dataset, real);
   // About forty single effects and combinations are fitted.
   constexpr std::size_t usual_fits = 75;
@@ -118,7 +121,8 @@ void add_diagnose_command(CLI::App& app) {
   options->figures.add_to(*command);
   command->add_option(
       "-o,--out,--output", options->folder,
-      "New folder for report.html, diagnosis.json, mended_model.json, ranking.csv and pictures");
+      "New folder for report.html, diagnosis.json, mended_model.json, ranking.csv and pictures "
+      "(default: results/diagnosis, numbered when it is there)");
   command
       ->add_option("--max-effects", options->max_effects,
                    "Most effects that are combined beside retuned parameters")

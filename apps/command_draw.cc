@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,8 @@ nlohmann::json to_json(const report::PictureReport& pictures) {
 }
 
 void draw(const std::string& folder, const CommonOptions& common) {
+  if (!std::filesystem::is_directory(folder))
+    throw signals::UserError(folder + ": is no results folder");
   bool is_complete;
   if (common.json || common.quiet) {
     const report::PictureReport pictures = report::draw_pictures(folder);

@@ -76,6 +76,10 @@ void identify_from_response(const IdentifyCommandOptions& options) {
   refuse_what_needs_a_record(options);
   const signals::FrequencyResponse response =
       signals::formats::read_response(options.record_file, {options.response_as});
+  if (response.coherence.empty() && response.standard_deviation.empty())
+    std::cerr << "warning: " << options.record_file
+              << ": no coherence and no standard deviation: every line counts alike, also where "
+                 "nothing was excited\n";
   const auto found =
       separation::identify_response(response, {.order = options.identify.order,
                                                .max_order = options.identify.max_order,
@@ -122,12 +126,13 @@ void identify(const IdentifyCommandOptions& options) {
           : separation::hold_out_last_third(all);
   const auto result = separation::identify_bvrm(fit, held_out, identify);
   const separation::ModelEvidence evidence = separation::examine(result, fit, held_out);
-  if (options.model_file)
-    separation::write_bvrm(*options.model_file, {result.fit.model, result.hold});
+  // The header comes first: it may be refused, and then nothing has been written.
   if (options.c_header_file) {
     separation::write_c_header(*options.c_header_file, result.fit.model,
                                {all.sampling_rate_hz(), result.hold});
   }
+  if (options.model_file)
+    separation::write_bvrm(*options.model_file, {result.fit.model, result.hold});
   if (options.common.json) {
     print_json(separation::identification_report(result, evidence, options.method));
     return;
@@ -153,12 +158,13 @@ void add_identify_command(CLI::App& app) {
       "identify", "Base vibration response model from a record of base acceleration and moment");
   command->add_option("record", options->record_file, "Record, or frequency response")->required();
   command->add_option("--held-out", options->held_out_file,
-                      "CSV record that only scores the model (default: last third of the record)");
+                      "Record that only scores the model (default: last third of the record)");
   command
-      ->add_option("--order", options->identify.order,
-                   "Number of poles, two for each mode (default: by information criterion)")
+      ->add_option(
+          "--order", options->identify.order,
+          "Number of poles, two for each mode, hence even (default: by information criterion)")
       ->check(CLI::Range(1, highest_order));
-  command->add_option("--max-order", options->identify.max_order, "Highest order tried")
+  command->add_option("--max-order", options->identify.max_order, "Highest order tried, even")
       ->check(CLI::Range(1, highest_order))
       ->capture_default_str();
   command->add_flag("--cross-validation", options->cross_validation,
@@ -205,6 +211,8 @@ void add_identify_command(CLI::App& app) {
       "  vibrissa identify modal_test.uff --frequency-response --response-as '2[mN mm/g]'\n"
       "  vibrissa identify ring_down.csv --output-only");
   command->callback([options] {
+    refuse_overwriting({options->record_file, options->held_out_file},
+                       {options->model_file, options->c_header_file});
     if (!options->response_as.empty()) options->frequency_response = true;
     if (options->output_only)
       identify_from_output(*options);

@@ -7,6 +7,7 @@
 
 #include "apps/case_options.h"
 #include "apps/command.h"
+#include "apps/record_options.h"
 #include "fem/calculix_file.h"
 #include "fem/solver_session.h"
 #include "meshes/gmsh_file.h"
@@ -54,6 +55,7 @@ void print_audit(const meshes::MeshAudit& audit) {
 }
 
 void audit(const MeshOptions& options) {
+  refuse_overwriting({options.chosen.case_file}, {options.calculix_file});
   const Case parameters = options.chosen.load().read();
   const auto materials = parameters.sensor.materials.by_region();
   dealii::Triangulation<3> mesh;

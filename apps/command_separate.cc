@@ -158,7 +158,8 @@ void separate_as_stream(const SeparateOptions& options) {
 }
 
 void separate(const SeparateOptions& options) {
-  if (options.output_file) refuse_overwriting(options.record_file, *options.output_file);
+  refuse_overwriting({options.record_file, options.model_file, options.sensor_model_file},
+                     {options.output_file, options.dtw_path_file});
   if (options.stream) return separate_as_stream(options);
   if (options.sensor_model_file && !options.output_file) {
     throw signals::UserError("--sensor-model adds wind speeds to the output record: name it (-o)");
@@ -188,7 +189,11 @@ void separate(const SeparateOptions& options) {
     print_json(separation_json(signals));
     return;
   }
+  if (options.output_file && !options.common.quiet)
+    std::cout << "wrote " << *options.output_file << ": " << record.n_samples() << " samples\n";
   std::cout << separation_table(signals).to_text();
+  if (!options.common.quiet && !options.truth_column)
+    std::cout << "Dashes: these figures need the true wind moment (--truth COLUMN).\n";
   if (!options.common.quiet) std::cout << metric_notes(options.settling_s) << "\n";
 }
 
@@ -199,8 +204,7 @@ void add_separate_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "separate", "Wind part of a record's base moment, by a BVRM and by an adaptive filter");
   command
-      ->add_option("record", options->record_file,
-                   "CSV record with base acceleration and base moment")
+      ->add_option("record", options->record_file, "Record with base acceleration and base moment")
       ->required();
   command->add_option(
       "--model", options->model_file,
@@ -230,7 +234,7 @@ void add_separate_command(CLI::App& app) {
                       "CSV written: which time of each estimate the DTW score lays beside which "
                       "of the truth");
   command->add_option("-o,--output,--out", options->output_file,
-                      "CSV record written, with a wind moment for each method");
+                      "Record written, with a wind moment for each method");
   command
       ->add_option("--block", options->fdaf.block_length, "Block of the adaptive filter [samples]")
       ->check(CLI::Range(1, 65536))

@@ -44,18 +44,24 @@ signals::Record mended_record(const SimulateOptions& options) {
   return record;
 }
 
+FileNames recordings_of(const Case& parameters) {
+  return {parameters.base.recorded.file.string(), parameters.wind_record.file.string()};
+}
+
 void report(const SimulateOptions& options, const signals::Record& record,
             const std::string& solver) {
   if (options.common.json) {
     nlohmann::json document = written_record_json(options.record_file, record);
     document["solver"] = solver;
     print_json(document);
-  } else {
+  } else if (!options.common.quiet) {
     std::cout << written_record_text(options.record_file, record);
   }
 }
 
 void simulate(const SimulateOptions& options) {
+  const FileNames outputs = {options.record_file, options.model_file};
+  refuse_overwriting({options.chosen.case_file, options.input_file}, outputs);
   if (diagnosis::is_mended_model(options.chosen.case_file)) {
     if (!fem::is_first_process()) return;
     const signals::Record record = mended_record(options);
@@ -68,6 +74,7 @@ void simulate(const SimulateOptions& options) {
   if (options.periodic)
     throw signals::UserError("--periodic is for the --inputs of a mended model");
   const Case parameters = options.chosen.load().read();
+  refuse_overwriting(recordings_of(parameters), outputs);
   check_reduced_wind(parameters);
   const Inputs inputs = make_inputs(parameters);
   const fem::SolverSession session;
@@ -92,7 +99,7 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--model", options->model_file, "Also write the reduced model (JSON)");
   command->add_option("--inputs", options->input_file,
                       "With a mended model (mended_model.json of a diagnosis) in place of the case "
-                      "file: CSV record with its base acceleration and wind speed; no noise");
+                      "file: record with its base acceleration and wind speed; no noise");
   command->add_flag("--periodic", options->periodic,
                     "These inputs are whole periods in steady state");
   add_common_options(*command, options->common);

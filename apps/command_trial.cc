@@ -120,14 +120,18 @@ void observe(const TrialCommand& options) {
 
 void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   auto* command = trial.add_subcommand("make", "Write records of sensors whose effect is sealed");
-  command->add_option("--cases", options->n_cases, "How many")->check(positive_number());
-  command->add_option("--first", options->first, "Number of the first, to go on with a seed");
-  command->add_option("--seed", options->seed, "All sensors follow from it");
+  command->add_option("--cases", options->n_cases, "How many")
+      ->check(positive_number())
+      ->capture_default_str();
+  command->add_option("--first", options->first, "Number of the first, to go on with a seed")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "All sensors follow from it")->capture_default_str();
   command->add_option("-o,--out,--output", options->folder, "New folder")->required();
   command->add_flag("--finite-strain", options->finite_strain,
                     "Sensors that are the whole solid at finite strain in place of its modes: "
                     "fewer effects, and a quarter of an hour each");
   add_common_options(*command, options->common);
+  command->footer("Example:\n  vibrissa trial make --cases 40 --seed 5 --out trial5");
   command->callback([options] { make(*options); });
 }
 
@@ -144,6 +148,9 @@ void add_run(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n  vibrissa trial run trial5\n"
+      "  mpirun -np 2 vibrissa trial run trial5 --threads 1");
   command->callback([options] { run(*options); });
 }
 
@@ -154,6 +161,7 @@ void add_score(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   command->add_option("-o,--out,--output", options->out,
                       "New folder for tables and pictures; else FOLDER/score");
   add_common_options(*command, options->common);
+  command->footer("Example:\n  vibrissa trial score trial5 --out score5");
   command->callback([options] { score(*options); });
 }
 
@@ -178,6 +186,7 @@ void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) 
       ->check(CLI::Range(0., 1e6))
       ->capture_default_str();
   add_common_options(*command, options->common);
+  command->footer("Example:\n  vibrissa trial observe --benches 5 --as-built");
   command->callback([options] { observe(*options); });
 }
 

@@ -76,6 +76,11 @@ std::vector<report::KeyNumber> key_numbers(const Diagnosis& d) {
          "anything else, shown by these records or not, " + percent(d.probability_of_unlisted)});
     if (first.held_out) add_scores(numbers, first.held_out->overall);
   }
+  if (d.resonance)
+    numbers.push_back({"Resonance, measured", number(d.resonance->measured_hz) + " Hz",
+                       "simulated " + number(d.resonance->simulated_hz) +
+                           " Hz; below it the response is " + number(d.resonance->slow_gain_ratio) +
+                           " times the simulated one"});
   if (d.wind_speed)
     numbers.push_back({"Error of the wind speed, mended", number(d.wind_speed->after_m_s) + " m/s",
                        "before " + number(d.wind_speed->before_m_s) + " m/s"});
@@ -107,13 +112,16 @@ report::Table parameter_table(const Diagnosis& d) {
                        {"value", "", 3},
                        {"95 % from", "", 3},
                        {"95 % to", "", 3},
-                       {"unit", ""}});
+                       {"unit", ""},
+                       {"remark", ""}});
   constexpr double improbable = 0.01;
   for (const RankedAnswer& answer : d.ranking) {
     if (answer.probability < improbable && &answer != &d.ranking.front()) continue;
     for (const auto* estimates : {&answer.parameters, &answer.materials})
       for (const diagnosis::ParameterEstimate& p : *estimates)
-        table.add_row({answer.name, p.effect, p.name, p.value, p.ci95[0], p.ci95[1], p.unit});
+        table.add_row({answer.name, p.effect, p.name, p.value, p.ci95[0], p.ci95[1],
+                       p.unit == "1" ? "" : p.unit,
+                       p.at_limit ? "at the limit of what is tried" : ""});
   }
   return table;
 }

@@ -30,10 +30,14 @@ signals::ReducedModel NominalInput::read_model(const bool show_progress) const {
   return is_case ? solve_case(*model, show_progress) : signals::read_reduced_model(*model);
 }
 
-NominalInput::Simulation NominalInput::read(const bool show_progress) const {
+void NominalInput::check_one_is_given() const {
   if (model.has_value() == simulation.has_value())
     throw signals::UserError(
         "give the simulation either as --model CASE.prm|model.json or as --sim DATASET");
+}
+
+NominalInput::Simulation NominalInput::read(const bool show_progress) const {
+  check_one_is_given();
   if (simulation) {
     signals::Dataset dataset = signals::read_dataset(*simulation);
     return {diagnosis::identify_nominal(dataset), std::move(dataset)};

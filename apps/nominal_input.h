@@ -22,6 +22,8 @@ struct NominalInput {
     double sampling_rate_hz() const;
   };
   Simulation read(bool show_progress) const;
+  /// What read() does first.
+  void check_one_is_given() const;
   /// The model alone, which must be a case file or a reduced model.
   signals::ReducedModel read_model(bool show_progress) const;
 };

@@ -25,10 +25,19 @@ std::size_t whole_number(const std::string& text, const std::string& option) {
 
 }  // namespace
 
-void refuse_overwriting(const std::string& input, const std::string& output) {
+void refuse_overwriting(const FileNames& inputs, const FileNames& outputs) {
   std::error_code missing;
-  if (std::filesystem::equivalent(input, output, missing))
-    throw signals::UserError(output + ": is the file that is read; name another one to write");
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (!outputs[i]) continue;
+    for (const auto& input : inputs)
+      if (input && std::filesystem::equivalent(*input, *outputs[i], missing))
+        throw signals::UserError(*outputs[i] +
+                                 ": is the file that is read; name another one to write");
+    for (std::size_t j = 0; j < i; ++j)
+      if (outputs[j] && std::filesystem::weakly_canonical(*outputs[j], missing) ==
+                            std::filesystem::weakly_canonical(*outputs[i], missing))
+        throw signals::UserError(*outputs[i] + ": would be written twice; name two files to write");
+  }
 }
 
 RowRange parse_rows(const std::string& text, const std::string& option) {

@@ -33,9 +33,10 @@ nlohmann::json written_record_json(const std::string& file, const signals::Recor
 /// The same as a line.
 std::string written_record_text(const std::string& file, const signals::Record& record);
 
-/// Throws UserError where the output is the very file that is read: a recording is not replaced by
-/// what was made of it.
-void refuse_overwriting(const std::string& input, const std::string& output);
+/// Throws UserError where an output is one of the files that are read, or is named twice: a
+/// recording is not replaced by what was made of it. Absent ones are none.
+using FileNames = std::vector<std::optional<std::string>>;
+void refuse_overwriting(const FileNames& inputs, const FileNames& outputs);
 
 /// FIRST:LAST, data rows counted from 1. Throws UserError naming the option.
 struct RowRange {

@@ -183,11 +183,14 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
       const auto value = [&](double at) {
         return parameter.value(std::clamp(at, parameter.prior.low, parameter.prior.high));
       };
-      out.push_back({.effect = id,
-                     .name = parameter.name,
-                     .unit = parameter.unit,
-                     .value = value(x),
-                     .ci95 = {value(x - half), value(x + half)}});
+      const double reach = 1e-6 * (parameter.prior.high - parameter.prior.low);
+      out.push_back(
+          {.effect = id,
+           .name = parameter.name,
+           .unit = parameter.unit,
+           .value = value(x),
+           .ci95 = {value(x - half), value(x + half)},
+           .at_limit = x < parameter.prior.low + reach || x > parameter.prior.high - reach});
     }
   return out;
 }
@@ -242,6 +245,7 @@ Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& record
   set_gap(out, simulation, real, result, experiment);
   out.response = compare_response(experiment, result.fits[best.fit]);
   out.mended = mended_model(experiment, result.fits[best.fit]);
+  if (out.verdict != outside_catalogue) out.resonance = resonance_change(experiment, out.mended);
   out.wind_speed = wind_speed_error(simulation, out.mended, real);
   out.separation = separation_quality(simulation, out.mended, real);
   out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);

@@ -13,6 +13,7 @@
 #include "diagnosis/held_out.h"
 #include "diagnosis/location.h"
 #include "diagnosis/next_experiment.h"
+#include "diagnosis/resonance_change.h"
 #include "diagnosis/search.h"
 #include "diagnosis/separation_quality.h"
 #include "diagnosis/shares.h"
@@ -33,6 +34,7 @@ struct ParameterEstimate {
   std::string effect{}, name{}, unit{};
   double value = 0.;
   std::array<double, 2> ci95{};
+  bool at_limit = false;  // of what is tried: the interval tells nothing
 };
 
 struct RankedAnswer {
@@ -79,6 +81,9 @@ struct Diagnosis {
   TraceComparison trace{};
   /// The simulation with the best answer's effects and every retune as fitted.
   MendedModel mended{};
+  /// What they do to the resonance and to the response below it; nothing where no known effect
+  /// explains the records.
+  std::optional<ResonanceChange> resonance{};
   /// What that does to the wind speed that is read from held-out records.
   std::optional<WindSpeedError> wind_speed{};
   /// And to the wind's moment, where its truth is known.

@@ -1,6 +1,7 @@
 #include "diagnosis/diagnosis_json.h"
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -88,7 +89,8 @@ json estimates_json(const std::vector<ParameterEstimate>& estimates) {
                    {"name", estimate.name},
                    {"value", json_number(estimate.value)},
                    {"unit", estimate.unit},
-                   {"ci95", interval(estimate.ci95)}});
+                   {"ci95", interval(estimate.ci95)},
+                   {"at_limit", estimate.at_limit}});
   return out;
 }
 
@@ -131,8 +133,24 @@ std::string doubt_line(const Diagnosis& diagnosis) {
 
 /// "0.711 (0.69 .. 0.73)", the unit behind the value.
 std::string value_text(const ParameterEstimate& p) {
-  return three_digits(p.value) + (p.unit == "1" ? "" : " " + p.unit) + " (" +
-         three_digits(p.ci95[0]) + " .. " + three_digits(p.ci95[1]) + ")";
+  return three_digits(p.value) + (p.unit == "1" ? "" : " " + p.unit) +
+         (p.at_limit ? " (the limit of what is tried)"
+                     : " (" + three_digits(p.ci95[0]) + " .. " + three_digits(p.ci95[1]) + ")");
+}
+
+std::string resonance_line(const Diagnosis& diagnosis) {
+  if (!diagnosis.resonance) return "";
+  const ResonanceChange& change = *diagnosis.resonance;
+  return "Resonance: simulated " + three_digits(change.simulated_hz) + " Hz, measured " +
+         three_digits(change.measured_hz) + " Hz; below it the response is " +
+         three_digits(change.slow_gain_ratio) + " times the simulated one";
+}
+
+json resonance_json(const std::optional<ResonanceChange>& change) {
+  if (!change) return nullptr;
+  return {{"simulated_hz", json_number(change->simulated_hz)},
+          {"measured_hz", json_number(change->measured_hz)},
+          {"slow_gain_ratio", json_number(change->slow_gain_ratio)}};
 }
 
 std::string parameters_line(const RankedAnswer& answer) {
@@ -240,6 +258,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
         {"p_value", json_number(diagnosis.gap.p_value)}}},
       {"location", location_json(diagnosis.location)},
       {"verdict", diagnosis.verdict},
+      {"resonance", resonance_json(diagnosis.resonance)},
       {"ranking", ranking},
       {"probability_of_unlisted", json_number(diagnosis.probability_of_unlisted)},
       {"probability_of_tried", json_number(diagnosis.probability_of_tried)},
@@ -272,17 +291,18 @@ bool is_recalibration(const std::string& answer) {
   });
 }
 
-std::string verdict_text(const Diagnosis& diagnosis) {
-  constexpr std::size_t most_lines = 15;
+std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_lines) {
   std::vector<std::string> lines;
   const auto add = [&](const std::string& line) {
     if (line.empty()) return;
-    for (std::string& part : wrapped(line))
-      if (lines.size() < most_lines) lines.push_back(std::move(part));
+    std::vector<std::string> parts = wrapped(line);
+    if (lines.size() + parts.size() > most_lines) return;
+    std::move(parts.begin(), parts.end(), std::back_inserter(lines));
   };
   add(verdict_line(diagnosis));
   add(nearest_line(diagnosis));
   add(doubt_line(diagnosis));
+  add(resonance_line(diagnosis));
   if (!diagnosis.ranking.empty()) {
     add(parameters_line(diagnosis.ranking.front()));
     add(materials_line(diagnosis.ranking.front()));

@@ -16,7 +16,8 @@ std::string diagnosis_json(const Diagnosis& diagnosis);
 /// new physics? False for "none" and "outside_catalogue".
 bool is_recalibration(const std::string& answer);
 
-/// At most 15 lines of at most 100 characters for a terminal.
-std::string verdict_text(const Diagnosis& diagnosis);
+/// Lines of at most 100 characters, for a terminal no more than 15: what does not fit as a whole is
+/// left out.
+std::string verdict_text(const Diagnosis& diagnosis, std::size_t most_lines = 15);
 
 }  // namespace vibrissa::diagnosis

@@ -199,7 +199,7 @@ std::string plan_text(const ExperimentPlan& plan) {
   Words lines;
   const auto add = [&](const std::string& line) {
     if (line.empty()) return;
-    for (std::string& part : wrapped(line)) lines.push_back(std::move(part));
+    for (std::string& part : wrapped(line, 2)) lines.push_back(std::move(part));
   };
   add(records_line(plan));
   add(found_line(plan) + (too_weak(plan).empty() ? "" : " " + joined(too_weak(plan), ", ")));

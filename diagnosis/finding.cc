@@ -50,6 +50,8 @@ std::string to_string(const FindingKind kind) {
       return "no_held_out";
     case FindingKind::different_rate:
       return "different_rate";
+    case FindingKind::unlikely_gain:
+      return "unlikely_gain";
     case FindingKind::not_confirmed:
       return "not_confirmed";
   }
@@ -74,7 +76,7 @@ bool spoils_everything(const FindingKind kind) {
 
 bool casts_doubt(const FindingKind kind) {
   return kind == FindingKind::clipped_channel || kind == FindingKind::slow_rate ||
-         kind == FindingKind::not_confirmed;
+         kind == FindingKind::unlikely_gain || kind == FindingKind::not_confirmed;
 }
 
 }  // namespace vibrissa::diagnosis

@@ -28,6 +28,7 @@ enum class FindingKind {
   no_base_motion,
   no_held_out,
   different_rate,
+  unlikely_gain,
   not_confirmed
 };
 std::string to_string(FindingKind kind);

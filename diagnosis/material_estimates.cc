@@ -79,6 +79,11 @@ std::vector<ParameterEstimate> material_estimates(const NominalModel& nominal,
   std::vector<ParameterEstimate> out;
   if (names("stiffness")) add_stiffness(nominal, fit, out);
   if (names("mass")) add_mass(nominal, fit, out);
+  // A parameter that hardly moves the resonance is not told by it.
+  constexpr double told_within = 100.;
+  std::erase_if(out, [](const ParameterEstimate& estimate) {
+    return !(estimate.ci95[1] < told_within * estimate.ci95[0]);
+  });
   return out;
 }
 

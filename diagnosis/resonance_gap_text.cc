@@ -159,7 +159,7 @@ std::string resonance_gap_text(const ResonanceDiagnosis& diagnosis) {
   std::vector<std::string> head, tail;
   const auto add = [](std::vector<std::string>& lines, const std::string& line) {
     if (line.empty()) return;
-    for (std::string& part : wrapped(line)) lines.push_back(std::move(part));
+    for (std::string& part : wrapped(line, 2)) lines.push_back(std::move(part));
   };
   add(head, figures_line(diagnosis));
   const bool agree = diagnosis.verdict == "none" || diagnosis.verdict == "damping";
@@ -174,7 +174,7 @@ std::string resonance_gap_text(const ResonanceDiagnosis& diagnosis) {
       add(tail, "Stiffness: " + e.note.substr(0, e.note.find(';')));
   for (const ResonanceExplanation& e : diagnosis.explanations) {
     if (!is_told(e)) continue;
-    for (std::string& part : wrapped(explanation_line(e)))
+    for (std::string& part : wrapped(explanation_line(e), 2))
       if (head.size() + tail.size() < most_lines) head.push_back(std::move(part));
   }
   head.insert(head.end(), tail.begin(), tail.end());

@@ -144,6 +144,17 @@ void check_factor(double factor, const std::string& record, const std::string& c
                             " and that every channel was connected"});
 }
 
+/// Well below its resonance a sensor's moment is that of its mass, whatever its stiffness.
+void check_gain(const Ratios& ratios, const std::string& record, std::vector<Finding>& findings) {
+  constexpr double largest = 1.6;  // what a built sensor's mass and gain are off by, and more
+  if (!ratios.slow || (ratios.slow->median < largest && ratios.slow->median > 1. / largest)) return;
+  findings.push_back({FindingKind::unlikely_gain, record,
+                      "well below the first mode the measured response is " +
+                          three_digits(ratios.slow->median) +
+                          " times the simulated one, more than built sensors differ: check the "
+                          "factor from the sensor's reading to base_moment before any physics"});
+}
+
 void check_sign(const Ratios& ratios, const std::string& record, const std::string& message,
                 std::vector<Finding>& findings) {
   constexpr double opposite = -0.9;
@@ -153,7 +164,9 @@ void check_sign(const Ratios& ratios, const std::string& record, const std::stri
 
 const std::vector<UnitMistake>& mistakes_of_base() {
   static const std::vector<UnitMistake> mistakes{
-      {9.80665, "base_acceleration_m_s2 seems to be in g; multiply it by 9.80665"},
+      {9.80665,
+       "base_acceleration_m_s2 seems to be in g; multiply it by 9.80665 (or --column "
+       "'base_acceleration=COLUMN[g]')"},
       {9.80665e-3, "base_acceleration_m_s2 seems to be in milli-g; multiply it by 9.80665e-3"},
       {1e-3, "base_acceleration_m_s2 seems to be in mm/s^2; multiply it by 1e-3"},
       {1e3, "base_moment_N_m seems to be in N mm; multiply it by 1e-3"},
@@ -201,8 +214,10 @@ void check_base(const NominalModel& nominal, const DatasetRecord& entry,
                             three_digits(exchanged->median) + " times"});
     return;
   }
+  const std::size_t n_before = findings.size();
   check_factor(ratios.factor(), entry.name, "base_acceleration_m_s2 and base_moment_N_m",
                mistakes_of_base(), findings);
+  if (findings.size() == n_before) check_gain(ratios, entry.name, findings);
   check_sign(ratios, entry.name,
              "well below the first mode base_moment_N_m has the sign of base_acceleration_m_s2 "
              "that the simulation says it has not: multiply one of them by -1 (the moment is "

@@ -24,14 +24,26 @@ std::string percent(const double share) {
   return stream.str();
 }
 
-std::vector<std::string> wrapped(const std::string& line) {
+std::vector<std::string> wrapped(const std::string& line, const std::size_t most_lines) {
   constexpr std::size_t longest = 100;
-  if (line.size() <= longest) return {line};
-  std::size_t cut = line.rfind(' ', longest);
-  if (cut == std::string::npos || cut < longest / 2) cut = longest;
-  std::string rest = "   " + line.substr(cut);
-  if (rest.size() > longest) rest = rest.substr(0, longest - 3) + "...";
-  return {line.substr(0, cut), rest};
+  const std::string dots = " ...";
+  const auto cut_of = [](const std::string& text, const std::size_t most) {
+    const std::size_t space = text.rfind(' ', most);
+    return space == std::string::npos || space < most / 2 ? most : space;
+  };
+  std::vector<std::string> lines;
+  std::string rest = line;
+  while (rest.size() > longest) {
+    if (lines.size() + 1 == most_lines) {
+      rest = rest.substr(0, cut_of(rest, longest - dots.size())) + dots;
+      break;
+    }
+    const std::size_t cut = cut_of(rest, longest);
+    lines.push_back(rest.substr(0, cut));
+    rest = "   " + rest.substr(cut);
+  }
+  lines.push_back(rest);
+  return lines;
 }
 
 }  // namespace vibrissa::diagnosis

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,9 @@ std::string three_digits(double value);
 /// 0.123 as "12 %", 0.0123 as "1.2 %".
 std::string percent(double share);
 
-/// A line of at most 100 characters, or two, broken at a space; what is longer ends in dots.
-std::vector<std::string> wrapped(const std::string& line);
+/// As lines of at most 100 characters, broken at spaces; those behind the first are indented. What
+/// does not fit into most_lines ends in dots behind a whole word. Proven by
+/// tests/diagnosis/words_test.cc.
+std::vector<std::string> wrapped(const std::string& line, std::size_t most_lines = 1000);
 
 }  // namespace vibrissa::diagnosis

@@ -1,10 +1,12 @@
 #include "separation/identify_response.h"
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numeric>
 
+#include "separation/frequency_problem.h"
 #include "separation/identify_frequency.h"
 #include "separation/rational_model.h"
 
@@ -31,6 +33,17 @@ FrequencyResponse lines_of(const FrequencyResponse& response, const bool held_ou
   return part;
 }
 
+/// Where only the coherence g2 is known, the deviation is in proportion to |H| sqrt((1 - g2) / g2).
+FrequencyResponse with_deviation(FrequencyResponse response) {
+  constexpr double least = 1e-6;
+  if (!response.standard_deviation.empty() || response.coherence.empty()) return response;
+  for (std::size_t i = 0; i < response.value.size(); ++i) {
+    const double g2 = std::clamp(response.coherence[i], least, 1.);
+    response.standard_deviation.push_back(std::abs(response.value[i]) * std::sqrt((1. - g2) / g2));
+  }
+  return response;
+}
+
 double information_criterion(const FittedBvrm& fit, const std::size_t n_lines,
                              const bool direct_term) {
   const auto n = static_cast<double>(2 * n_lines);
@@ -38,18 +51,21 @@ double information_criterion(const FittedBvrm& fit, const std::size_t n_lines,
   return n * std::log(fit.residual_variance * (n - k) / n) + k * std::log(n);
 }
 
-/// |H - G| / |H - mean H| over the lines.
+Eigen::ArrayXd weights(const FrequencyResponse& measured) {
+  constexpr std::size_t fewest_lines = 3;
+  if (measured.value.size() < fewest_lines)
+    return Eigen::ArrayXd::Ones(static_cast<Eigen::Index>(measured.value.size()));
+  return FrequencyProblem(measured, {}, true, 0.).root_weight().square();
+}
+
+/// |H - G| / |H - mean H| over the lines, in their weighted norm.
 double relative_error(const FrequencyResponse& measured, const Bvrm& model) {
   const std::vector<std::complex<double>> modelled = response(model, measured.frequency_hz);
-  const std::complex<double> sum =
-      std::accumulate(measured.value.begin(), measured.value.end(), std::complex<double>());
-  const std::complex<double> mean = sum / static_cast<double>(measured.value.size());
-  double error = 0., spread = 0.;
-  for (std::size_t i = 0; i < modelled.size(); ++i) {
-    error += std::norm(measured.value[i] - modelled[i]);
-    spread += std::norm(measured.value[i] - mean);
-  }
-  return std::sqrt(error / spread);
+  const auto n = static_cast<Eigen::Index>(modelled.size());
+  const Eigen::Map<const Eigen::ArrayXcd> h(measured.value.data(), n), g(modelled.data(), n);
+  const Eigen::ArrayXd weight = weights(measured);
+  const std::complex<double> mean = (weight * h).sum() / weight.sum();
+  return std::sqrt((weight * (h - g).abs2()).sum() / (weight * (h - mean).abs2()).sum());
 }
 
 std::size_t best_order(const FrequencyResponse& known, const FrequencyResponse& held_out,
@@ -78,10 +94,11 @@ std::size_t best_order(const FrequencyResponse& known, const FrequencyResponse& 
 
 IdentifiedResponse identify_response(const FrequencyResponse& response,
                                      const IdentifyResponseOptions& options) {
-  const FrequencyResponse known = lines_of(response, false), held_out = lines_of(response, true);
+  const FrequencyResponse measured = with_deviation(response);
+  const FrequencyResponse known = lines_of(measured, false), held_out = lines_of(measured, true);
   FrequencyFitOptions fit{.direct_term = options.direct_term};
   fit.order = options.order ? *options.order : best_order(known, held_out, options);
-  return {identify_frequency(response, fit), fit.order,
+  return {identify_frequency(measured, fit), fit.order,
           100. * (1. - relative_error(held_out, identify_frequency(known, fit).model))};
 }
 

@@ -18,14 +18,16 @@ struct IdentifyResponseOptions {
 struct IdentifiedResponse {
   FittedBvrm fit;  // to all lines
   std::size_t order = 0;
-  /// 100 (1 - |H - G| / |H - mean H|) over every third line, G fitted to the others.
+  /// 100 (1 - |H - G| / |H - mean H|) over every third line in the weighted norm of the fit, G
+  /// fitted to the others.
   double held_out_fit_percent = 0.;
 };
 
 /// The base-vibration response model of a response of the continuous signals, by
-/// identify_frequency(). Of the orders up to max_order that foretell the held-out lines clearly
-/// better than every lower one, that with the least n ln(mean |e|^2) + n_parameters ln n, n real
-/// residuals. Throws what identify_frequency() throws. Proven by
+/// identify_frequency(), lines weighted by their standard deviation or, where that is not known, by
+/// the one that goes with their coherence. Of the orders up to max_order that foretell the held-out
+/// lines clearly better than every lower one, that with the least n ln(mean |e|^2) + n_parameters
+/// ln n, n real residuals. Throws what identify_frequency() throws. Proven by
 /// tests/separation/identify_response_test.cc.
 IdentifiedResponse identify_response(const signals::FrequencyResponse& response,
                                      const IdentifyResponseOptions& options = {});

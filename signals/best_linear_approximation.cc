@@ -127,7 +127,8 @@ std::vector<std::size_t> checked_excited(const PeriodAverage& average, const Fas
     if (k % 2 == 0)
       throw UserError("fast method: even line " + std::to_string(k) +
                       " is excited; it needs a random-odd grid (full grids need the robust "
-                      "method). If only noise made it look excited, name the excited lines");
+                      "method). If only noise made it look excited, average more periods or drive "
+                      "harder");
   return excited;
 }
 

@@ -56,6 +56,19 @@ std::string without_doubled_quotes(const std::string_view name) {
   return result;
 }
 
+std::size_t n_fields(const std::string_view line) {
+  std::vector<std::string_view> fields;
+  split_fields(line, fields);
+  return fields.size();
+}
+
+bool holds_numbers(const std::string_view line) {
+  std::vector<std::string_view> fields;
+  split_fields(line, fields);
+  return std::all_of(fields.begin(), fields.end(),
+                     [](const auto field) { return to_number(field).has_value(); });
+}
+
 }  // namespace
 
 CsvFile::CsvFile(const std::filesystem::path& file)
@@ -64,49 +77,71 @@ CsvFile::CsvFile(const std::filesystem::path& file)
   std::string mark(byte_order_mark.size(), ' ');
   bytes_.read(0, mark.data(), mark.size());
   const std::size_t start = mark == byte_order_mark ? byte_order_mark.size() : 0;
-  find_end(start);
-  if (end_ <= start) throw UserError(name_ + ": the file is empty");
-  LineReader lines(bytes_, start, end_);
-  std::string_view header;
-  lines.next(header);
-  read_header(header);
-  first_row_at_ = lines.position();
+  find_names(start);
+  find_end();
   last_ = {1, first_row_at_};
 }
 
-// Blank lines at the end are none.
-void CsvFile::find_end(const std::size_t start) {
+void CsvFile::find_names(const std::size_t start) {
   LineReader lines(bytes_, start, everything);
+  std::string comment;  // the last one
+  std::string_view line;
+  std::size_t number = 0, at = start;
+  for (;; comment = line.substr(1)) {
+    at = lines.position();
+    if (!lines.next(line)) throw UserError(name_ + ": the file is empty");
+    ++number;
+    if (!line.starts_with('#')) break;
+  }
+  if (is_blank_from(at)) throw UserError(name_ + ": the file is empty");
+  const bool names_are_before = !comment.empty() && holds_numbers(line) &&
+                                n_fields(comment) == n_fields(line) && !holds_numbers(comment);
+  line_of_names_ = names_are_before ? number - 1 : number;
+  first_row_at_ = names_are_before ? at : lines.position();
+  read_names(names_are_before ? std::string_view(comment) : line);
+}
+
+bool CsvFile::is_blank_from(const std::size_t start) const {
+  LineReader lines(bytes_, start, everything);
+  for (std::string_view line; lines.next(line);)
+    if (line.find_last_not_of(blanks) != std::string_view::npos) return false;
+  return true;
+}
+
+// Blank lines at the end are none.
+void CsvFile::find_end() {
+  LineReader lines(bytes_, first_row_at_, everything);
   std::size_t n_lines = 0;
-  end_ = start;
+  end_ = first_row_at_;
   std::size_t at = lines.position();
   for (std::string_view line; lines.next(line); at = lines.position()) {
     ++n_lines;
     const auto last = line.find_last_not_of(blanks);
     if (last == std::string_view::npos) continue;
     end_ = at + last + 1;
-    n_rows_ = n_lines - 1;
+    n_rows_ = n_lines;
   }
 }
 
-void CsvFile::read_header(const std::string_view line) {
+void CsvFile::read_names(const std::string_view line) {
   if (trimmed(line).empty())
-    throw UserError(place(1) + "the first line is blank; it must hold the column names");
+    throw UserError(place(line_of_names_) +
+                    "the first line is blank; it must hold the column names");
   std::vector<std::string_view> fields;
   split_fields(line, fields);
   for (const std::string_view field : fields) columns_.push_back(without_doubled_quotes(field));
   for (const char separator : {';', '\t'})
     if (columns_.size() == 1 && trimmed(line).find(separator) != std::string_view::npos)
-      throw UserError(place(1) + "the columns are separated by " +
+      throw UserError(place(line_of_names_) + "the columns are separated by " +
                       (separator == ';' ? "semicolons" : "tabs") +
                       "; write them with commas, and numbers with points");
-  if (std::all_of(fields.begin(), fields.end(),
-                  [](const auto field) { return to_number(field).has_value(); }))
-    throw UserError(place(1) + "the first line holds numbers; put a line with column names before");
+  if (holds_numbers(line))
+    throw UserError(place(line_of_names_) +
+                    "the first line holds numbers; put a line with column names before");
   for (std::size_t i = 0; i < columns_.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (columns_[i] == columns_[j] && !columns_[i].empty())
-        throw UserError(place(1) + "columns " + std::to_string(j + 1) + " and " +
+        throw UserError(place(line_of_names_) + "columns " + std::to_string(j + 1) + " and " +
                         std::to_string(i + 1) + " have the same name '" + columns_[i] + "'");
 }
 
@@ -117,7 +152,7 @@ bool CsvFile::has(const std::string& column) const {
 std::size_t CsvFile::index_of(const std::string& column) const {
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (column.empty() || found == columns_.end())
-    throw UserError(place(1) + unknown_name("column", column, columns_));
+    throw UserError(place(line_of_names_) + unknown_name("column", column, columns_));
   return static_cast<std::size_t>(found - columns_.begin());
 }
 
@@ -128,7 +163,8 @@ void CsvFile::for_each_row(const std::size_t first, const std::size_t count,
   LineReader lines(bytes_, from.at, end_);
   std::string_view line;
   const auto go_on = [&](const std::size_t row) {
-    if (!lines.next(line)) throw UserError(place(row + 1) + "the file ended while it was read");
+    if (!lines.next(line))
+      throw UserError(place(line_of(row)) + "the file ended while it was read");
   };
   for (std::size_t row = from.row; row < first; ++row) go_on(row);
   std::vector<std::string_view> fields;
@@ -136,8 +172,8 @@ void CsvFile::for_each_row(const std::size_t first, const std::size_t count,
     go_on(row);
     split_fields(line, fields);
     if (fields.size() != columns_.size() || trimmed(line).empty())
-      refuse_row(row + 1, trimmed(line).empty() ? 0 : fields.size());
-    read(row + 1, fields);
+      refuse_row(line_of(row), trimmed(line).empty() ? 0 : fields.size());
+    read(line_of(row), fields);
   }
   last_ = {first + count, lines.position()};
 }

@@ -8,6 +8,7 @@
 #include "signals/error.h"
 #include "signals/formats/file_format.h"
 #include "signals/json_input.h"
+#include "signals/resample.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -176,10 +177,28 @@ Dataset read_described(const fs::path& folder, const fs::path& file, const ReadO
   return dataset;
 }
 
+/// No larger than the noise of a small accelerometer, and white as noise is: no lag up to ten is
+/// correlated (Box and Pierce, 1970).
+bool is_accelerometer_noise(const std::span<const double> values) {
+  constexpr double most_m_s2 = 0.1, chance_of_a_thousandth = 29.6;  // chi-squared of 10
+  constexpr std::size_t n_lags = 10;
+  const std::vector<double> x = remove_mean(values);
+  const auto product = [&](const std::size_t lag) {
+    return std::inner_product(x.begin() + static_cast<std::ptrdiff_t>(lag), x.end(), x.begin(), 0.);
+  };
+  const double power = product(0), n = static_cast<double>(x.size());
+  if (power > n * most_m_s2 * most_m_s2) return false;
+  double correlated = 0.;
+  for (std::size_t lag = 1; lag <= n_lags; ++lag) correlated += std::pow(product(lag) / power, 2);
+  return n * correlated < chance_of_a_thousandth;
+}
+
 bool moves(const Record& record, const std::string& channel) {
   if (!record.has(channel)) return false;
   const auto values = record.channel(channel);
-  return std::any_of(values.begin(), values.end(), [&](double v) { return v != values.front(); });
+  if (std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); }))
+    return false;
+  return channel != channel::base_acceleration || !is_accelerometer_noise(values);
 }
 
 // Sound files are drives: what a sensor measured is in the other formats.

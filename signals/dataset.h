@@ -48,12 +48,13 @@ struct Dataset {
 
 /// Reads FOLDER/dataset.json ("vibrissa-dataset-1") and its records. Without dataset.json: every
 /// record file of the folder, or the one file that is named, excitation guessed from the columns
-/// that move, the last third of each record held out. dataset.json may say, for all records or for
-/// one, "columns": {"base_acceleration": "ax[g]"} and "remove_mean": ["base_acceleration"]; where
-/// it does not, the options given here hold. Throws UserError with file and entry for: nothing
-/// there, no records, a wrong schema or entry (lists the known words), a rate that contradicts
-/// time_s, a period longer than its record, a record without a base moment, and whatever
-/// read_record refuses. Proven by tests/signals/dataset_test.cc.
+/// that move (an acceleration that is white and below 0.1 m/s2 rms is noise), the last third of
+/// each record held out. dataset.json may say, for all records or for one, "columns":
+/// {"base_acceleration": "ax[g]"} and "remove_mean": ["base_acceleration"]; where it does not, the
+/// options given here hold. Throws UserError with file and entry for: nothing there, no records, a
+/// wrong schema or entry (lists the known words), a rate that contradicts time_s, a period longer
+/// than its record, a record without a base moment, and whatever read_record refuses. Proven by
+/// tests/signals/dataset_test.cc.
 Dataset read_dataset(const std::filesystem::path& source, const ReadOptions& options = {});
 
 }  // namespace vibrissa::signals

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,8 +10,10 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <set>
 #include <streambuf>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "signals/error.h"
@@ -167,22 +170,48 @@ void remove_unfinished_files(const fs::path& folder) {
   for (const fs::path& file : left) fs::remove(file);
 }
 
+namespace {
+
+void refuse_what_is_not_empty(const fs::path& folder) {
+  std::error_code error;
+  const bool empty = fs::is_empty(folder, error);
+  if (error) throw UserError(folder.string() + ": cannot be read: " + error.message());
+  if (!empty)
+    throw UserError(folder.string() +
+                    ": this folder exists and is not empty; results of an earlier run are not "
+                    "overwritten: name another folder, or remove this one");
+}
+
+/// Two runs that see the same empty folder must not both write into it: a lock on it is kept until
+/// this process ends. Where a file system has no locks the folder is taken without one.
+void claim(const fs::path& folder) {
+  static std::set<std::pair<::dev_t, ::ino_t>> ours;
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct ::stat status {};
+  const bool is_new =
+      ::fstat(descriptor, &status) == 0 && ours.insert({status.st_dev, status.st_ino}).second;
+  if (is_new && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return;
+  const bool is_taken = is_new && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  if (!is_taken) return;
+  ours.erase({status.st_dev, status.st_ino});
+  throw UserError(folder.string() +
+                  ": this folder exists and another run writes into it; name another folder");
+}
+
+}  // namespace
+
 void make_new_folder(const fs::path& folder) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
-  if (fs::is_directory(status)) {
-    const bool empty = fs::is_empty(folder, error);
-    if (error) throw UserError(folder.string() + ": cannot be read: " + error.message());
-    if (!empty)
-      throw UserError(folder.string() +
-                      ": this folder exists and is not empty; results of an earlier run are not "
-                      "overwritten: name another folder, or remove this one");
-    return;
-  }
-  if (fs::exists(status))
+  if (fs::exists(status) && !fs::is_directory(status))
     throw UserError(folder.string() + ": this is a file, not a folder; name another folder");
+  if (fs::is_directory(status)) refuse_what_is_not_empty(folder);
   fs::create_directories(folder, error);
   if (error) throw UserError(folder.string() + ": cannot be made: " + error.message());
+  claim(folder);
+  refuse_what_is_not_empty(folder);
 }
 
 fs::path free_folder_name(const fs::path& base) {

@@ -43,6 +43,12 @@ void check_acceleration(const std::string& name, const std::span<const double> v
 std::vector<std::string> implausible_magnitudes(const Record& record) {
   constexpr double fastest_wind_m_s = 120., most_moment_n_m = 10.;
   std::vector<std::string> remarks;
+  constexpr double slowest_hz = 2., longest_s = 600.;
+  if (record.sampling_rate_hz() < slowest_hz && record.duration_s() > longest_s)
+    remarks.push_back("its " + rounded(record.duration_s()) + " s at " +
+                      rounded(record.sampling_rate_hz()) +
+                      " Hz look like a time in ms: give the column its unit, as in --column "
+                      "'time=t[ms]'");
   for (const std::string& name : record.channel_names()) {
     const auto values = record.channel(name);
     if (name.ends_with("_m_s2")) check_acceleration(name, values, remarks);

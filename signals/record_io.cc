@@ -32,6 +32,11 @@ Record read_record(const std::filesystem::path& file, const ReadOptions& options
 
 void write_record(const std::filesystem::path& file, const Record& record) {
   const formats::FileFormat& format = formats::format_of(file);
+  const std::string ending = formats::extension_of(file);
+  const bool is_text = ending.empty() || ending == ".txt" || ending == ".dat";
+  if (!format.has(ending) && !is_text)
+    throw UserError(file.string() + ": '" + ending +
+                    "' is no format that is written; write .csv, .mat, .h5, .npy or .uff");
   if (!format.write)
     throw UserError(file.string() +
                     ": a record has units and a start, which a sound file cannot hold; write .csv, "

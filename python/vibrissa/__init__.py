@@ -92,7 +92,10 @@ def separate(record, *, model=None, methods=("fdaf",), block=64, taps=512, step=
 
     `model`, a Bvrm or an Identification, adds the method "bvrm". `hold`, how the base acceleration
     runs between its samples, is by default as the model was fitted, else "first_order".
+    `methods`: one name or several of those that `vibrissa separate --help` lists.
     """
+    if isinstance(methods, str):
+        methods = (methods,)
     if isinstance(model, Identification):
         model = model.model
     return _core.separate(record, model, list(methods), block, taps, step, hold)

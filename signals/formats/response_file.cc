@@ -6,6 +6,7 @@
 #include "signals/error.h"
 #include "signals/formats/file_format.h"
 #include "signals/formats/mat_file.h"
+#include "signals/formats/uff58_grid.h"
 #include "signals/number_text.h"
 #include "signals/output_file.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int x_direction = 1, y_axis = 5, base_node = 1;
 
+const std::string coherence_title = "coherence, 0 .. 1";
 const std::string convention = "exp(+j w t), one-sided, Hz, N m s^2/m";
 
 bool is_even(const std::vector<double>& frequency_hz) {
@@ -32,7 +34,8 @@ void write_csv(const std::filesystem::path& file, const FrequencyResponse& respo
   write_file(file, [&](std::ostream& out) {
     const bool has_coherence = !response.coherence.empty();
     const bool has_deviation = !response.standard_deviation.empty();
-    out << "frequency_hz,response_real,response_imaginary" << (has_coherence ? ",coherence" : "")
+    out << "# base moment / base acceleration: " << convention << "\n"
+        << "frequency_hz,response_real,response_imaginary" << (has_coherence ? ",coherence" : "")
         << (has_deviation ? ",standard_deviation" : "") << "\n";
     for (std::size_t i = 0; i < response.value.size(); ++i) {
       out << to_text(response.frequency_hz[i]) << "," << to_text(response.value[i].real()) << ","
@@ -44,9 +47,29 @@ void write_csv(const std::filesystem::path& file, const FrequencyResponse& respo
   });
 }
 
+bool all_finite(const std::vector<double>& values) {
+  return !values.empty() && std::all_of(values.begin(), values.end(),
+                                        [](double value) { return std::isfinite(value); });
+}
+
+/// A real function of the same lines between the same degrees of freedom.
+Uff58Function beside(const Uff58Function& response, const Uff58FunctionType type,
+                     const std::string& title, const std::vector<double>& values) {
+  Uff58Function function = response;
+  function.function_type = type;
+  function.id_lines[1] = title;
+  function.is_complex = false;
+  function.values.assign(values.begin(), values.end());
+  if (type == coherence_function) {
+    function.ordinate_axis = {.label = "Coherence"};
+    function.denominator_axis = {};
+  }
+  return function;
+}
+
 }  // namespace
 
-Uff58Function uff58_of(const FrequencyResponse& response, const std::string& name) {
+std::vector<Uff58Function> uff58_of(const FrequencyResponse& response, const std::string& name) {
   const std::vector<double>& f = response.frequency_hz;
   Uff58Function function{
       .id_lines = {name, "base moment / base acceleration: " + convention, "", "", ""},
@@ -70,14 +93,21 @@ Uff58Function uff58_of(const FrequencyResponse& response, const std::string& nam
     function.abscissa_start = f.front();
     const auto n_steps = static_cast<double>(std::max<std::size_t>(1, f.size() - 1));
     function.abscissa_step = (f.back() - f.front()) / n_steps;
+    if (function.abscissa_step > 0.)
+      function.id_lines[3] = to_line({function.abscissa_start, function.abscissa_step});
   }
-  return function;
+  std::vector<Uff58Function> functions{function};
+  if (all_finite(response.coherence))
+    functions.push_back(beside(function, coherence_function, coherence_title, response.coherence));
+  if (all_finite(response.standard_deviation))
+    functions.push_back(
+        beside(function, general_function, deviation_title, response.standard_deviation));
+  return functions;
 }
 
 void write_response(const std::filesystem::path& file, const FrequencyResponse& response,
                     const std::string& name) {
-  if (format_of(file).has(universal_extension))
-    return write_uff58(file, {uff58_of(response, name)});
+  if (format_of(file).has(universal_extension)) return write_uff58(file, uff58_of(response, name));
   if (format_of(file).has(".mat")) return write_mat(file, response, convention);
   if (extension_of(file) == ".csv") return write_csv(file, response);
   throw UserError(file.string() +

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "signals/error.h"
 #include "signals/formats/file_format.h"
 #include "signals/formats/response_file.h"
+#include "signals/formats/uff58_grid.h"
 #include "signals/lower_case.h"
 #include "signals/number_text.h"
 #include "signals/scaled_name.h"
@@ -134,33 +136,45 @@ FrequencyResponse from_table(const std::filesystem::path& file, const ScaledName
   return response;
 }
 
-std::string numbered_titles(const std::vector<Uff58Function>& functions) {
-  std::string text;
+using Places = std::vector<std::size_t>;
+
+Places responses_in(const std::vector<Uff58Function>& functions) {
+  Places places;
   for (std::size_t i = 0; i < functions.size(); ++i)
+    if (functions[i].function_type == frequency_response && functions[i].is_complex)
+      places.push_back(i);
+  return places;
+}
+
+std::string numbered_titles(const std::vector<Uff58Function>& functions, const Places& places) {
+  std::string text;
+  for (std::size_t i = 0; i < places.size(); ++i)
     text.append(i == 0 ? "" : ", ")
         .append(std::to_string(i + 1))
         .append(" '")
-        .append(functions[i].id_lines[0])
+        .append(functions[places[i]].id_lines[0])
         .append("'");
   return text;
 }
 
-const Uff58Function& chosen(const std::vector<Uff58Function>& functions, const std::string& name,
-                            const std::string& file) {
-  if (functions.empty())
+/// The place of the response of that number, counted among responses, or first line.
+std::size_t chosen(const std::vector<Uff58Function>& functions, const std::string& name,
+                   const std::string& file) {
+  const Places places = responses_in(functions);
+  if (places.empty())
     throw UserError(file + ": holds no complex frequency response (function of type 4)");
-  if (name.empty() && functions.size() == 1) return functions.front();
-  const std::string known = ": holds the responses " + numbered_titles(functions) +
+  if (name.empty() && places.size() == 1) return places.front();
+  const std::string known = ": holds the responses " + numbered_titles(functions, places) +
                             "; choose one by its number or first line";
   if (name.empty()) throw UserError(file + known);
   if (const auto number = to_number(name)) {
-    const auto n = static_cast<double>(functions.size());
+    const auto n = static_cast<double>(places.size());
     if (!(*number >= 1. && *number <= n && *number == std::floor(*number)))
       throw UserError(file + ": has no response " + name + known.substr(1));
-    return functions[static_cast<std::size_t>(*number) - 1];
+    return places[static_cast<std::size_t>(*number) - 1];
   }
-  for (const Uff58Function& function : functions)
-    if (function.id_lines[0] == name) return function;
+  for (const std::size_t place : places)
+    if (functions[place].id_lines[0] == name) return place;
   throw UserError(file + ": has no response '" + name + "'" + known.substr(1));
 }
 
@@ -180,18 +194,51 @@ double scale_of(const Uff58Function& function, const std::string& file) {
   }
 }
 
+std::vector<double> frequencies(const Uff58Function& function) {
+  if (!function.abscissa.empty()) return function.abscissa;
+  const FrequencyGrid grid =
+      grid_in(function.id_lines[3])
+          .value_or(FrequencyGrid{function.abscissa_start, function.abscissa_step});
+  std::vector<double> frequency_hz;
+  for (std::size_t i = 0; i < function.values.size(); ++i)
+    frequency_hz.push_back(grid.start_hz + static_cast<double>(i) * grid.step_hz);
+  return frequency_hz;
+}
+
+bool is_beside(const Uff58Function& a, const Uff58Function& b) {
+  return !a.is_complex && a.values.size() == b.values.size() &&
+         a.response_node == b.response_node && a.response_direction == b.response_direction &&
+         a.reference_node == b.reference_node && a.reference_direction == b.reference_direction;
+}
+
+/// Values of the first function of that kind between the same degrees of freedom, rather behind the
+/// response than before it.
+std::vector<double> beside(const std::vector<Uff58Function>& functions, const std::size_t response,
+                           const std::function<bool(const Uff58Function&)>& is_wanted) {
+  for (std::size_t i = 1; i < functions.size(); ++i) {
+    const Uff58Function& function = functions[(response + i) % functions.size()];
+    if (!is_wanted(function) || !is_beside(function, functions[response])) continue;
+    std::vector<double> values;
+    for (const auto& value : function.values) values.push_back(value.real());
+    return values;
+  }
+  return {};
+}
+
 FrequencyResponse from_universal_file(const std::filesystem::path& file, const ScaledName& choice) {
-  std::vector<Uff58Function> functions = read_uff58(file);
-  std::erase_if(functions, [](const Uff58Function& function) {
-    return function.function_type != frequency_response || !function.is_complex;
-  });
-  const Uff58Function& function = chosen(functions, choice.name, file.string());
+  const std::vector<Uff58Function> functions = read_uff58(file);
+  const std::size_t i = chosen(functions, choice.name, file.string());
+  const Uff58Function& function = functions[i];
   const double scale = choice.has_unit ? choice.scale : choice.scale * scale_of(function, file);
-  FrequencyResponse response{function.abscissa, function.values, {}, {}};
-  for (std::size_t i = 0; function.abscissa.empty() && i < function.values.size(); ++i)
-    response.frequency_hz.push_back(function.abscissa_start +
-                                    static_cast<double>(i) * function.abscissa_step);
+  FrequencyResponse response{frequencies(function), function.values, {}, {}};
   for (auto& value : response.value) value *= scale;
+  response.coherence = beside(functions, i, [](const Uff58Function& other) {
+    return other.function_type == coherence_function;
+  });
+  response.standard_deviation = beside(functions, i, [](const Uff58Function& other) {
+    return other.function_type == general_function && other.id_lines[1] == deviation_title;
+  });
+  for (double& deviation : response.standard_deviation) deviation *= std::abs(scale);
   return response;
 }
 

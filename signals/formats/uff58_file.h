@@ -12,7 +12,12 @@ namespace vibrissa::signals::formats {
 enum Uff58Ordinate { real_single = 2, real_double = 4, complex_single = 5, complex_double = 6 };
 
 /// Types of functions that are read and written here, by their numbers in the format.
-enum Uff58FunctionType { time_response = 1, frequency_response = 4 };
+enum Uff58FunctionType {
+  general_function = 0,
+  time_response = 1,
+  frequency_response = 4,
+  coherence_function = 6
+};
 
 /// What lies along an axis: the numbers are those of the format.
 struct Uff58Axis {

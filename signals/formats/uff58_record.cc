@@ -28,6 +28,15 @@ Uff58Axis axis_of_channel(const std::string& channel) {
   return axis;
 }
 
+/// Of the format: +X, +Y, and rotations about them, +RX, +RY. A moment that bends in the plane of x
+/// turns about y, one in the plane of y about -x.
+int direction_of(const std::string& channel) {
+  constexpr int x = 1, y = 2, about_x = 4, about_y = 5;
+  const bool is_cross = channel.starts_with("cross");
+  if (channel.ends_with("_N_m")) return is_cross ? -about_x : about_y;
+  return is_cross ? y : x;
+}
+
 const std::string clock_start = "sampling_rate_hz=", clock_middle = " start_s=";
 
 std::string clock_line(const Record& record) {
@@ -106,7 +115,7 @@ void write_uff58(const std::filesystem::path& file, const Record& record) {
     function.id_lines = {name, "SI units; time response", "written by vibrissa", clock_line(record),
                          "NONE"};
     function.response_node = 1;
-    function.response_direction = name.starts_with("cross") ? 2 : 1;
+    function.response_direction = direction_of(name);
     function.abscissa_start = record.time_s(0);
     function.abscissa_step = 1. / record.sampling_rate_hz();
     function.abscissa_axis = {.quantity = 17, .label = "Time", .unit = "s"};

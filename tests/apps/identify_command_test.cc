@@ -99,6 +99,13 @@ TEST(Separate, NeitherReplacesARecordingNorTrustsADeadAccelerometer) {
     EXPECT_THAT(result.errors, HasSubstr("is the file that is read"));
   }
   EXPECT_EQ(vibrissa("convert '" + record + "' '" + record + "'").status, 2);
+  for (const std::string option : {"-o", "--c-header"})
+    EXPECT_EQ(vibrissa("identify '" + record + "' " + option + " '" + record + "'").status, 2);
+  EXPECT_EQ(vibrissa("bode '" + record + "' --response '" + record + "'").status, 2);
+  EXPECT_EQ(vibrissa("simulate '" + record + "' -o '" + record + "'").status, 2);
+  const std::string both = " '" + folder.file("new.json") + "'";
+  EXPECT_EQ(vibrissa("identify '" + record + "' -o" + both + " --c-header" + both).status, 2);
+  EXPECT_EQ(vibrissa("convert '" + record + "' '" + folder.file("r.xlsx") + "'").status, 2);
   EXPECT_EQ(content(record), before);
   dead.set_channel(signals::channel::base_acceleration, std::vector<double>(3000, 0.));
   signals::write_record(record, dead);

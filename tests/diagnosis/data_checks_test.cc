@@ -190,6 +190,11 @@ TEST(DataChecks, SaysWhatCannotBeToldWithoutWindOrBaseMotion) {
   EXPECT_THAT(findings, Contains(testing::Field(&Finding::kind, FindingKind::no_base_motion)));
 }
 
+TEST(DataChecks, DoubtsAFactorThatNoSensorIsOffBy) {
+  EXPECT_THAT(kinds(scaled(channel::base_moment, 2.6)), testing::Each("unlikely_gain"));
+  EXPECT_THAT(kinds(scaled(channel::base_moment, 2.6)), Contains("unlikely_gain"));
+}
+
 TEST(DataChecks, TakesAGainOffByAThirdForNoWrongUnit) {
   EXPECT_THAT(kinds(scaled(channel::base_moment, 1.33)), IsEmpty());
   EXPECT_THAT(kinds(scaled(channel::base_moment, 0.67)), IsEmpty());

@@ -166,6 +166,30 @@ TEST(DiagnosisJson, ProbabilitiesSumToOne) {
   EXPECT_NEAR(sum, 1., 1e-12);
 }
 
+TEST(VerdictText, KeepsEveryNumberOfManyEffects) {
+  Diagnosis diagnosis = example();
+  auto& parameters = diagnosis.ranking.front().parameters;
+  const ParameterEstimate one = parameters.front();
+  for (int i = 0; i < 12; ++i) parameters.push_back(one);
+  parameters.back().name = "the_last";
+  parameters.back().at_limit = true;
+  const std::string text = verdict_text(diagnosis, 1000);
+  EXPECT_THAT(text, HasSubstr("the_last"));
+  EXPECT_THAT(text, HasSubstr("(the limit of what is tried)"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("...")));
+}
+
+TEST(VerdictText, NamesTheResonanceThatWasMeasured) {
+  Diagnosis diagnosis = example();
+  diagnosis.resonance = {37.37, 30.02, 2.62};
+  EXPECT_THAT(verdict_text(diagnosis),
+              HasSubstr("Resonance: simulated 37.4 Hz, measured 30 Hz; below it the response is "
+                        "2.62 times the simulated one"));
+  EXPECT_DOUBLE_EQ(
+      nlohmann::json::parse(diagnosis_json(diagnosis))["resonance"]["measured_hz"].get<double>(),
+      30.02);
+}
+
 TEST(VerdictText, FitsATerminalHoweverManyFindings) {
   Diagnosis diagnosis = example();
   for (int i = 0; i < 40; ++i)

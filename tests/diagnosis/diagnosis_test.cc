@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +40,10 @@ TEST(Diagnose, NamesASofterWhiskerWithItsSize) {
   EXPECT_EQ(ratio.name, "ratio");
   EXPECT_LT(ratio.ci95[0], 0.9);
   EXPECT_GT(ratio.ci95[1], 0.9);
+  EXPECT_FALSE(ratio.at_limit);
+  ASSERT_TRUE(diagnosis.resonance);
+  EXPECT_NEAR(diagnosis.resonance->measured_hz / diagnosis.resonance->simulated_hz, std::sqrt(0.9),
+              2e-3);
   ASSERT_TRUE(diagnosis.ranking.front().held_out);
   EXPECT_GT(diagnosis.ranking.front().held_out->overall.gap_closed.value_or(0.), 0.97);
 }

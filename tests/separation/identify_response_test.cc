@@ -49,6 +49,26 @@ TEST_P(IdentifyResponse, FindsOrderAndModesWithinTheDeviationsItStates) {
   }
 }
 
+// Above the drive's band a measured response is noise, as its coherence says.
+TEST(IdentifyResponse, GoesByCoherenceWhereThereIsNoDeviation) {
+  const Bvrm truth = test::sensor(1, 0.);
+  FrequencyResponse measured = noisy_response(truth, 1e-4, 1);
+  measured.standard_deviation.clear();
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal(0., 1e-4);
+  for (std::size_t i = 0; i < measured.value.size(); ++i) {
+    const bool is_driven = measured.frequency_hz[i] < 100.;
+    if (!is_driven) measured.value[i] = {normal(random), normal(random)};
+    measured.coherence.push_back(is_driven ? 0.9999 : 0.05);
+  }
+  const auto found = identify_response(measured);
+  EXPECT_EQ(found.order, 2U);
+  EXPECT_NEAR(found.fit.modes[0].frequency_hz.value, truth.modes[0].frequency_hz(), 0.05);
+  EXPECT_GT(found.held_out_fit_percent, 95.);
+  measured.coherence.clear();
+  EXPECT_LT(identify_response(measured).held_out_fit_percent, 20.);
+}
+
 // A curve through all its own lines would fit noise; the lines that it did not see tell.
 TEST(IdentifyResponse, SaysThatNoiseIsNotExplained) {
   const Bvrm nothing{.modes = {make_modal_term(40., 0.05, 1e-9)}};

@@ -128,6 +128,25 @@ TEST_F(CsvFileTest, RefusesAFileWithoutColumnNames) {
               ThrowsMessage<UserError>(HasSubstr("r.csv:1: the first line is blank")));
 }
 
+TEST_F(CsvFileTest, LeavesOutCommentsBeforeTheNames) {
+  const CsvFile file = opened("# logger 3\n#\nt,ax\n0,1\n1,2\n");
+  EXPECT_THAT(file.columns(), ElementsAre("t", "ax"));
+  EXPECT_EQ(file.n_rows(), 2u);
+  EXPECT_EQ(file.line_of(1), 4u);
+  EXPECT_THAT([&] { all_rows("# a\nb\n1\n2,3\n"); },
+              ThrowsMessage<UserError>(HasSubstr("r.csv:4: 2 fields")));
+}
+
+TEST_F(CsvFileTest, TakesNamesFromACommentBeforeNumbers) {
+  const CsvFile file = opened("# logger 3\n# t, ax\n0,1\n1,2\n");
+  EXPECT_THAT(file.columns(), ElementsAre("t", "ax"));
+  EXPECT_EQ(file.n_rows(), 2u);
+  EXPECT_EQ(file.line_of(1), 3u);
+  EXPECT_THAT([&] { opened("# logger 3\n0,1\n1,2\n"); },
+              ThrowsMessage<UserError>(HasSubstr("r.csv:2: the first line holds numbers")));
+  EXPECT_THAT([&] { opened("# a\n# b\n"); }, ThrowsMessage<UserError>(HasSubstr("is empty")));
+}
+
 TEST_F(CsvFileTest, NamesAnotherSeparator) {
   EXPECT_THAT([&] { opened("time_s;z_mps2\n0,1;2,5\n"); },
               ThrowsMessage<UserError>(HasSubstr("separated by semicolons")));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <random>
 
 #include "signals/error.h"
 #include "temporary_folder.h"
@@ -111,6 +112,25 @@ TEST_F(DatasetFolder, GuessesWhatNobodyDescribedAndSaysSo) {
   EXPECT_EQ(dataset.records[1].split, Split::held_out);
   EXPECT_EQ(dataset.records[0].clock_start_s, 0.);
   EXPECT_DOUBLE_EQ(dataset.records[1].clock_start_s, 85 / 500.);
+}
+
+TEST(DatasetGuess, TakesNoiseOfTheAccelerometerForNoDriveButAFaintDriveForOne) {
+  const testing::TemporaryFolder folder;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal(0., 0.05);
+  const std::string head = "time_s,base_acceleration_m_s2,base_moment_N_m\n";
+  std::string noise = head, faint = head;
+  for (int i = 0; i < 3000; ++i) {
+    const std::string time = std::to_string(0.002 * i) + ",";
+    noise += time + std::to_string(9.81 + normal(random)) + ",1e-6\n";
+    faint += time + std::to_string(0.05 * std::sin(0.7 * i) + normal(random)) + ",1e-6\n";
+  }
+  folder.file("faint.csv", faint);
+  folder.file("noise.csv", noise);
+  const Dataset dataset = read_dataset(folder.path());
+  ASSERT_EQ(dataset.records.size(), 4u);
+  EXPECT_EQ(dataset.records[0].excitation, (Excitation{true, false}));
+  EXPECT_EQ(dataset.records[2].excitation, (Excitation{false, false}));
 }
 
 TEST_F(DatasetFolder, TakesWhenThePieceOfALongerRecordBegan) {

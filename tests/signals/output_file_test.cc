@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <fstream>
 #include <stdexcept>
@@ -224,6 +225,29 @@ TEST_F(MakeNewFolder, MakesAFolderWithItsParentsOrTakesAnEmptyOne) {
   const fs::path run = folder_.path() / "runs" / "one";
   make_new_folder(run);
   EXPECT_TRUE(fs::is_directory(run));
+  EXPECT_NO_THROW(make_new_folder(run));
+}
+
+// Both see it empty: the one that is later must not write into it, too.
+TEST_F(MakeNewFolder, IsNotSharedWithAnotherProcess) {
+  const fs::path run = folder_.path() / "run";
+  std::array<int, 2> taken{}, finished{};
+  ASSERT_EQ(::pipe(taken.data()) + ::pipe(finished.data()), 0);
+  const ::pid_t child = ::fork();
+  if (child == 0) {
+    char byte = 0;
+    make_new_folder(run);
+    const bool is_told = ::write(taken[1], &byte, 1) == 1 && ::read(finished[0], &byte, 1) == 1;
+    ::_exit(is_told ? 0 : 1);
+  }
+  char byte = 0;
+  ASSERT_EQ(::read(taken[0], &byte, 1), 1);
+  EXPECT_THAT([&] { make_new_folder(run); },
+              ThrowsMessage<UserError>(HasSubstr("another run writes into it")));
+  ASSERT_EQ(::write(finished[1], &byte, 1), 1);
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
   EXPECT_NO_THROW(make_new_folder(run));
 }
 

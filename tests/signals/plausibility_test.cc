@@ -33,6 +33,12 @@ TEST(Plausibility, NoticesGravityInG) {
               ElementsAre(HasSubstr("looks like gravity in g")));
 }
 
+TEST(Plausibility, NoticesTimeInMilliseconds) {
+  Record slow(0.5, 30000);
+  slow.set_channel(channel::base_moment, std::vector<double>(slow.n_samples(), 1e-4));
+  EXPECT_THAT(implausible_magnitudes(slow), ElementsAre(HasSubstr("'time=t[ms]'")));
+}
+
 TEST(Plausibility, NoticesSmallerUnitsThanTheChannels) {
   EXPECT_THAT(implausible_magnitudes(with(channel::base_acceleration, 0., 9810.)),
               ElementsAre(HasSubstr("mm/s2")));

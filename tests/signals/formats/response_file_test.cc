@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "signals/error.h"
 #include "tests/signals/temporary_folder.h"
@@ -62,6 +63,53 @@ TEST(ResponseFile, KeepsUnevenFrequencies) {
   const Uff58Function function = written(response, "r.unv", "model");
   EXPECT_EQ(function.abscissa.size(), 6U);
   expect_equal(function, response);
+}
+
+FrequencyResponse of_a_bench() {
+  std::vector<double> f;
+  for (int i = 1; i < 400; ++i) f.push_back(500. / 2048. * i);
+  FrequencyResponse response = response_at(f);
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    response.coherence.push_back(1. - 0.001 * static_cast<double>(i));
+    response.standard_deviation.push_back(1e-7 * (1. + static_cast<double>(i)));
+  }
+  return response;
+}
+
+class EveryResponseFile : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Endings, EveryResponseFile, ::testing::Values("r.uff", "r.mat", "r.csv"));
+
+TEST_P(EveryResponseFile, KeepsFrequenciesCoherenceAndDeviation) {
+  const FrequencyResponse response = of_a_bench();
+  const TemporaryFolder folder;
+  write_response(folder.path() / GetParam(), response, "bench");
+  const FrequencyResponse back = read_response(folder.path() / GetParam());
+  ASSERT_EQ(back.value.size(), response.value.size());
+  ASSERT_EQ(back.coherence.size(), response.value.size());
+  ASSERT_EQ(back.standard_deviation.size(), response.value.size());
+  for (std::size_t i = 0; i < response.value.size(); ++i) {
+    EXPECT_NEAR(back.frequency_hz[i], response.frequency_hz[i], 1e-13 * response.frequency_hz[i]);
+    EXPECT_LT(std::abs(back.value[i] - response.value[i]), 1e-12 * std::abs(response.value[i]));
+    EXPECT_NEAR(back.coherence[i], response.coherence[i], 1e-12);
+    EXPECT_NEAR(back.standard_deviation[i], response.standard_deviation[i], 1e-18);
+  }
+}
+
+TEST(ResponseFile, StatesItsConventionInCsv) {
+  const TemporaryFolder folder;
+  write_response(folder.path() / "r.csv", of_a_bench(), "bench");
+  std::ifstream in(folder.path() / "r.csv");
+  std::string line;
+  std::getline(in, line);
+  EXPECT_THAT(line, ::testing::AllOf(HasSubstr("# "), HasSubstr("exp(+j w t), one-sided, Hz")));
+}
+
+TEST(ResponseFile, LeavesOutWhatIsNotKnownOfEveryLine) {
+  FrequencyResponse response = of_a_bench();
+  response.coherence[7] = std::nan("");
+  const auto functions = uff58_of(response, "bench");
+  ASSERT_EQ(functions.size(), 2U);
+  EXPECT_EQ(functions[1].function_type, general_function);
 }
 
 TEST(ResponseFile, RefusesAnUnknownEndOfTheName) {

@@ -41,7 +41,7 @@ class ResponseReader : public ::testing::Test {
   }
   /// A universal file of two functions in mN mm per g.
   std::filesystem::path two_functions() const {
-    Uff58Function first = uff58_of(sensor_response(), "at the base");
+    Uff58Function first = uff58_of(sensor_response(), "at the base").front();
     first.ordinate_axis.unit = "mN mm";
     first.denominator_axis.unit = "g";
     Uff58Function second = first;
@@ -108,7 +108,7 @@ TEST_F(ResponseReader, RefusesWhatItCannotChooseOrConvert) {
   expect_refusal(source, {}, "1 'at the base', 2 'at the tip'", "choose one");
   expect_refusal(source, {"3"}, "has no response 3", "at the tip");
   expect_refusal(source, {"1[kg]"}, "does not measure", "moment per acceleration");
-  Uff58Function bare = uff58_of(sensor_response(), "in teslas");
+  Uff58Function bare = uff58_of(sensor_response(), "in teslas").front();
   bare.ordinate_axis.unit = "T";
   write_uff58(file("t.uff"), {bare});
   expect_refusal(file("t.uff"), {}, "in T per m/s^2", "0.18[N m/T]");
