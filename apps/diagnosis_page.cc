@@ -113,15 +113,14 @@ report::Table parameter_table(const Diagnosis& d) {
                        {"95 % from", "", 3},
                        {"95 % to", "", 3},
                        {"unit", ""},
-                       {"remark", ""}});
+                       {"at limit", ""}});
   constexpr double improbable = 0.01;
   for (const RankedAnswer& answer : d.ranking) {
     if (answer.probability < improbable && &answer != &d.ranking.front()) continue;
     for (const auto* estimates : {&answer.parameters, &answer.materials})
       for (const diagnosis::ParameterEstimate& p : *estimates)
         table.add_row({answer.name, p.effect, p.name, p.value, p.ci95[0], p.ci95[1],
-                       p.unit == "1" ? "" : p.unit,
-                       p.at_limit ? "at the limit of what is tried" : ""});
+                       p.unit == "1" ? "" : p.unit, p.at_limit ? "yes" : ""});
   }
   return table;
 }

@@ -72,7 +72,7 @@ TEST(DiagnosisPage, ShowsTheParametersOfAnswersThatAreNotImprobable) {
   const report::PageSection what = diagnosis_page(example()).sections[1];
   ASSERT_THAT(what.tables, SizeIs(3));
   EXPECT_EQ(what.tables[1].table.to_csv(),
-            "answer,effect,parameter,value,95 % from,95 % to,unit,remark\n"
+            "answer,effect,parameter,value,95 % from,95 % to,unit,at limit\n"
             "joint_friction+stiffness,stiffness,ratio,0.71,0.7,0.72,,\n");
 }
 

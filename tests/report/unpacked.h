@@ -25,7 +25,7 @@ inline std::string bytes_of_base64(const std::string& text) {
 template <typename Number>
 std::vector<double> numbers_of(const std::string& bytes) {
   std::vector<Number> numbers(bytes.size() / sizeof(Number));
-  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+  if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
   return {numbers.begin(), numbers.end()};
 }
 
