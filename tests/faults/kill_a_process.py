@@ -2,6 +2,7 @@
 """Kills one of the processes that share `vibrissa run`, at times spread over the job.
 
 After each: the others are ended and it is said once, the status is not 0, and no file with a final name is half.
+A kill that came when all was done, so that nothing is missing, is none.
 """
 import argparse
 import os
@@ -37,21 +38,35 @@ def children(parent):
     return sorted(found)
 
 
-def complaints(job, folder, whole):
+def half_files(folder, whole):
+    for name, file in (files(folder) if folder.exists() else {}).items():
+        wrong = None if file.name.startswith(".unfinished") else half_file(name, file, whole)
+        if wrong:
+            yield f"{name} {wrong}"
+
+
+def is_complete(folder, whole):
+    return folder.exists() and files(folder).keys() == whole.keys() and not list(half_files(folder, whole))
+
+
+def said_at_the_end(job):
+    """What the job said until it ended; nothing when it goes on."""
     try:
-        said, _ = job.communicate(timeout=END_WITHIN_S)
+        return job.communicate(timeout=END_WITHIN_S)[0]
     except subprocess.TimeoutExpired:
         job.kill()
+        return None
+
+
+def complaints(job, said, folder, whole):
+    if said is None:
         yield f"the others go on for more than {END_WITHIN_S:.0f} s"
         return
     if job.returncode == 0:
         yield "status 0"
     if said.count("signal 9") != 1:
         yield f"does not say once what happened: {said[-600:]!r}"
-    for name, file in (files(folder) if folder.exists() else {}).items():
-        wrong = None if file.name.startswith(".unfinished") else half_file(name, file, whole)
-        if wrong:
-            yield f"{name} {wrong}"
+    yield from half_files(folder, whole)
 
 
 def main():
@@ -80,8 +95,11 @@ def main():
                 job.communicate()
                 continue
             os.kill(processes[kill % N_PROCESSES], signal.SIGKILL)
+            said = said_at_the_end(job)
+            if job.returncode == 0 and is_complete(folder, whole):
+                continue
             n_killed += 1
-            for complaint in complaints(job, folder, whole):
+            for complaint in complaints(job, said, folder, whole):
                 n_wrong += 1
                 print(f"process {kill % N_PROCESSES} killed at {took_s * (kill + 0.5) / options.kills:.1f} s: {complaint}")
     print(f"{n_killed} processes killed in a job of {took_s:.1f} s, {n_wrong} complaints")
