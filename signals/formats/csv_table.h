@@ -13,9 +13,8 @@ class CsvTable : public RecordTable {
 
   const std::vector<std::string>& columns() const override { return file_.columns(); }
   std::size_t n_rows() const override { return file_.n_rows(); }
-  /// Line 1 holds the names.
   std::string place(std::size_t row) const override { return file_.place(file_.line_of(row)); }
-  RowNames row_names() const override { return {"line", 1}; }
+  RowNames row_names() const override { return {"line", file_.line_of(0)}; }
   ColumnValues read(const ColumnRange& range) const override;
   std::string text(std::size_t row, std::size_t column) const override;
 

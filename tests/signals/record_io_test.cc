@@ -254,6 +254,12 @@ TEST_F(ReadRecord, RefusesTimeThatIsNaN) {
       ThrowsMessage<UserError>(HasSubstr("r.csv:17: column 'time_s': 'nan' is not finite")));
 }
 
+TEST_F(ReadRecord, CountsCommentsInTheLinesThatItNames) {
+  const auto jumping = [](const std::size_t i) { return plain(i < 20 ? i : i + 7); };
+  EXPECT_THAT(reading("# logger 3\n# bench\n" + csv(plain_header, jumping)),
+              ThrowsMessage<UserError>(HasSubstr("between line 23 (0.038 s) and line 24")));
+}
+
 TEST_F(ReadRecord, ReportsAGapInTimeWithItsLines) {
   const std::string content = csv("time_s,base_moment_N_m", [](const std::size_t i) {
     return time_at_500_hz(i < 20 ? i : i + 6) + ",1";
