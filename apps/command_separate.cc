@@ -190,7 +190,7 @@ void separate(const SeparateOptions& options) {
     return;
   }
   if (options.output_file && !options.common.quiet)
-    std::cout << "wrote " << *options.output_file << ": " << record.n_samples() << " samples\n";
+    std::cout << written_record_text(*options.output_file, record);
   std::cout << separation_table(signals).to_text();
   if (!options.common.quiet && !options.truth_column)
     std::cout << "Dashes: these figures need the true wind moment (--truth COLUMN).\n";

@@ -146,8 +146,7 @@ void check_factor(double factor, const std::string& record, const std::string& c
 
 /// Well below its resonance a sensor's moment is that of its mass, whatever its stiffness.
 void check_gain(const Ratios& ratios, const std::string& record, std::vector<Finding>& findings) {
-  constexpr double largest = 1.6;  // what a built sensor's mass and gain are off by, and more
-  if (!ratios.slow || (ratios.slow->median < largest && ratios.slow->median > 1. / largest)) return;
+  if (!ratios.slow || near(ratios.slow->median, 1.)) return;
   findings.push_back({FindingKind::unlikely_gain, record,
                       "well below the first mode the measured response is " +
                           three_digits(ratios.slow->median) +

@@ -6,7 +6,7 @@
 #include "signals/error.h"
 #include "signals/formats/file_format.h"
 #include "signals/formats/mat_file.h"
-#include "signals/formats/uff58_grid.h"
+#include "signals/formats/uff58_exact.h"
 #include "signals/number_text.h"
 #include "signals/output_file.h"
 
@@ -94,7 +94,7 @@ std::vector<Uff58Function> uff58_of(const FrequencyResponse& response, const std
     const auto n_steps = static_cast<double>(std::max<std::size_t>(1, f.size() - 1));
     function.abscissa_step = (f.back() - f.front()) / n_steps;
     if (function.abscissa_step > 0.)
-      function.id_lines[3] = to_line({function.abscissa_start, function.abscissa_step});
+      function.id_lines[3] = frequency_grid.line(function.abscissa_start, function.abscissa_step);
   }
   std::vector<Uff58Function> functions{function};
   if (all_finite(response.coherence))

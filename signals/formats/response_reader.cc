@@ -5,11 +5,13 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "signals/error.h"
 #include "signals/formats/file_format.h"
 #include "signals/formats/response_file.h"
-#include "signals/formats/uff58_grid.h"
+#include "signals/formats/uff58_exact.h"
 #include "signals/lower_case.h"
 #include "signals/number_text.h"
 #include "signals/scaled_name.h"
@@ -196,12 +198,12 @@ double scale_of(const Uff58Function& function, const std::string& file) {
 
 std::vector<double> frequencies(const Uff58Function& function) {
   if (!function.abscissa.empty()) return function.abscissa;
-  const FrequencyGrid grid =
-      grid_in(function.id_lines[3])
-          .value_or(FrequencyGrid{function.abscissa_start, function.abscissa_step});
+  auto [start_hz, step_hz] = std::pair{function.abscissa_start, function.abscissa_step};
+  if (const auto exact = frequency_grid.in(function.id_lines[3]); exact && exact->second > 0.)
+    std::tie(start_hz, step_hz) = *exact;
   std::vector<double> frequency_hz;
   for (std::size_t i = 0; i < function.values.size(); ++i)
-    frequency_hz.push_back(grid.start_hz + static_cast<double>(i) * grid.step_hz);
+    frequency_hz.push_back(start_hz + static_cast<double>(i) * step_hz);
   return frequency_hz;
 }
 

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <string_view>
 
 #include "signals/error.h"
 #include "signals/formats/numeric_table.h"
 #include "signals/formats/record_columns.h"
+#include "signals/formats/uff58_exact.h"
 #include "signals/formats/uff58_file.h"
-#include "signals/number_text.h"
 
 namespace vibrissa::signals::formats {
 namespace {
@@ -37,21 +36,10 @@ int direction_of(const std::string& channel) {
   return is_cross ? y : x;
 }
 
-const std::string clock_start = "sampling_rate_hz=", clock_middle = " start_s=";
-
-std::string clock_line(const Record& record) {
-  return clock_start + to_text(record.sampling_rate_hz()) + clock_middle +
-         to_text(record.time_s(0));
-}
-
 std::optional<TimeAxis> clock_in(const std::string& line) {
-  const auto middle = line.find(clock_middle);
-  if (!line.starts_with(clock_start) || middle == std::string::npos) return {};
-  const auto rate =
-      to_number(std::string_view(line).substr(clock_start.size(), middle - clock_start.size()));
-  const auto start = to_number(std::string_view(line).substr(middle + clock_middle.size()));
-  if (!rate || !start || !(*rate > 0.)) return {};
-  return TimeAxis{*start, *rate};
+  const auto exact = record_clock.in(line);
+  if (!exact || !(exact->first > 0.)) return {};
+  return TimeAxis{exact->second, exact->first};
 }
 
 std::string degree_of_freedom(const Uff58Function& function) {
@@ -112,8 +100,8 @@ void write_uff58(const std::filesystem::path& file, const Record& record) {
   std::vector<Uff58Function> functions;
   for (const std::string& name : channels_in_writing_order(record)) {
     Uff58Function function;
-    function.id_lines = {name, "SI units; time response", "written by vibrissa", clock_line(record),
-                         "NONE"};
+    function.id_lines = {name, "SI units; time response", "written by vibrissa",
+                         record_clock.line(record.sampling_rate_hz(), record.time_s(0)), "NONE"};
     function.response_node = 1;
     function.response_direction = direction_of(name);
     function.abscissa_start = record.time_s(0);
