@@ -191,10 +191,10 @@ void separate(const SeparateOptions& options) {
   }
   if (options.output_file && !options.common.quiet)
     std::cout << written_record_text(*options.output_file, record);
-  std::cout << separation_table(signals).to_text();
-  if (!options.common.quiet && !options.truth_column)
-    std::cout << "Dashes: these figures need the true wind moment (--truth COLUMN).\n";
-  if (!options.common.quiet) std::cout << metric_notes(options.settling_s) << "\n";
+  const bool is_blind = !options.truth_column;
+  std::cout << (is_blind ? blind_separation_table : separation_table)(signals).to_text();
+  if (!options.common.quiet)
+    std::cout << (is_blind ? blind_metric_notes : metric_notes)(options.settling_s) << "\n";
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #include "apps/separation_methods.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/json_file.h"
+#include "separation/coherent_power.h"
 #include "separation/dtw.h"
 #include "separation/dtw_path.h"
 #include "separation/metrics.h"
@@ -38,6 +40,37 @@ void score_against_truth(SeparatedSignal& signal, const std::span<const double> 
   signal.delay_ms = 1e3 * separation::delay_samples(truth, estimate, largest_delay) / rate_hz;
 }
 
+const std::string paper_ratio_note =
+    "Paper's ratio: power of the wind estimate over that of the vibration estimate, which a method "
+    "that removes nothing makes infinite. ";
+
+std::string four_digits(const double value) {
+  return report::Cell(value).rounded(4);
+}
+
+std::string settling_note(const double settling_s) {
+  return "The first " + four_digits(settling_s) + " s are left out.";
+}
+
+double root_mean_square(const std::span<const double> x) {
+  return std::sqrt(separation::mean_square_error(x, std::vector<double>(x.size(), 0.)));
+}
+
+bool is_constant(const std::span<const double> x) {
+  return std::ranges::all_of(x, [&](const double value) { return value == x[0]; });
+}
+
+std::optional<double> vibration_left_db(const std::span<const double> acceleration,
+                                        const std::span<const double> measured,
+                                        const std::span<const double> estimate,
+                                        const double rate_hz) {
+  const auto before = separation::coherent_power(acceleration, measured, rate_hz);
+  if (!(before.value_n2_m2 > 2. * before.deviation_n2_m2)) return {};
+  const auto after = separation::coherent_power(acceleration, estimate, rate_hz);
+  return 10. *
+         std::log10(std::max(after.value_n2_m2, 2. * after.deviation_n2_m2) / before.value_n2_m2);
+}
+
 }  // namespace
 
 SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n_m,
@@ -60,6 +93,12 @@ SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n
   if (std::any_of(vibration.begin(), vibration.end(), [](const double x) { return x != 0.; })) {
     signal.paper_snr_db = separation::paper_snr_db(estimate, vibration);
   }
+  signal.rms_n_m = root_mean_square(estimate);
+  if (record.has(signals::channel::base_acceleration)) {
+    const auto acceleration = record.channel(signals::channel::base_acceleration).subspan(skipped);
+    if (!is_constant(acceleration))
+      signal.vibration_left_db = vibration_left_db(acceleration, measured, estimate, rate_hz);
+  }
   if (!truth.empty()) score_against_truth(signal, truth.subspan(skipped), estimate, rate_hz);
   return signal;
 }
@@ -75,7 +114,9 @@ nlohmann::json separation_json(const std::vector<SeparatedSignal>& signals) {
          {"band_power_difference_db", report::json_or_null(signal.band_difference_db)},
          {"dtw_n_m_per_pair", report::json_or_null(signal.dtw_n_m)},
          {"delay_ms", report::json_or_null(signal.delay_ms)},
-         {"paper_snr_db", report::json_or_null(signal.paper_snr_db)}});
+         {"paper_snr_db", report::json_or_null(signal.paper_snr_db)},
+         {"rms_n_m", signal.rms_n_m},
+         {"vibration_left_db", report::json_or_null(signal.vibration_left_db)}});
   }
   return {{"methods", methods}};
 }
@@ -104,6 +145,24 @@ report::Table separation_table(const std::vector<SeparatedSignal>& signals) {
   return table;
 }
 
+report::Table blind_separation_table(const std::vector<SeparatedSignal>& signals) {
+  report::Table table({{"method", ""},
+                       {"rms moment", "N m", 3},
+                       {"vibration left", "dB", 3},
+                       {"paper's ratio", "dB"}});
+  for (const auto& s : signals)
+    table.add_row({s.name, s.rms_n_m, s.vibration_left_db, s.paper_snr_db});
+  return table;
+}
+
+std::string blind_metric_notes(const double settling_s) {
+  return "Vibration left: power that goes with the base acceleration by a linear response, over "
+         "that of the measured moment, not below what chance shows. It does not tell whether wind "
+         "was lost as well; the figures that do (SDR and others) need the true wind moment "
+         "(--truth COLUMN). " +
+         paper_ratio_note + settling_note(settling_s);
+}
+
 report::Table warping_table(const std::vector<SeparatedSignal>& signals,
                             const signals::Record& record, const std::span<const double> truth,
                             const double settling_s) {
@@ -121,17 +180,12 @@ report::Table warping_table(const std::vector<SeparatedSignal>& signals,
 }
 
 std::string metric_notes(const double settling_s) {
-  const auto number = [](const double value) { return report::Cell(value).rounded(4); };
   return "SDR: signal to distortion against the true wind moment. Wind band power: estimate over "
          "truth in " +
-         number(wind_band.low_hz) + " to " + number(wind_band.high_hz) +
+         four_digits(wind_band.low_hz) + " to " + four_digits(wind_band.high_hz) +
          " Hz. DTW: dynamic time warping, unit steps, absolute cost per pair of the path, window "
          "+-" +
-         number(1e3 * dtw_window_s) +
-         " ms. Paper's ratio: power of the wind estimate over that of the vibration estimate, "
-         "which "
-         "a method that removes nothing makes infinite. The first " +
-         number(settling_s) + " s are left out.";
+         four_digits(1e3 * dtw_window_s) + " ms. " + paper_ratio_note + settling_note(settling_s);
 }
 
 }  // namespace vibrissa::apps

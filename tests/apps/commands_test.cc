@@ -110,6 +110,9 @@ TEST(Separate, GivesNullScoresWithoutTruthAndNumbersWithIt) {
   ASSERT_EQ(blind.status, 0) << blind.errors;
   const json scores = blind.json();
   for (const auto& method : scores["methods"]) EXPECT_TRUE(method["sdr_db"].is_null());
+  EXPECT_NEAR(scores["methods"][0]["vibration_left_db"].get<double>(), 0., 1e-9);
+  EXPECT_LT(scores["methods"][1]["vibration_left_db"].get<double>(), -15.);
+  EXPECT_LT(scores["methods"][1]["rms_n_m"], scores["methods"][0]["rms_n_m"]);
 
   const Folder folder;
   const auto written = vibrissa("separate '" + record + "' --model '" + model + "' -o '" +
@@ -117,6 +120,8 @@ TEST(Separate, GivesNullScoresWithoutTruthAndNumbersWithIt) {
   ASSERT_EQ(written.status, 0) << written.errors;
   EXPECT_THAT(content(folder.file("separated.csv")).substr(0, 300),
               testing::HasSubstr("wind_moment_bvrm_N_m"));
+  EXPECT_THAT(written.output, testing::HasSubstr("vibration left [dB]"));
+  EXPECT_THAT(written.output, testing::Not(testing::HasSubstr("SDR [dB]")));
   const auto scored = vibrissa("separate '" + folder.file("separated.csv") +
                                "' --truth wind_moment_bvrm_N_m --json");
   ASSERT_EQ(scored.status, 0) << scored.errors;
