@@ -17,6 +17,7 @@
 #include "separation/wind_speed.h"
 #include "signals/error.h"
 #include "signals/formats/file_format.h"
+#include "signals/is_constant.h"
 #include "signals/output_file.h"
 #include "signals/record_io.h"
 #include "signals/reduced_model.h"
@@ -126,9 +127,8 @@ void add_wind_speeds(const SeparateOptions& options, const std::vector<Separated
 void warn_of_dead_accelerometer(const signals::Record& record) {
   if (!record.has(signals::channel::base_acceleration)) return;
   const auto a = record.channel(signals::channel::base_acceleration);
-  const auto [low, high] = std::minmax_element(a.begin(), a.end());
-  if (*low == *high)
-    std::cerr << "warning: base_acceleration is " << *low
+  if (signals::is_constant(a))
+    std::cerr << "warning: base_acceleration is " << a.front()
               << " throughout: no vibration is taken off; is the accelerometer's column the right "
                  "one?\n";
 }

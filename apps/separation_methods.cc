@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "report/json_file.h"
 #include "separation/coherent_power.h"
@@ -10,6 +11,7 @@
 #include "separation/dtw_path.h"
 #include "separation/metrics.h"
 #include "signals/error.h"
+#include "signals/is_constant.h"
 
 namespace vibrissa::apps {
 
@@ -53,11 +55,8 @@ std::string settling_note(const double settling_s) {
 }
 
 double root_mean_square(const std::span<const double> x) {
-  return std::sqrt(separation::mean_square_error(x, std::vector<double>(x.size(), 0.)));
-}
-
-bool is_constant(const std::span<const double> x) {
-  return std::ranges::all_of(x, [&](const double value) { return value == x[0]; });
+  return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.) /
+                   static_cast<double>(x.size()));
 }
 
 std::optional<double> vibration_left_db(const std::span<const double> acceleration,
@@ -96,7 +95,7 @@ SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n
   signal.rms_n_m = root_mean_square(estimate);
   if (record.has(signals::channel::base_acceleration)) {
     const auto acceleration = record.channel(signals::channel::base_acceleration).subspan(skipped);
-    if (!is_constant(acceleration))
+    if (!signals::is_constant(acceleration))
       signal.vibration_left_db = vibration_left_db(acceleration, measured, estimate, rate_hz);
   }
   if (!truth.empty()) score_against_truth(signal, truth.subspan(skipped), estimate, rate_hz);

@@ -32,7 +32,8 @@ SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n
                       double settling_s);
 
 /// {"methods": [{"name", "sdr_db", "mse", "nrmse", "band_power_difference_db", "dtw_n_m_per_pair",
-///  "delay_ms", "paper_snr_db", "rms_n_m", "vibration_left_db"}]}; null where no truth is given.
+///  "delay_ms", "paper_snr_db", "rms_n_m", "vibration_left_db"}]}; null where no truth is given,
+///  but for the last three; those where their members say so.
 nlohmann::json separation_json(const std::vector<SeparatedSignal>& signals);
 /// The scores as columns of a table, and one signal's cells of them.
 std::vector<report::Column> metric_columns();

@@ -7,16 +7,14 @@
 #include "diagnosis/level.h"
 #include "diagnosis/spectrum.h"
 #include "diagnosis/words.h"
+#include "signals/is_constant.h"
 
 namespace vibrissa::diagnosis {
 namespace {
 
 using signals::DatasetRecord;
+using signals::is_constant;
 namespace channel = signals::channel;
-
-bool is_constant(std::span<const double> x) {
-  return std::all_of(x.begin(), x.end(), [&](double v) { return v == x.front(); });
-}
 
 std::string hint(const DatasetRecord& entry, const std::string& name) {
   const bool exchanged = name == channel::base_acceleration && !entry.excitation.wind &&

@@ -14,6 +14,7 @@
 #include "separation/srivc.h"
 #include "signals/error.h"
 #include "signals/frequency_response.h"
+#include "signals/is_constant.h"
 #include "signals/number_text.h"
 
 namespace vibrissa::separation {
@@ -35,7 +36,7 @@ void check_channel(const Record& record, const std::string& name, const std::str
     if (!std::isfinite(x[i]))
       throw UserError("identification: " + name + " of the " + which + " is not finite at sample " +
                       std::to_string(i) + " (" + signals::to_text(record.time_s(i)) + " s)");
-  if (std::ranges::all_of(x, [&](double value) { return value == x[0]; }))
+  if (signals::is_constant(x))
     throw UserError("identification: " + name + " of the " + which +
                     " is constant; nothing can be learnt from it");
 }

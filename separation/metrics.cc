@@ -9,12 +9,14 @@
 
 #include "signals/error.h"
 #include "signals/fft.h"
+#include "signals/is_constant.h"
 #include "signals/number_text.h"
 
 namespace vibrissa::separation {
 
 namespace {
 
+using signals::is_constant;
 using signals::UserError;
 
 void check_values(std::span<const double> x, const std::string& what) {
@@ -56,10 +58,6 @@ std::vector<double> without_mean(std::span<const double> x) {
 
 double variance(std::span<const double> x) {
   return power(without_mean(x));
-}
-
-bool is_constant(std::span<const double> x) {
-  return std::ranges::all_of(x, [&](double value) { return value == x[0]; });
 }
 
 double ratio_db(double numerator, double denominator, const std::string& what) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "signals/error.h"
+#include "signals/is_constant.h"
 #include "signals/number_text.h"
 
 namespace vibrissa::separation {
@@ -233,7 +234,7 @@ Sizes checked_sizes(std::span<const double> moment, const OutputOnlyOptions& opt
     if (!std::isfinite(moment[i]))
       throw UserError("output-only identification: sample " + std::to_string(i) +
                       " of the moment is not finite");
-  if (std::ranges::all_of(moment, [&](double m) { return m == moment[0]; }))
+  if (signals::is_constant(moment))
     throw UserError("output-only identification: the moment is constant; nothing can be learnt");
   const std::size_t n_rows = std::min(options.max_lags, moment.size() / (4 * n_pieces));
   if (n_rows < 4)

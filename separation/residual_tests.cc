@@ -9,6 +9,7 @@
 
 #include "signals/error.h"
 #include "signals/fft.h"
+#include "signals/is_constant.h"
 
 namespace vibrissa::separation {
 
@@ -26,8 +27,7 @@ class Normalised {
     for (const double value : x) square += (value - mean) * (value - mean);
     if (!std::isfinite(square))
       throw UserError("residual tests: the " + name + " has values that are not finite");
-    if (std::ranges::all_of(x, [&](double value) { return value == x[0]; }))
-      throw UserError("residual tests: the " + name + " is constant");
+    if (signals::is_constant(x)) throw UserError("residual tests: the " + name + " is constant");
     auto time = fft_.time();
     std::ranges::fill(time, 0.);
     for (std::size_t i = 0; i < x.size(); ++i) time[i] = (x[i] - mean) / std::sqrt(square);

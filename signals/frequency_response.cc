@@ -9,6 +9,7 @@
 
 #include "signals/error.h"
 #include "signals/fft.h"
+#include "signals/is_constant.h"
 #include "signals/number_text.h"
 
 namespace vibrissa::signals {
@@ -228,7 +229,7 @@ FrequencyResponse welch_response(std::span<const double> input, std::span<const 
                                  double sampling_rate_hz, const WelchOptions& options) {
   check_pair(input, output, sampling_rate_hz);
   Segments segments(input.size(), options, 2);
-  if (std::ranges::all_of(input, [&](double u) { return u == input[0]; }))
+  if (is_constant(input))
     throw UserError("frequency response: the input is constant and excites no line");
   SpectralSums sums(segments.n_bins());
   std::vector<std::complex<double>> input_spectrum(segments.n_bins());
@@ -248,6 +249,10 @@ FrequencyResponse welch_response(std::span<const double> input, std::span<const 
     result.standard_deviation.push_back(power > 0. ? std::sqrt(variance) : not_a_number);
   }
   return result;
+}
+
+double welch_averages(const std::size_t n_samples, const WelchOptions& options) {
+  return Segments(n_samples, options, 1).n_effective();
 }
 
 PowerSpectrum welch_spectrum(std::span<const double> x, double sampling_rate_hz,

@@ -37,6 +37,10 @@ struct WelchOptions {
 FrequencyResponse welch_response(std::span<const double> input, std::span<const double> output,
                                  double sampling_rate_hz, const WelchOptions& options = {});
 
+/// n_averages of welch_response for records of this length: unrelated noise has a coherence of one
+/// over it. Throws UserError when not even one segment fits.
+double welch_averages(std::size_t n_samples, const WelchOptions& options = {});
+
 /// One-sided power spectral density by Welch's method [unit^2/Hz], mean removed per segment: its
 /// sum times the line spacing is the variance. Throws UserError when not even one segment fits.
 struct PowerSpectrum {

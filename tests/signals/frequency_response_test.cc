@@ -263,6 +263,8 @@ TEST(WelchResponse, CoherenceOfUnrelatedNoiseIsLow) {
   const double mean = std::accumulate(response.coherence.begin(), response.coherence.end(), 0.) / n;
   const double expected = 1. / 61.;  // 64 half overlapped segments count as 61
   EXPECT_NEAR(mean, expected, 4. * expected / std::sqrt(0.5 * n));
+  EXPECT_NEAR(mean * welch_averages(input.size(), {.segment_samples = 1024}), 1.,
+              4. / std::sqrt(0.5 * n));
 }
 
 TEST(WelchResponse, RefusesWhatHoldsNoAnswer) {
