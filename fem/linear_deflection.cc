@@ -11,7 +11,10 @@ Vector linear_deflection(const Sensor& sensor,
   for (unsigned int d = 0; d < 3; ++d) base.add(-base_acceleration_m_s2[d], space.translation(d));
   sensor.operators().mass->vmult(force, base);
   zero_entries(force, space.clamped());
-  const CholeskySolver solver(*sensor.operators().clamped_stiffness);
+  const CholeskySolver solver(*sensor.operators().clamped_stiffness,
+                              [&](const Vector& x, Vector& product) {
+                                clamped_internal_force(space, sensor.operators(), x, product);
+                              });
   solver.solve(force, found);
   return found;
 }

@@ -9,7 +9,6 @@
 #include "fem/block_lanczos.h"
 #include "fem/cholesky_solver.h"
 #include "fem/eigenpair_refinement.h"
-#include "fem/internal_force.h"
 #include "signals/error.h"
 
 namespace vibrissa::fem {
@@ -117,9 +116,7 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
                              " modes asked for; ask for fewer or refine the mesh");
   }
   const auto product = [&](const Vector& x, Vector& force) {
-    force = 0.;
-    operators.internal_force->add(1., x, force);
-    zero_entries(force, space.clamped());
+    clamped_internal_force(space, operators, x, force);
   };
   refine(pairs, stiffness, product, *operators.clamped_mass);
   std::vector<Mode> modes;

@@ -48,6 +48,13 @@ SolidOperators assemble_operators(const SolidSpace& space,
   return operators;
 }
 
+void clamped_internal_force(const SolidSpace& space, const SolidOperators& operators,
+                            const Vector& x, Vector& force) {
+  force = 0.;
+  operators.internal_force->add(1., x, force);
+  zero_entries(force, space.clamped());
+}
+
 std::unique_ptr<Matrix> stiffness_with_mass(const SolidSpace& space,
                                             const SolidOperators& operators, const double stiffness,
                                             const double mass) {

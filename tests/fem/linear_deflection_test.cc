@@ -33,7 +33,7 @@ TEST(LinearDeflection, HasInEveryModeWhatTheModeItselfWouldTake) {
   EXPECT_GT(largest, 1e-6);
   // Torsion has no part in it.
   for (const auto& [found, expected] : found_and_expected)
-    EXPECT_NEAR(found, expected, 1e-7 * largest);
+    EXPECT_NEAR(found, expected, 1e-11 * largest);
 }
 
 }  // namespace
