@@ -3,13 +3,13 @@ get_filename_component(VIBRISSA_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
 # Rooms whose files read more than they compile: deal.II's headers are compiled once for them, and eight
 # files at a time, which spares a whole build most of its work. Who works on one file sets
 # -DVIBRISSA_BATCHES=OFF. Both OFF find what both hide: an include that is missing, a name that two files
-# of a batch share by mistake.
+# of a batch share by mistake. The tests are batched everywhere: eight share GoogleMock and Eigen.
 set(VIBRISSA_BATCHED_ROOMS "^(materials|meshes|flow|fem|report|apps)$")
 set(VIBRISSA_SOLID_HEADERS <Eigen/Dense> <nlohmann/json.hpp> <deal.II/base/parameter_handler.h>
     <deal.II/fe/fe_values.h> <deal.II/grid/tria.h>)
 
-function(vibrissa_batch target room)
-  if(VIBRISSA_BATCHES AND room MATCHES "${VIBRISSA_BATCHED_ROOMS}")
+function(vibrissa_batch target)
+  if(VIBRISSA_BATCHES)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endfunction()
@@ -27,7 +27,9 @@ function(vibrissa_library room)
   elseif(VIBRISSA_PRECOMPILE AND room STREQUAL "apps")
     target_precompile_headers(vibrissa_apps REUSE_FROM vibrissa_fem)
   endif()
-  vibrissa_batch(vibrissa_${room} ${room})
+  if(room MATCHES "${VIBRISSA_BATCHED_ROOMS}")
+    vibrissa_batch(vibrissa_${room})
+  endif()
 endfunction()
 
 # vibrissa_tests(ROOM SOURCES ... LINK ...): the GoogleTest program of one room. One CTest test a case; in
@@ -35,7 +37,7 @@ endfunction()
 function(vibrissa_tests room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(test_${room} ${ARG_SOURCES})
-  vibrissa_batch(test_${room} ${room})
+  vibrissa_batch(test_${room})
   if(VIBRISSA_PRECOMPILE AND room MATCHES "^(materials|meshes|flow|fem)$")
     # First, too: deal.II's macro Assert hides a function of GoogleMock.
     target_precompile_headers(test_${room} PRIVATE <gmock/gmock.h>)

@@ -31,7 +31,7 @@ class BadRecords : public testing::Test {
 
   using Lines = std::vector<std::string>;
   void damage(const std::function<void(Lines&)>& change) const {
-    std::istringstream in(signals::testing::content_of(folder_.path() / "base_high.csv"));
+    std::istringstream in(signals::test::content_of(folder_.path() / "base_high.csv"));
     Lines lines;
     for (std::string line; std::getline(in, line);) lines.push_back(line);
     change(lines);
@@ -50,7 +50,7 @@ class BadRecords : public testing::Test {
     }
   }
 
-  signals::testing::TemporaryFolder folder_;
+  signals::test::TemporaryFolder folder_;
 };
 
 TEST_F(BadRecords, AreReadWhenTheyAreNotBad) {

@@ -41,7 +41,7 @@ signals::DatasetRecord steady_record(const NominalModel& model, const Excitation
           signals::Readout::moment};
 }
 
-NominalModel two_modes() {
+NominalModel nominal_of_two_modes() {
   NominalModel model = test::nominal_of(test::OneModeRig{}, true);
   model.modes.push_back({.frequency_rad_s = 2. * std::numbers::pi * 130.,
                          .damping_ratio = 0.03,
@@ -51,7 +51,7 @@ NominalModel two_modes() {
 }
 
 TEST(IdentifyNominal, FindsATwoModeModelFromItsOwnRecords) {
-  const NominalModel truth = two_modes();
+  const NominalModel truth = nominal_of_two_modes();
   constexpr std::size_t n = 4096;
   constexpr double rate_hz = 500., line_hz = 2. * rate_hz / n;
   std::vector<double> lines;
@@ -78,7 +78,7 @@ TEST(IdentifyNominal, FindsATwoModeModelFromItsOwnRecords) {
 
 /// Lines that no segment holds whole periods of.
 TEST(IdentifyNominal, IsAsExactWithoutPeriods) {
-  const NominalModel truth = two_modes();
+  const NominalModel truth = nominal_of_two_modes();
   constexpr double rate_hz = 1000.;
   std::vector<double> lines;
   for (double f = 2.03; f < 200.; f += 0.731) lines.push_back(f);

@@ -11,18 +11,15 @@
 #include "diagnosis/hypothesis.h"
 #include "diagnosis/resonance_effects.h"
 #include "signals/error.h"
+#include "tests/diagnosis/paper_resonance.h"
 
 namespace vibrissa::diagnosis {
 namespace {
 
+using test::paper;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-ResonanceDiagnosis paper() {
-  const ResonanceExample example = paper_gap();
-  return explain_resonance_gap(example.simulated, example.measured, example.model);
-}
 
 const ResonanceExplanation& find(const ResonanceDiagnosis& diagnosis, const std::string& name) {
   for (const ResonanceExplanation& e : diagnosis.explanations)

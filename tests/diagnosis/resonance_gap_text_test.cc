@@ -5,15 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/diagnosis/paper_resonance.h"
+
 namespace vibrissa::diagnosis {
 namespace {
 
+using test::paper;
 using testing::HasSubstr;
-
-ResonanceDiagnosis paper() {
-  const ResonanceExample example = paper_gap();
-  return explain_resonance_gap(example.simulated, example.measured, example.model);
-}
 
 TEST(ResonanceGapText, IsShortEnoughForATerminal) {
   for (const double measured_hz : {20., 31.47, 36.5, 37.32, 45.}) {

@@ -117,7 +117,7 @@ TEST(RunChild, DoesNotWaitForWhatTheChildLeavesBehind) {
 }
 
 TEST(FindProgram, LooksInTheFoldersOfPathInOrder) {
-  const signals::testing::TemporaryFolder a, b;
+  const signals::test::TemporaryFolder a, b;
   for (const auto* folder : {&a, &b}) {
     const auto file = folder->file("tool", "#!/bin/sh\n");
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);

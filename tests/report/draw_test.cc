@@ -21,8 +21,8 @@ namespace vibrissa::report {
 namespace {
 
 namespace fs = std::filesystem;
-using signals::testing::content_of;
-using signals::testing::TemporaryFolder;
+using signals::test::content_of;
+using signals::test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;

@@ -12,8 +12,8 @@ namespace {
 
 using nlohmann::json;
 using signals::UserError;
-using signals::testing::content_of;
-using signals::testing::TemporaryFolder;
+using signals::test::content_of;
+using signals::test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;

@@ -14,7 +14,7 @@ namespace {
 constexpr double degree = 3.14159265358979323846 / 180.;
 
 MeshView view_for(const testing::Field& field) {
-  const signals::testing::TemporaryFolder folder;
+  const signals::test::TemporaryFolder folder;
   testing::write_grid(folder.path() / "a.vtu", *testing::column_mesh(4, 0.01, 0.1, field));
   ModePicture picture;
   picture.displacement = "displacement_m";

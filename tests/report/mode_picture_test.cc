@@ -12,7 +12,7 @@ namespace vibrissa::report {
 namespace {
 
 using signals::UserError;
-using signals::testing::TemporaryFolder;
+using signals::test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;

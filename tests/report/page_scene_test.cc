@@ -15,7 +15,7 @@ namespace vibrissa::report {
 namespace {
 
 using signals::UserError;
-using signals::testing::TemporaryFolder;
+using signals::test::TemporaryFolder;
 using ::testing::HasSubstr;
 
 constexpr double width = 0.01, height = 0.1;

@@ -14,8 +14,8 @@ namespace vibrissa::report {
 namespace {
 
 using signals::UserError;
-using signals::testing::content_of;
-using signals::testing::TemporaryFolder;
+using signals::test::content_of;
+using signals::test::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::Not;
 

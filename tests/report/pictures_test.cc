@@ -15,7 +15,7 @@ namespace vibrissa::report {
 namespace {
 
 namespace fs = std::filesystem;
-using signals::testing::TemporaryFolder;
+using signals::test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using testing::Environment;

@@ -15,7 +15,7 @@ using test::Signal;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 Record record_of(const Signal& a, const Signal& m) {
   Record record(rate_hz, a.size());

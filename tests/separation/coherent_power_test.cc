@@ -12,7 +12,7 @@ namespace {
 
 using test::Signal;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 Signal white(const std::size_t n, const unsigned seed) {
   return test::white_noise(n, 1., seed);

@@ -18,7 +18,7 @@ namespace {
 
 using test::Signal;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 constexpr std::size_t settling_periods = 3;
 
 struct Experiment {

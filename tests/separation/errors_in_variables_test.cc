@@ -18,7 +18,7 @@ namespace {
 
 using test::Signal;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 constexpr std::size_t period_samples = 500, n_periods = 20, settling_periods = 6;
 
 Signal drive() {

@@ -12,7 +12,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 // Records that truly ran so, with noise 40 dB below.
 HoldDiagnosis diagnose(const Bvrm& truth, Hold ran, Hold told, bool direct_term,

@@ -14,7 +14,7 @@ using signals::UserError;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 std::vector<double> grid(double low_hz, double high_hz, double step_hz) {
   std::vector<double> frequency;

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 namespace channel = signals::channel;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 Record make_record(Signal acceleration, Signal moment, double rate = rate_hz) {
   Record record(rate, acceleration.size());

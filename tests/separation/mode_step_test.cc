@@ -8,10 +8,12 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/signals/rate.h"
+
 namespace vibrissa::separation {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Pole {
   double frequency_hz, damping_ratio;
@@ -21,7 +23,7 @@ struct Pole {
 
 const std::array<Pole, 6> poles{Pole{31.47, 0.027}, {0.05, 0.5},      {240., 0.001},
                                 {40., 1.},          {40., 1.0000001}, {60., 7.}};
-constexpr double rate_hz = 500.;
+using signals::test::rate_hz;
 
 TEST(ModeStep, HasThePolesOfTheSampledMode) {
   for (const Pole& pole : poles) {

@@ -14,7 +14,7 @@ using test::Signal;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 struct Rig {
   Signal acceleration, moment;

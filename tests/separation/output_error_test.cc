@@ -19,7 +19,7 @@ using test::Signal;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 TEST(OutputError, FitsSeveralSegmentsWithDifferentOffsetsAsOne) {
   const Bvrm truth = test::sensor(2, -2e-7);

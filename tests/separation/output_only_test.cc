@@ -16,7 +16,8 @@ using test::Signal;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double rate_hz = 500., pi = std::numbers::pi;
+using std::numbers::pi;
+using test::rate_hz;
 
 struct Resonance {
   double frequency_hz, damping_ratio, power;

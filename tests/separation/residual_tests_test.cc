@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::ThrowsMessage;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 // x[n] = factor x[n-1] + noise.
 Signal coloured(std::size_t n, double factor, std::uint64_t seed) {

@@ -17,7 +17,7 @@ using test::Signal;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 // The same by classical Runge-Kutta with many small steps, for an input given at any time.
 Signal integrate(const Bvrm& model, const std::function<double(double)>& input, std::size_t n,

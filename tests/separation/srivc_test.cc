@@ -18,7 +18,7 @@ using test::Signal;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 TEST(Srivc, FitsAModelWithoutADirectTerm) {
   const Bvrm truth = test::sensor(2);

@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "separation/rational_model.h"
+#include "tests/signals/rate.h"
+#include "tests/signals/white_noise.h"
 
 namespace vibrissa::separation::test {
 
 using Signal = std::vector<double>;
+using signals::test::rate_hz;
 
 inline Signal white_noise(std::size_t n, double deviation, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal(0., deviation);
-  Signal x(n);
-  for (double& value : x) value = normal(random);
-  return x;
+  return signals::test::white_noise(n, deviation, random);
 }
 
 /// Lines spread over [low, high] with random phases, at any time.

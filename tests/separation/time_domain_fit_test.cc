@@ -16,7 +16,7 @@ using test::disturbed;
 using test::expect_equal_models;
 using test::Signal;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 struct Method {
   std::string name;

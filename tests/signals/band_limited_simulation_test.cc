@@ -9,13 +9,14 @@
 #include <numbers>
 
 #include "signals/error.h"
+#include "tests/signals/rate.h"
 
 namespace vibrissa::signals {
 namespace {
 
 using Signal = std::vector<double>;
-constexpr double pi = std::numbers::pi;
-constexpr double rate_hz = 500.;
+using std::numbers::pi;
+using test::rate_hz;
 
 Signal sine(const std::size_t n, const double frequency_hz, const double sampling_rate_hz) {
   Signal x(n);

@@ -7,6 +7,7 @@
 
 #include "signals/error.h"
 #include "signals/fft.h"
+#include "tests/signals/rate.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 TEST(BandNoise, HasPowerInTheBandAloneAndThereEvenly) {
   const std::size_t n = 50'000;

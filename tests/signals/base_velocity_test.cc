@@ -5,10 +5,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/signals/rate.h"
+
 namespace vibrissa::signals {
 namespace {
 
-constexpr double rate_hz = 500., pi = std::numbers::pi;
+using std::numbers::pi;
+using test::rate_hz;
 
 std::vector<double> sampled(const std::size_t n, const auto& signal) {
   std::vector<double> x(n);

@@ -10,6 +10,7 @@
 #include "signals/error.h"
 #include "signals/excitation.h"
 #include "signals/fft.h"
+#include "tests/signals/rate.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -20,7 +21,7 @@ using testing::IsEmpty;
 using testing::ThrowsMessage;
 using Complex = std::complex<double>;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 constexpr std::size_t period = 1024;
 
 Complex resonance(double frequency_hz) {

@@ -90,7 +90,7 @@ TEST(ParseColumnChoice, RefusesUnitsThatDoNotMeasureWhatTheChannelDoes) {
 }
 
 TEST(ParseColumnChoice, TheUnitMayBePartOfTheNameInTheFile) {
-  testing::TemporaryFolder folder;
+  test::TemporaryFolder folder;
   std::string text = "t [s],ax [g],M\n";
   for (int i = 0; i < 100; ++i) text += std::to_string(i) + "e-2,2,3\n";
   const auto file = folder.file("r.csv", text);

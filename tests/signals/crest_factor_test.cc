@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Lines {
   Lines(std::size_t n, std::size_t first, std::size_t step) : amplitude(n, 1.), schroeder(n) {

@@ -40,7 +40,7 @@ class CsvFileTest : public ::testing::Test {
     return rows(file, 1, file.n_rows());
   }
 
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(CsvFileTest, SplitsLinesAtCommas) {

@@ -45,7 +45,7 @@ class DatasetFolder : public ::testing::Test {
       EXPECT_THAT(error.what(), HasSubstr(why));
     }
   }
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(DatasetFolder, ReadsWhatTheDescriptionSays) {
@@ -115,7 +115,7 @@ TEST_F(DatasetFolder, GuessesWhatNobodyDescribedAndSaysSo) {
 }
 
 TEST(DatasetGuess, TakesNoiseOfTheAccelerometerForNoDriveButAFaintDriveForOne) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal(0., 0.05);
   const std::string head = "time_s,base_acceleration_m_s2,base_moment_N_m\n";
@@ -197,7 +197,7 @@ TEST_F(DatasetFolder, RefusesARecordWithoutAMoment) {
 }
 
 TEST(DatasetFolders, AreRefusedWhenEmptyOrMissing) {
-  const testing::TemporaryFolder empty;
+  const test::TemporaryFolder empty;
   EXPECT_THROW(read_dataset(empty.path()), UserError);
   EXPECT_THROW(read_dataset(empty.path() / "missing"), UserError);
 }

@@ -11,21 +11,17 @@
 #include "signals/fft.h"
 #include "signals/multisine.h"
 #include "signals/record_io.h"
+#include "tests/signals/peak.h"
 #include "tests/signals/temporary_folder.h"
 
 namespace vibrissa::signals {
 namespace {
 
+using test::peak;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-using vibrissa::signals::testing::TemporaryFolder;
-
-double peak(const std::vector<double>& x) {
-  double largest = 0.;
-  for (const double value : x) largest = std::max(largest, std::abs(value));
-  return largest;
-}
+using vibrissa::signals::test::TemporaryFolder;
 
 TEST(Excitation, MultisineHasPowerAtItsExcitedLinesAlone) {
   for (const auto grid : {LineGrid::full, LineGrid::odd, LineGrid::random_odd}) {
@@ -149,7 +145,7 @@ TEST(Excitation, FilesHoldTheSameDrive) {
 }
 
 TEST(Excitation, IsWrittenInTheUnitOfItsChannel) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const DesignedExcitation excitation = design_excitation({.peak = 0.4, .unit = "g"});
   write_drive_record(folder.path() / "g.csv", excitation, excitation.drives[0],
                      channel::base_acceleration);

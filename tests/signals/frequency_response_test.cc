@@ -10,6 +10,7 @@
 
 #include "signals/error.h"
 #include "signals/multisine.h"
+#include "tests/signals/white_noise.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -18,14 +19,8 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 using Complex = std::complex<double>;
 
-constexpr double pi = std::numbers::pi;
-
-std::vector<double> white_noise(std::size_t n, double standard_deviation, std::mt19937_64& random) {
-  std::normal_distribution<double> normal(0., standard_deviation);
-  std::vector<double> x(n);
-  for (double& value : x) value = normal(random);
-  return x;
-}
+using std::numbers::pi;
+using test::white_noise;
 
 // A lightly damped resonance at 31.47 Hz behind a delay of 1.7 ms.
 Complex resonance(double frequency_hz) {

@@ -21,7 +21,7 @@ std::string nested(const std::size_t n) {
 }
 
 TEST(JsonInput, SaysWhereAFileIsNoJson) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.file("bad.json", "{\n  \"a\": ,\n}");
   EXPECT_THAT([&] { read_json(file); },
               ThrowsMessage<UserError>(
@@ -29,7 +29,7 @@ TEST(JsonInput, SaysWhereAFileIsNoJson) {
 }
 
 TEST(JsonInput, RefusesWhatWouldExhaustTheStack) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_EQ(read_json(folder.file("shallow.json", nested(60))).size(), 1U);
   for (const std::size_t n : {100UL, 3'000'000UL}) {
     const auto file = folder.file("deep.json", nested(n));

@@ -10,6 +10,8 @@
 
 #include "signals/error.h"
 #include "signals/fft.h"
+#include "tests/signals/rate.h"
+#include "tests/signals/white_noise.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -19,7 +21,8 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 using Complex = std::complex<double>;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
+using test::white_noise;
 
 /// y[n] = u[n] + 2 r cos(q) y[n-1] - r^2 y[n-2]: resonance at 31.47 Hz, damping ratio 0.027.
 struct Resonator {
@@ -45,13 +48,6 @@ struct Resonator {
     return y;
   }
 };
-
-std::vector<double> white_noise(std::size_t n, double deviation, std::mt19937_64& random) {
-  std::normal_distribution<double> normal(0., deviation);
-  std::vector<double> x(n);
-  for (double& value : x) value = normal(random);
-  return x;
-}
 
 struct Pair {
   std::vector<double> input, output;

@@ -8,6 +8,7 @@
 
 #include "signals/band_limited_simulation.h"
 #include "signals/error.h"
+#include "tests/signals/rate.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -17,7 +18,7 @@ using testing::ThrowsMessage;
 using Signal = std::vector<double>;
 
 constexpr std::size_t n_samples = 20'000;
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 
 ReducedModel sensor_model() {
   ReducedModel model;

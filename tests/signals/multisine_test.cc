@@ -8,22 +8,18 @@
 
 #include "signals/error.h"
 #include "signals/fft.h"
+#include "tests/signals/peak.h"
 
 namespace vibrissa::signals {
 namespace {
 
+using test::peak;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 const std::vector<double> experiment_tones_hz{12., 15., 19., 23., 26., 29.};
 constexpr std::array all_phases{MultisinePhase::schroeder, MultisinePhase::random,
                                 MultisinePhase::ascending, MultisinePhase::zero};
-
-double peak(const std::vector<double>& x) {
-  double largest = 0.;
-  for (const double value : x) largest = std::max(largest, std::abs(value));
-  return largest;
-}
 
 TEST(Multisine, HasPowerAtTheLinesAskedForAndNowhereElse) {
   const auto multisine = make_multisine(experiment_tones_hz, 3.9, MultisinePhase::schroeder);

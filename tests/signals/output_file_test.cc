@@ -22,8 +22,8 @@ namespace vibrissa::signals {
 namespace {
 
 namespace fs = std::filesystem;
+using test::content_of;
 using ::testing::AllOf;
-using testing::content_of;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
@@ -38,7 +38,7 @@ class WriteFile : public ::testing::Test {
     EXPECT_EQ(folder_.n_entries(), 1u);
   }
 
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   fs::path file_ = folder_.file("a.csv", "old");
 };
 

@@ -8,6 +8,7 @@
 
 #include "signals/error.h"
 #include "signals/multisine.h"
+#include "tests/signals/rate.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -17,7 +18,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 using Complex = std::complex<double>;
 
-constexpr double rate_hz = 500.;
+using test::rate_hz;
 constexpr std::size_t period = 250;
 
 std::vector<double> sines(double scale, std::size_t n) {

@@ -65,12 +65,12 @@ void march(const std::size_t n_steps, const std::size_t n_done, const bool show 
 }
 
 TEST(Progress, IsSilentWhereStandardErrorIsNoTerminal) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.file("stderr", "");
   const int descriptor = ::open(file.c_str(), O_WRONLY);
   with_standard_error(descriptor, [] { march(1000, 1000); });
   ::close(descriptor);
-  EXPECT_EQ(testing::content_of(file), "");
+  EXPECT_EQ(test::content_of(file), "");
 }
 
 TEST_F(ProgressOnATerminal, IsSilentWhenNotWanted) {

@@ -55,7 +55,7 @@ class RecordIo : public ::testing::Test {
     return [=, this] { read(content, options); };
   }
 
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 using ReadRecord = RecordIo;
@@ -321,7 +321,7 @@ TEST_F(WriteRecord, WritesTimeThenTheChannelsInTheirOrder) {
                                  "base_acceleration_m_s2", "cross_acceleration_m_s2"})
     record.set_channel(name, {0.1, -2e-7});
   write_record(folder_.path() / "w.csv", record);
-  EXPECT_EQ(testing::content_of(folder_.path() / "w.csv"),
+  EXPECT_EQ(test::content_of(folder_.path() / "w.csv"),
             "time_s,base_acceleration_m_s2,cross_acceleration_m_s2,wind_speed_m_s,base_moment_N_m,"
             "Zeta_V,cross_moment_N_m\n"
             "1,0.1,0.1,0.1,0.1,0.1,0.1\n"
@@ -351,7 +351,7 @@ TEST_F(WriteRecord, QuotesANameThatHoldsACommaOrAQuote) {
   Record record(500., 64);
   record.set_channel("left, \"inner\"_N_m", std::vector<double>(64, 1.));
   write_record(folder_.path() / "w.csv", record);
-  EXPECT_THAT(testing::content_of(folder_.path() / "w.csv"),
+  EXPECT_THAT(test::content_of(folder_.path() / "w.csv"),
               StartsWith("time_s,\"left, \"\"inner\"\"_N_m\"\n"));
   EXPECT_TRUE(read_record(folder_.path() / "w.csv").has("left, \"inner\"_N_m"));
 }

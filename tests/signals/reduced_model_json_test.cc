@@ -59,7 +59,7 @@ class ModelFile : public ::testing::Test {
   }
 
  private:
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 template <typename T>

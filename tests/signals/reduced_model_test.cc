@@ -9,6 +9,7 @@
 #include <random>
 
 #include "signals/error.h"
+#include "tests/signals/peak.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -17,8 +18,9 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 using Complex = std::complex<double>;
 using Signal = std::vector<double>;
+using test::peak;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double participation = 0.011, moment_participation = 7e-4;  // kg^1/2, kg^1/2 m
 constexpr double rigid = 9e-6;                                        // kg m
 
@@ -64,12 +66,6 @@ Signal random_signal(std::size_t n, double peak, unsigned seed) {
   for (double& value : x)
     value = peak * (2. * std::ldexp(static_cast<double>(random() >> 11), -53) - 1.);
   return x;
-}
-
-double largest(const Signal& x) {
-  double result = 0.;
-  for (const double value : x) result = std::max(result, std::abs(value));
-  return result;
 }
 
 double largest_difference(const Signal& x, const Signal& y) {
@@ -263,7 +259,7 @@ TEST(ReducedModelExactness, RungeKuttaConvergesToItAtFourthOrder) {
                       largest_difference(approximate.cross_moment, exact.cross_moment)};
   };
   const auto coarse = errors(16), fine = errors(32), finest = errors(200);
-  const double scale = largest(exact.base_moment);
+  const double scale = peak(exact.base_moment);
   for (std::size_t output = 0; output < 2; ++output) {
     EXPECT_NEAR(std::log2(coarse[output] / fine[output]), 4., 0.15);
     EXPECT_LT(finest[output] / scale, 1e-9);
@@ -286,7 +282,7 @@ TEST(ReducedModelExactness, HalvingTheStepOfAPiecewiseLinearInputChangesNothing)
     for (std::size_t i = 0; i < n; ++i) (*moment)[i] = (*moment)[2 * i];
   fine.base_moment.resize(n);
   fine.cross_moment.resize(n);
-  const double scale = largest(coarse.base_moment);
+  const double scale = peak(coarse.base_moment);
   EXPECT_LT(largest_difference(coarse.base_moment, fine.base_moment) / scale, 1e-12);
   EXPECT_LT(largest_difference(coarse.cross_moment, fine.cross_moment) / scale, 1e-12);
 }
@@ -381,9 +377,8 @@ TEST(ReducedModel, ResponsesToSeparateInputsAddUp) {
       sum.base_moment[i] += part.base_moment[i];
       sum.cross_moment[i] += part.cross_moment[i];
     }
-  EXPECT_LT(largest_difference(all.base_moment, sum.base_moment), 1e-13 * largest(all.base_moment));
-  EXPECT_LT(largest_difference(all.cross_moment, sum.cross_moment),
-            1e-13 * largest(all.base_moment));
+  EXPECT_LT(largest_difference(all.base_moment, sum.base_moment), 1e-13 * peak(all.base_moment));
+  EXPECT_LT(largest_difference(all.cross_moment, sum.cross_moment), 1e-13 * peak(all.base_moment));
 }
 
 TEST(ReducedModel, AnEmptyInputIsZero) {
@@ -415,7 +410,7 @@ TEST(ReducedModel, WindActsWithTheSquareOfItsSpeedAndItsSign) {
   const auto second = simulate(model, {1000., n, {}, {}, minus_double});
   for (std::size_t i = 0; i < n; ++i)
     EXPECT_NEAR(second.base_moment[i], -4. * first.base_moment[i],
-                1e-13 * largest(second.base_moment));
+                1e-13 * peak(second.base_moment));
 }
 
 TEST(ReducedModel, WindCoefficientsAreInterpolatedAndKeptBeyondTheEnds) {
@@ -448,9 +443,9 @@ TEST(ReducedModel, ASymmetricSensorRespondsAcrossAsAlong) {
   const auto along = simulate(symmetric_sensor(), {1000., 500, a, {}, {}});
   const auto across = simulate(symmetric_sensor(), {1000., 500, {}, a, {}});
   EXPECT_LT(largest_difference(along.base_moment, across.cross_moment), 1e-18);
-  EXPECT_GT(largest(along.base_moment), 1e-6);
-  EXPECT_EQ(largest(along.cross_moment), 0.);
-  EXPECT_EQ(largest(across.base_moment), 0.);
+  EXPECT_GT(peak(along.base_moment), 1e-6);
+  EXPECT_EQ(peak(along.cross_moment), 0.);
+  EXPECT_EQ(peak(across.base_moment), 0.);
 }
 
 TEST(ReducedModel, ASymmetricSensorRespondsAlikeInEveryAxialDirection) {
@@ -476,8 +471,7 @@ TEST(ReducedModel, AnyNumberOfModesIsTheSumOfThem) {
       const auto part = moment_for_base(single, 1000., a);
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[i];
     }
-    EXPECT_LT(largest_difference(moment_for_base(all, 1000., a), sum),
-              1e-13 * largest(sum) + 1e-30);
+    EXPECT_LT(largest_difference(moment_for_base(all, 1000., a), sum), 1e-13 * peak(sum) + 1e-30);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace vibrissa::signals::testing {
+namespace vibrissa::signals::test {
 
 /// A folder of its own for one test, removed with all that is in it.
 class TemporaryFolder {
@@ -46,4 +46,4 @@ inline std::string content_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-}  // namespace vibrissa::signals::testing
+}  // namespace vibrissa::signals::test

@@ -14,8 +14,8 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-using vibrissa::signals::testing::content_of;
-using vibrissa::signals::testing::TemporaryFolder;
+using vibrissa::signals::test::content_of;
+using vibrissa::signals::test::TemporaryFolder;
 
 std::vector<double> some_drive() {
   std::vector<double> x(300);

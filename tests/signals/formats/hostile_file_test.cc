@@ -36,7 +36,7 @@ std::string version_4(std::uint32_t n_rows, std::uint32_t name_length,
 }
 
 TEST(Version4Mat, IsRead) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.file("a.mat", version_4(3, 7, {1., 2., 4.}));
   const auto table = read_mat(file);
   ASSERT_EQ(table->columns().size(), 1u);
@@ -44,7 +44,7 @@ TEST(Version4Mat, IsRead) {
 }
 
 TEST(Version4Mat, ThatClaimsMoreThanItHoldsIsRefusedBeforeMemoryIsAskedFor) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const double before = peak_memory_mb();
   for (const std::string& bytes :
        {version_4(3, 0x68000000, {1., 2., 4.}), version_4(0x10000000, 7, {1.}),
@@ -82,7 +82,7 @@ void write_set(const std::filesystem::path& file, const Set& set) {
 }
 
 TEST(Hdf5, ThatClaimsMoreThanItHoldsIsRefusedBeforeMemoryIsAskedFor) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const double before = peak_memory_mb();
   for (const Set& set : {Set{.n = hsize_t{1} << 26, .n_chunk = hsize_t{1} << 16},
                          Set{.n = 1000, .n_chunk = hsize_t{1} << 28}}) {
@@ -94,7 +94,7 @@ TEST(Hdf5, ThatClaimsMoreThanItHoldsIsRefusedBeforeMemoryIsAskedFor) {
 }
 
 TEST(Hdf5, OfMonstrousNumbersIsRefusedBeforeMemoryIsAskedFor) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const double before = peak_memory_mb();
   const auto file = folder.path() / "a.h5";
   const hid_t type = H5Tcopy(H5T_IEEE_F64LE);
@@ -107,11 +107,11 @@ TEST(Hdf5, OfMonstrousNumbersIsRefusedBeforeMemoryIsAskedFor) {
 }
 
 TEST(Hdf5, ThatIsShorterThanItsShapeIsRefused) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.path() / "a.h5";
   const hsize_t n = 12345;
   write_set(file, {.n = n, .is_written = true});
-  std::string bytes = testing::content_of(file);
+  std::string bytes = test::content_of(file);
   // Its length in the layout, 8 n, becomes 8.
   const std::uint64_t length = 8 * n, damaged = 8;
   const std::string there(reinterpret_cast<const char*>(&length), sizeof length);
@@ -123,10 +123,10 @@ TEST(Hdf5, ThatIsShorterThanItsShapeIsRefused) {
 }
 
 TEST(Hdf5, WhoseShapeIsSaidToLieInATableThatIsNotThereIsRefused) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.path() / "a.h5";
   write_set(file, {.n = 8, .is_written = true});
-  std::string bytes = testing::content_of(file);
+  std::string bytes = test::content_of(file);
   // A message of kind 1, the shape: kind, length and flags, then its body, which begins with a
   // version.
   const std::string shape("\x01\0\x18\0\0\0\0\0\x01\x01", 10);
@@ -139,7 +139,7 @@ TEST(Hdf5, WhoseShapeIsSaidToLieInATableThatIsNotThereIsRefused) {
 }
 
 TEST(Hdf5, ThatHoldsWhatItClaimsIsRead) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_set(folder.path() / "a.h5", {.n = 1000, .n_chunk = 512, .is_written = true});
   EXPECT_EQ(read_hdf5(folder.path() / "a.h5")->columns().size(), 1u);
 }

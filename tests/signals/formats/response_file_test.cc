@@ -11,7 +11,7 @@
 namespace vibrissa::signals::formats {
 namespace {
 
-using signals::testing::TemporaryFolder;
+using signals::test::TemporaryFolder;
 using ::testing::HasSubstr;
 
 FrequencyResponse response_at(const std::vector<double>& frequency_hz) {

@@ -10,7 +10,7 @@
 namespace vibrissa::signals::formats {
 namespace {
 
-using signals::testing::TemporaryFolder;
+using signals::test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;

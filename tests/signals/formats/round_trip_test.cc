@@ -61,7 +61,7 @@ void expect_equal(const Record& read, const Record& written, const double allowe
 
 class RoundTrip : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {
  protected:
-  testing::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_P(RoundTrip, KeepsEveryNumber) {
@@ -81,14 +81,14 @@ INSTANTIATE_TEST_SUITE_P(
                        ::testing::Values(".csv", ".mat", ".hdf5", ".npy", ".unv")));
 
 TEST(MatFile, Version73KeepsEveryNumberToo) {
-  testing::TemporaryFolder folder;
+  test::TemporaryFolder folder;
   const Record record = sample_record();
   write_mat(folder.path() / "r.mat", record, MatVersion::v7_3);
   expect_equal(read_record(folder.path() / "r.mat"), record, 0.);
 }
 
 TEST(RecordFiles, EqualRecordsGiveEqualBytes) {
-  testing::TemporaryFolder folder;
+  test::TemporaryFolder folder;
   const auto bytes = [&](const std::string& name) {
     write_record(folder.path() / name, sample_record());
     std::ifstream in(folder.path() / name, std::ios::binary);
@@ -99,7 +99,7 @@ TEST(RecordFiles, EqualRecordsGiveEqualBytes) {
 }
 
 TEST(RecordFiles, RefuseWhatIsDamagedCutOrMissing) {
-  testing::TemporaryFolder folder;
+  test::TemporaryFolder folder;
   for (const std::string extension : {".mat", ".h5", ".npy", ".uff", ".wav"}) {
     const std::string name = "r" + extension;
     EXPECT_THROW(read_record(folder.path() / name), UserError) << "missing " << extension;

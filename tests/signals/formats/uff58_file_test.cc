@@ -81,7 +81,7 @@ TEST(Uff58, SkipsOtherDataSets) {
 }
 
 TEST(Uff58, KeepsAResponseThatItWrites) {
-  testing::TemporaryFolder folder;
+  test::TemporaryFolder folder;
   Uff58Function frf;
   frf.id_lines[0] = "base_moment_N_m / base_acceleration_m_s2";
   frf.function_type = 4;
@@ -104,7 +104,7 @@ TEST(Uff58, KeepsAResponseThatItWrites) {
 
 // Column by column, as a Fortran program reads it.
 TEST(Uff58, PutsEveryFieldWhereTheFormatHasIt) {
-  testing::TemporaryFolder folder;
+  test::TemporaryFolder folder;
   Record record(500., 64, 2.);
   record.set_channel(channel::base_moment, std::vector<double>(64, -1.5e-4));
   write_uff58(folder.path() / "r.uff", record);

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "diagnosis/resonance_gap.h"
+
+namespace vibrissa::diagnosis::test {
+
+/// The reference study's own gap of resonances, explained.
+inline ResonanceDiagnosis paper() {
+  const ResonanceExample example = paper_gap();
+  return explain_resonance_gap(example.simulated, example.measured, example.model);
+}
+
+}  // namespace vibrissa::diagnosis::test
