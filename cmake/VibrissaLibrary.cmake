@@ -34,7 +34,6 @@ endfunction()
 
 # vibrissa_tests(ROOM SOURCES ... LINK ...): the GoogleTest program of one room. One CTest test a case; in
 # rooms that load deal.II one CTest test for the program, whose start takes longer than most cases.
-# COST is what CTest begins with: nothing waits for the longest in the end.
 function(vibrissa_tests room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(test_${room} ${ARG_SOURCES})
@@ -50,7 +49,7 @@ function(vibrissa_tests room)
     VIBRISSA_BINARY_DIR="${PROJECT_BINARY_DIR}")
   if(room MATCHES "^(materials|meshes|flow|fem)$")
     add_test(NAME ${room} COMMAND test_${room})
-    set_tests_properties(${room} PROPERTIES LABELS ${room} TIMEOUT 1500 COST 500)
+    set_tests_properties(${room} PROPERTIES LABELS ${room} TIMEOUT 1500)
   else()
     include(GoogleTest)
     gtest_discover_tests(test_${room} TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60

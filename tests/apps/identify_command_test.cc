@@ -8,6 +8,7 @@
 #include "separation/simulation.h"
 #include "signals/record_io.h"
 #include "tests/apps/program.h"
+#include "tests/signals/rate.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr double rate_hz = 500.;
+using signals::test::rate_hz;
 
 /// White base acceleration and the noisy moment of a sensor with one mode.
 signals::Record measured(const std::size_t n) {

@@ -6,11 +6,12 @@
 #include <random>
 
 #include "signals/beam_model.h"
+#include "tests/signals/rate.h"
 
 namespace vibrissa::apps {
 namespace {
 
-constexpr double rate_hz = 500.;
+using signals::test::rate_hz;
 
 std::vector<double> noise(const std::size_t n) {
   std::mt19937_64 generator(7);

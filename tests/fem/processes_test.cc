@@ -31,18 +31,12 @@ constexpr double as_alone = 1e-9;
 // distance to the next eigenvalue. A frequency is stationary in the shape, a damping ratio is not.
 constexpr double shape_as_alone = 1e-7;
 
-double largest(const std::vector<double>& x) {
-  double result = 0.;
-  for (const double value : x) result = std::max(result, std::abs(value));
-  return result;
-}
-
 /// Largest difference over the largest value.
 double difference(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() != y.size()) return std::numeric_limits<double>::infinity();
   std::vector<double> between(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) between[i] = x[i] - y[i];
-  return largest(between) / largest(y);
+  return peak(between) / peak(y);
 }
 
 template <class Rows>

@@ -1,19 +1,12 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include "tests/signals/peak.h"
 
 namespace vibrissa::fem {
 
 /// Of the records that the transient tests drive a sensor with.
 constexpr double rate_hz = 1000.;
 
-/// The largest magnitude of samples.
-inline double peak(const std::vector<double>& x) {
-  double largest = 0.;
-  for (const double value : x) largest = std::max(largest, std::abs(value));
-  return largest;
-}
+using signals::test::peak;
 
 }  // namespace vibrissa::fem

@@ -11,10 +11,12 @@
 #include "separation/output_guard.h"
 #include "separation/rls.h"
 #include "test_signals.h"
+#include "tests/signals/peak.h"
 
 namespace vibrissa::separation {
 namespace {
 
+using signals::test::peak;
 using test::Signal;
 
 using Method = std::function<std::unique_ptr<Separator>()>;
@@ -123,12 +125,6 @@ class Vandal {
   std::mt19937_64 random_;
 };
 
-double largest(std::span<const double> x) {
-  double peak = 0.;
-  for (const double value : x) peak = std::max(peak, std::abs(value));
-  return peak;
-}
-
 Signal run(const Method& method, const Pair& pair, double factor = 1.) {
   Signal a = pair.acceleration, m = pair.moment, wind(m.size());
   for (double& value : a) value *= factor;
@@ -146,7 +142,7 @@ TEST_P(EachMethod, NeverExceedsFiveTimesTheLargestMomentInAThousandRandomScenari
   const Method& method = adaptive_methods()[GetParam()];
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     const Pair pair = Vandal(seed).scenario(1200);
-    const double bound = (1. + OutputGuard::largest_share) * largest(pair.moment);
+    const double bound = (1. + OutputGuard::largest_share) * peak(pair.moment);
     const Signal wind = run(method, pair);
     for (std::size_t i = 0; i < wind.size(); ++i)
       ASSERT_TRUE(std::abs(wind[i]) <= bound)
@@ -162,7 +158,7 @@ TEST(EveryMethod, IsUnchangedWhenBothInputsAreScaledByAMillionthInAnyScenario) {
     const Pair pair = Vandal(seed).scenario(1200);
     const Method& method = adaptive_methods()[seed % adaptive_methods().size()];
     const Signal wind = run(method, pair), small = run(method, pair, millionth);
-    ASSERT_EQ(largest(test::minus(small, wind)), 0.) << method()->name() << ", scenario " << seed;
+    ASSERT_EQ(peak(test::minus(small, wind)), 0.) << method()->name() << ", scenario " << seed;
   }
 }
 
@@ -190,8 +186,7 @@ TEST(BvrmSeparator, NeverExceedsItsModelsGainInRandomScenarios) {
     separator.reset();
     Signal wind(pair.moment.size());
     separator.process(pair.acceleration, pair.moment, wind);
-    ASSERT_LE(largest(wind), 1.01 * gain * largest(pair.acceleration) + largest(pair.moment))
-        << seed;
+    ASSERT_LE(peak(wind), 1.01 * gain * peak(pair.acceleration) + peak(pair.moment)) << seed;
   }
 }
 
