@@ -9,16 +9,16 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/blas_kernel.h"
-#include "apps/command.h"
-#include "apps/command_tree.h"
-#include "apps/parse_advice.h"
+#include "apps/command_line/blas_kernel.h"
+#include "apps/command_line/command.h"
+#include "apps/command_line/parse_advice.h"
+#include "apps/commands/command_tree.h"
 #include "diagnosis/diagnosis.h"
-#include "fem/memory_error.h"
-#include "fem/processes.h"
-#include "fem/solver_session.h"
-#include "signals/error.h"
-#include "signals/kept_memory.h"
+#include "fem/linalg/memory_error.h"
+#include "fem/linalg/processes.h"
+#include "fem/linalg/solver_session.h"
+#include "signals/base/error.h"
+#include "signals/system/kept_memory.h"
 
 namespace {
 

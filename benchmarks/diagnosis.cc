@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "diagnosis/chain_simulation.h"
+#include "diagnosis/prediction/chain_simulation.h"
 
 namespace {
 

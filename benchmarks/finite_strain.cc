@@ -9,14 +9,14 @@
 #include <sstream>
 #include <vector>
 
-#include "fem/calculix_file.h"
-#include "fem/cholesky_solver.h"
-#include "fem/internal_force.h"
-#include "fem/nonlinear_transient.h"
-#include "fem/sensor.h"
-#include "fem/solver_session.h"
+#include "fem/factors/cholesky_solver.h"
+#include "fem/linalg/solver_session.h"
+#include "fem/motion/nonlinear_transient.h"
+#include "fem/sensor/calculix_file.h"
+#include "fem/sensor/sensor.h"
+#include "fem/solid/internal_force.h"
 #include "meshes/sensor_mesh.h"
-#include "signals/kept_memory.h"
+#include "signals/system/kept_memory.h"
 
 namespace {
 

@@ -9,10 +9,10 @@
 #include <random>
 #include <vector>
 
-#include "separation/identify_frequency.h"
-#include "separation/output_error.h"
-#include "separation/simulation.h"
-#include "separation/srivc.h"
+#include "separation/identification/identify_frequency.h"
+#include "separation/identification/output_error.h"
+#include "separation/identification/srivc.h"
+#include "separation/model/simulation.h"
 
 namespace {
 

@@ -8,12 +8,12 @@
 #include <map>
 #include <string>
 
-#include "fem/calculix_file.h"
-#include "fem/modes.h"
-#include "fem/sensor.h"
-#include "fem/solver_session.h"
+#include "fem/linalg/solver_session.h"
+#include "fem/sensor/calculix_file.h"
+#include "fem/sensor/modes.h"
+#include "fem/sensor/sensor.h"
 #include "meshes/sensor_mesh.h"
-#include "signals/kept_memory.h"
+#include "signals/system/kept_memory.h"
 
 namespace {
 

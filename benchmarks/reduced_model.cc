@@ -1,4 +1,4 @@
-#include "signals/reduced_model.h"
+#include "signals/model/reduced_model.h"
 
 #include <benchmark/benchmark.h>
 

@@ -18,16 +18,16 @@
 #include <string>
 #include <vector>
 
-#include "fem/cholesky_solver.h"
-#include "fem/internal_force.h"
-#include "fem/processes.h"
-#include "fem/solid_operators.h"
-#include "fem/solver_session.h"
-#include "fem/tangent_matrix.h"
+#include "fem/factors/cholesky_solver.h"
+#include "fem/linalg/processes.h"
+#include "fem/linalg/solver_session.h"
+#include "fem/solid/internal_force.h"
+#include "fem/solid/solid_operators.h"
+#include "fem/solid/tangent_matrix.h"
 #include "materials/sensor_materials.h"
 #include "meshes/distributed_mesh.h"
 #include "meshes/sensor_mesh.h"
-#include "signals/kept_memory.h"
+#include "signals/system/kept_memory.h"
 
 namespace {
 

@@ -10,10 +10,10 @@
 #include <random>
 #include <vector>
 
-#include "separation/bvrm_separator.h"
-#include "separation/dtw.h"
-#include "separation/fdaf.h"
-#include "separation/kalman_filter.h"
+#include "separation/filters/bvrm_separator.h"
+#include "separation/filters/fdaf.h"
+#include "separation/filters/kalman_filter.h"
+#include "separation/metrics/dtw.h"
 
 namespace {
 

@@ -1,10 +1,9 @@
 get_filename_component(VIBRISSA_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
 
-# Rooms whose files read more than they compile: deal.II's headers are compiled once for them, and eight
-# files at a time, which spares a whole build most of its work. Who works on one file sets
-# -DVIBRISSA_BATCHES=OFF. Both OFF find what both hide: an include that is missing, a name that two files
-# of a batch share by mistake. The tests are batched everywhere: eight share GoogleMock and Eigen.
-set(VIBRISSA_BATCHED_ROOMS "^(materials|meshes|flow|fem|report|apps)$")
+# Files read more than they compile (deal.II, Eigen, GoogleMock): eight are compiled together, which
+# spares a whole build most of its work, and deal.II's headers are compiled once for the rooms that read
+# them. Who works on one file sets -DVIBRISSA_BATCHES=OFF. With VIBRISSA_PRECOMPILE=OFF, too, the compiler
+# finds what both hide: an include that is missing, a name that two files of a batch share by mistake.
 set(VIBRISSA_SOLID_HEADERS <Eigen/Dense> <nlohmann/json.hpp> <deal.II/base/parameter_handler.h>
     <deal.II/fe/fe_values.h> <deal.II/grid/tria.h>)
 
@@ -14,9 +13,13 @@ function(vibrissa_batch target)
   endif()
 endfunction()
 
-# vibrissa_library(ROOM SOURCES ... LINK ...): the static library of one room (folder), vibrissa::ROOM.
+# vibrissa_library(ROOM LINK ... [SOURCES ...]): the static library of one room (a folder with its
+# sub-rooms), vibrissa::ROOM, from all its sources, or from those named.
 function(vibrissa_library room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_SOURCES)
+    file(GLOB_RECURSE ARG_SOURCES CONFIGURE_DEPENDS *.cc)
+  endif()
   add_library(vibrissa_${room} STATIC ${ARG_SOURCES})
   add_library(vibrissa::${room} ALIAS vibrissa_${room})
   target_include_directories(vibrissa_${room} PUBLIC
@@ -24,18 +27,19 @@ function(vibrissa_library room)
   target_link_libraries(vibrissa_${room} PUBLIC ${ARG_LINK})
   if(VIBRISSA_PRECOMPILE AND room STREQUAL "fem")
     target_precompile_headers(vibrissa_fem PRIVATE ${VIBRISSA_SOLID_HEADERS})
-  elseif(VIBRISSA_PRECOMPILE AND room STREQUAL "apps")
-    target_precompile_headers(vibrissa_apps REUSE_FROM vibrissa_fem)
+  elseif(VIBRISSA_PRECOMPILE AND room MATCHES "^(case|views|reproduction|suite|apps)$")
+    target_precompile_headers(vibrissa_${room} REUSE_FROM vibrissa_fem)
   endif()
-  if(room MATCHES "${VIBRISSA_BATCHED_ROOMS}")
-    vibrissa_batch(vibrissa_${room})
-  endif()
+  vibrissa_batch(vibrissa_${room})
 endfunction()
 
-# vibrissa_tests(ROOM SOURCES ... LINK ...): the GoogleTest program of one room. One CTest test a case; in
-# rooms that load deal.II one CTest test for the program, whose start takes longer than most cases.
+# vibrissa_tests(ROOM LINK ... [SOURCES ...]): the GoogleTest program of one room, of every *_test.cc of
+# the folder and SOURCES beside them. One CTest test a case; in rooms that load deal.II one CTest test for
+# the program, whose start takes longer than most cases.
 function(vibrissa_tests room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  file(GLOB_RECURSE tests CONFIGURE_DEPENDS *_test.cc)
+  list(APPEND ARG_SOURCES ${tests})
   add_executable(test_${room} ${ARG_SOURCES})
   vibrissa_batch(test_${room})
   if(VIBRISSA_PRECOMPILE AND room MATCHES "^(materials|meshes|flow|fem)$")

@@ -1,5 +1,5 @@
 # vibrissa_revision(TARGET): adds a generated source to TARGET that defines program_revision() and
-# program_version() of report/revision.h. Each build asks git anew, which takes a few milliseconds,
+# program_version() of signals/base/revision.h. Each build asks git anew, which takes a few milliseconds,
 # and the source changes, and is compiled, only when the answer does.
 #
 # The file is its own script: cmake -DROOT=... -DVERSION=... -DOUTPUT=... -P VibrissaRevision.cmake
@@ -20,11 +20,11 @@ if(CMAKE_SCRIPT_MODE_FILE)
       endif()
     endif()
   endif()
-  set(text "#include \"report/revision.h\"\n
-namespace vibrissa::report {\n
+  set(text "#include \"signals/base/revision.h\"\n
+namespace vibrissa::signals {\n
 const char* program_revision() { return \"${revision}\"; }
 const char* program_version() { return \"${VERSION}\"; }\n
-}  // namespace vibrissa::report\n")
+}  // namespace vibrissa::signals\n")
   set(old "")
   if(EXISTS ${OUTPUT})
     file(READ ${OUTPUT} old)

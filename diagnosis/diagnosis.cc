@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/calibration.h"
-#include "diagnosis/confidence_set.h"
-#include "diagnosis/indistinguishable.h"
-#include "diagnosis/long_records.h"
+#include "diagnosis/fit/calibration_choices.h"
 #include "diagnosis/material_estimates.h"
-#include "diagnosis/retune_choices.h"
-#include "signals/error.h"
-#include "signals/student.h"
+#include "diagnosis/records/long_records.h"
+#include "diagnosis/search/calibrated_odds.h"
+#include "diagnosis/search/confidence_set.h"
+#include "diagnosis/validation/indistinguishable.h"
+#include "signals/base/error.h"
+#include "signals/base/student.h"
 
 namespace vibrissa::diagnosis {
 namespace {

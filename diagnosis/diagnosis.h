@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/carry_over.h"
-#include "diagnosis/comparison.h"
-#include "diagnosis/data_checks.h"
-#include "diagnosis/held_out.h"
-#include "diagnosis/location.h"
-#include "diagnosis/next_experiment.h"
-#include "diagnosis/resonance_change.h"
-#include "diagnosis/search.h"
-#include "diagnosis/separation_quality.h"
-#include "diagnosis/shares.h"
-#include "diagnosis/untested.h"
-#include "diagnosis/wind_speed_error.h"
+#include "diagnosis/checks/data_checks.h"
+#include "diagnosis/localisation/location.h"
+#include "diagnosis/planning/next_experiment.h"
+#include "diagnosis/search/search.h"
+#include "diagnosis/validation/comparison.h"
+#include "diagnosis/validation/cross_validation.h"
+#include "diagnosis/validation/held_out.h"
+#include "diagnosis/validation/resonance_change.h"
+#include "diagnosis/validation/separation_quality.h"
+#include "diagnosis/validation/shares.h"
+#include "diagnosis/validation/untested.h"
+#include "diagnosis/validation/wind_speed_error.h"
 
 namespace vibrissa::diagnosis {
 

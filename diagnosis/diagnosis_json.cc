@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "diagnosis/json_number.h"
-#include "diagnosis/words.h"
+#include "diagnosis/model/json_number.h"
+#include "diagnosis/model/words.h"
 
 namespace vibrissa::diagnosis {
 namespace {

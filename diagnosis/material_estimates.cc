@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/hypothesis.h"
-#include "signals/student.h"
+#include "diagnosis/model/hypothesis.h"
+#include "signals/base/student.h"
 
 namespace vibrissa::diagnosis {
 namespace {

@@ -11,9 +11,9 @@
 #include <random>
 #include <string>
 
-#include "signals/error.h"
-#include "signals/fft.h"
-#include "signals/number_text.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
+#include "signals/spectra/fft.h"
 
 namespace vibrissa::flow {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "signals/error.h"
-#include "signals/number_text.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::materials {
 

@@ -10,8 +10,8 @@
 #include "meshes/msh_text.h"
 #include "meshes/place_text.h"
 #include "meshes/regions.h"
-#include "signals/error.h"
-#include "signals/number_text.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::meshes {
 

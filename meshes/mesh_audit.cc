@@ -14,9 +14,9 @@
 
 #include "meshes/place_text.h"
 #include "meshes/regions.h"
-#include "signals/error.h"
-#include "signals/number_text.h"
-#include "signals/sha256.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
+#include "signals/system/sha256.h"
 
 namespace vibrissa::meshes {
 

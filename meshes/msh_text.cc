@@ -8,7 +8,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "signals/error.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::meshes {
 

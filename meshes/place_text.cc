@@ -1,6 +1,6 @@
 #include "meshes/place_text.h"
 
-#include "signals/number_text.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::meshes {
 

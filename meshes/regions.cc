@@ -1,6 +1,6 @@
 #include "meshes/regions.h"
 
-#include "signals/error.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::meshes {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "signals/error.h"
-#include "signals/number_text.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::meshes {
 

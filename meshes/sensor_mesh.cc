@@ -6,8 +6,8 @@
 #include "meshes/extrusion.h"
 #include "meshes/layers.h"
 #include "meshes/regions.h"
-#include "signals/error.h"
-#include "signals/number_text.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::meshes {
 

@@ -4,7 +4,7 @@
 #include "diagnosis/diagnosis.h"
 #include "python/methods.h"
 #include "python/records.h"
-#include "signals/error.h"
+#include "signals/base/error.h"
 
 PYBIND11_MODULE(_core, module) {
   namespace py = pybind11;

@@ -8,17 +8,17 @@
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/diagnosis_json.h"
-#include "diagnosis/mended_model_json.h"
-#include "diagnosis/nominal_from_model.h"
-#include "diagnosis/nominal_identification.h"
-#include "diagnosis/record_simulation.h"
-#include "separation/bvrm_separator.h"
-#include "separation/identification_json.h"
-#include "separation/identify.h"
-#include "separation/sampled_bvrm.h"
+#include "diagnosis/model/updated_model_json.h"
+#include "diagnosis/nominal/nominal_from_model.h"
+#include "diagnosis/nominal/nominal_identification.h"
+#include "diagnosis/prediction/record_simulation.h"
+#include "separation/filters/bvrm_separator.h"
+#include "separation/identification/identification_json.h"
+#include "separation/identification/identify.h"
+#include "separation/model/sampled_bvrm.h"
 #include "separation/stream_methods.h"
-#include "signals/decimal_point.h"
-#include "signals/output_file.h"
+#include "signals/base/decimal_point.h"
+#include "signals/system/output_file.h"
 
 namespace vibrissa::python {
 namespace {

@@ -4,12 +4,12 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "signals/column_choice.h"
-#include "signals/dataset.h"
-#include "signals/decimal_point.h"
-#include "signals/error.h"
-#include "signals/number_text.h"
-#include "signals/record_io.h"
+#include "signals/base/decimal_point.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
+#include "signals/files/column_choice.h"
+#include "signals/files/dataset.h"
+#include "signals/files/record_io.h"
 
 namespace vibrissa::python {
 namespace {

@@ -6,13 +6,13 @@
 
 #include <optional>
 
-#include "apps/case_options.h"
-#include "apps/inputs.h"
-#include "apps/rig.h"
-#include "apps/sensor_model.h"
-#include "fem/solver_session.h"
-#include "signals/decimal_point.h"
-#include "signals/error.h"
+#include "case/case_overrides.h"
+#include "case/inputs.h"
+#include "case/rig.h"
+#include "case/sensor_model.h"
+#include "fem/linalg/solver_session.h"
+#include "signals/base/decimal_point.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::python {
 namespace {
@@ -25,8 +25,8 @@ std::optional<fem::SolverSession>& session() {
   return of_process;
 }
 
-apps::Case read_case(const std::string& file, const std::vector<std::string>& settings) {
-  apps::CaseOptions options;
+sensor_case::Case read_case(const std::string& file, const std::vector<std::string>& settings) {
+  sensor_case::CaseOverrides options;
   options.case_file = file;
   options.settings = settings;
   return options.load().read();
@@ -34,13 +34,13 @@ apps::Case read_case(const std::string& file, const std::vector<std::string>& se
 
 // Rate, start and channels of the record that `vibrissa simulate` writes.
 py::tuple simulate(const std::string& file, const std::vector<std::string>& settings) {
-  const apps::Case parameters = read_case(file, settings);
-  apps::check_reduced_wind(parameters);
-  const apps::Inputs inputs = apps::make_inputs(parameters);
+  const sensor_case::Case parameters = read_case(file, settings);
+  sensor_case::check_reduced_wind(parameters);
+  const sensor_case::Inputs inputs = sensor_case::make_inputs(parameters);
   if (!session()) session().emplace();
   const fem::Sensor sensor(parameters.sensor);
-  const auto model = apps::make_reduced_model(sensor, parameters.sensor, false);
-  const signals::Record record = apps::measure_on_rig(model, parameters, inputs).both;
+  const auto model = sensor_case::make_reduced_model(sensor, parameters.sensor, false);
+  const signals::Record record = sensor_case::measure_on_rig(model, parameters, inputs).both;
   py::dict channels;
   for (const std::string& name : record.channel_names()) {
     const auto values = record.channel(name);
@@ -52,10 +52,10 @@ py::tuple simulate(const std::string& file, const std::vector<std::string>& sett
 
 void write_model(const std::string& file, const std::vector<std::string>& settings,
                  const std::string& to) {
-  const apps::Case parameters = read_case(file, settings);
+  const sensor_case::Case parameters = read_case(file, settings);
   if (!session()) session().emplace();
-  signals::write_reduced_model(
-      to, apps::make_reduced_model(fem::Sensor(parameters.sensor), parameters.sensor, false));
+  signals::write_reduced_model(to, sensor_case::make_reduced_model(fem::Sensor(parameters.sensor),
+                                                                   parameters.sensor, false));
 }
 
 }  // namespace

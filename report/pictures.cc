@@ -9,13 +9,13 @@
 #include <sstream>
 #include <system_error>
 
-#include "report/child_process.h"
-#include "report/draw.h"
-#include "report/draw_mode.h"
-#include "report/figure.h"
-#include "report/mode_picture.h"
-#include "report/picture_file.h"
-#include "signals/error.h"
+#include "report/drawing/draw.h"
+#include "report/drawing/picture_file.h"
+#include "report/figures/figure.h"
+#include "report/files/child_process.h"
+#include "report/modes/draw_mode.h"
+#include "report/modes/mode_picture.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::report {
 namespace {

@@ -24,7 +24,7 @@ struct PictureOptions {
 /// NAME.svg beside them (scenes to PNG alone), in a child process because VTK aborts when it cannot
 /// open a display: on the display at hand, else, or when that fails, on a virtual one by xvfb-run.
 /// Never throws for want of a display: the CSV files beside the figures hold the same data. Proven
-/// by tests/report/pictures_test.cc.
+/// by tests/report/files/pictures_test.cc.
 PictureReport draw_pictures(const std::filesystem::path& folder,
                             const PictureOptions& options = {});
 

@@ -1,10 +1,10 @@
 #include "separation/stream_methods.h"
 
-#include "separation/kalman_filter.h"
-#include "separation/line_canceller.h"
-#include "separation/nlms.h"
-#include "separation/rls.h"
-#include "signals/error.h"
+#include "separation/filters/kalman_filter.h"
+#include "separation/filters/line_canceller.h"
+#include "separation/filters/nlms.h"
+#include "separation/filters/rls.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::separation {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "separation/fdaf.h"
-#include "separation/separator.h"
+#include "separation/filters/fdaf.h"
+#include "separation/filters/separator.h"
 
 namespace vibrissa::separation {
 

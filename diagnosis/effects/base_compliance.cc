@@ -1,5 +1,5 @@
-#include "diagnosis/effect.h"
-#include "diagnosis/joint_model.h"
+#include "diagnosis/model/effect.h"
+#include "diagnosis/model/joint_model.h"
 
 namespace vibrissa::diagnosis::effects {
 

@@ -1,7 +1,7 @@
 #include <numbers>
 #include <vector>
 
-#include "diagnosis/effect.h"
+#include "diagnosis/model/effect.h"
 
 namespace vibrissa::diagnosis::effects {
 namespace {

@@ -1,4 +1,4 @@
-#include "diagnosis/effect.h"
+#include "diagnosis/model/effect.h"
 
 namespace vibrissa::diagnosis::effects {
 

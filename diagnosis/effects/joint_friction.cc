@@ -1,5 +1,5 @@
 #include <array>
-#include "diagnosis/effect.h"
+#include "diagnosis/model/effect.h"
 
 namespace vibrissa::diagnosis::effects {
 namespace {

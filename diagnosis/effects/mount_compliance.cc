@@ -1,5 +1,5 @@
 #include <numbers>
-#include "diagnosis/effect.h"
+#include "diagnosis/model/effect.h"
 
 namespace vibrissa::diagnosis::effects {
 

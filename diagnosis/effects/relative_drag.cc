@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "diagnosis/effect.h"
+#include "diagnosis/model/effect.h"
 
 namespace vibrissa::diagnosis::effects {
 namespace {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/effect.h"
+#include "diagnosis/model/effect.h"
 
 namespace vibrissa::diagnosis::effects {
 

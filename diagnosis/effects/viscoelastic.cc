@@ -1,7 +1,7 @@
 #include <array>
 
-#include "diagnosis/effect.h"
-#include "diagnosis/joint_model.h"
+#include "diagnosis/model/effect.h"
+#include "diagnosis/model/joint_model.h"
 
 namespace vibrissa::diagnosis::effects {
 namespace {

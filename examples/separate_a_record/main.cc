@@ -2,10 +2,10 @@
 // usage: separate_a_record RECORD.csv SEPARATED.csv
 #include <iostream>
 
-#include "separation/bvrm_separator.h"
-#include "separation/identify.h"
-#include "signals/error.h"
-#include "signals/record_io.h"
+#include "separation/filters/bvrm_separator.h"
+#include "separation/identification/identify.h"
+#include "signals/base/error.h"
+#include "signals/files/record_io.h"
 
 int main(int argc, char** argv) {
   using namespace vibrissa;

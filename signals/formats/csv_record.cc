@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "signals/channel_name.h"
+#include "signals/base/number_text.h"
 #include "signals/formats/record_columns.h"
-#include "signals/number_text.h"
-#include "signals/output_file.h"
+#include "signals/record/channel_name.h"
+#include "signals/system/output_file.h"
 
 namespace vibrissa::signals::formats {
 namespace {

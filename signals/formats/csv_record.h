@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <iosfwd>
 
-#include "signals/record.h"
-#include "signals/time_axis.h"
+#include "signals/record/record.h"
+#include "signals/record/time_axis.h"
 
 namespace vibrissa::signals::formats {
 
 /// time_s and every channel, numbers in the shortest form that reads back to the same double.
-/// Proven by tests/signals/record_io_test.cc.
+/// Proven by tests/signals/files/record_io_test.cc.
 void write_csv(const std::filesystem::path& file, const Record& record);
 
 /// The same piece by piece: the names, then the rows of one block after the other, whose first

@@ -2,8 +2,8 @@
 
 #include <cassert>
 
-#include "signals/error.h"
-#include "signals/number_text.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::signals::formats {
 namespace {

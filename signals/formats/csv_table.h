@@ -1,12 +1,12 @@
 #pragma once
 
-#include "signals/csv_file.h"
+#include "signals/formats/csv_file.h"
 #include "signals/formats/record_table.h"
 
 namespace vibrissa::signals::formats {
 
 /// A CSV file as a table: fields become numbers when they are read. Proven by
-/// tests/signals/record_io_test.cc.
+/// tests/signals/files/record_io_test.cc.
 class CsvTable : public RecordTable {
  public:
   explicit CsvTable(const std::filesystem::path& file) : file_(file) {}

@@ -2,12 +2,12 @@
 
 #include <stdexcept>
 
-#include "signals/error.h"
-#include "signals/file_bytes.h"
+#include "signals/base/error.h"
+#include "signals/formats/hdf5_image.h"
 #include "signals/formats/matrix_columns.h"
 #include "signals/formats/record_columns.h"
-#include "signals/hdf5_image.h"
-#include "signals/rehearsal.h"
+#include "signals/system/file_bytes.h"
+#include "signals/system/rehearsal.h"
 
 namespace vibrissa::signals::formats {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "signals/formats/numeric_table.h"
-#include "signals/record.h"
+#include "signals/record/record.h"
 
 namespace vibrissa::signals::formats {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "signals/formats/numeric_table.h"
-#include "signals/frequency_response.h"
-#include "signals/record.h"
+#include "signals/record/record.h"
+#include "signals/spectra/frequency_response.h"
 
 namespace vibrissa::signals::formats {
 

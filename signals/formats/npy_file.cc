@@ -7,11 +7,11 @@
 #include <regex>
 #include <string_view>
 
-#include "signals/error.h"
-#include "signals/file_bytes.h"
+#include "signals/base/error.h"
 #include "signals/formats/matrix_columns.h"
 #include "signals/formats/number_bytes.h"
 #include "signals/formats/record_columns.h"
+#include "signals/system/file_bytes.h"
 
 namespace vibrissa::signals::formats {
 namespace {

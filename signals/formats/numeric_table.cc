@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "signals/error.h"
-#include "signals/number_text.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::signals::formats {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "signals/channel_name.h"
+#include "signals/record/channel_name.h"
 
 namespace vibrissa::signals::formats {
 

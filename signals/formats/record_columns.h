@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "signals/record.h"
+#include "signals/record/record.h"
 
 namespace vibrissa::signals::formats {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "signals/time_axis.h"
+#include "signals/record/time_axis.h"
 
 namespace vibrissa::signals::formats {
 

@@ -4,9 +4,9 @@
 #include <map>
 #include <random>
 
-#include "apps/bode_data.h"
-#include "signals/record_io.h"
+#include "signals/files/record_io.h"
 #include "tests/apps/program.h"
+#include "views/bode_data.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -155,9 +155,10 @@ TEST(Bode, LeavesDeviationAndDistortionAsColumns) {
 // Two processes share one computation to rounding only; a transverse pair is one resonance twice.
 TEST(BodeFrequencies, AreAsManyWhateverRoundingMakesOfAPair) {
   const double pair = 37.371;
-  const auto exact = bode_frequencies(1., 250., {pair, pair});
+  const auto exact = views::bode_frequencies(1., 250., {pair, pair});
   for (const double rounding : {1e-15, -3e-14, 2e-12})
-    EXPECT_EQ(bode_frequencies(1., 250., {pair, pair * (1. + rounding)}).size(), exact.size());
+    EXPECT_EQ(views::bode_frequencies(1., 250., {pair, pair * (1. + rounding)}).size(),
+              exact.size());
 }
 
 TEST(Bode, RefusesWhatAMethodCannotTake) {

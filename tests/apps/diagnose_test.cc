@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "signals/reduced_model.h"
+#include "signals/model/reduced_model.h"
 #include "tests/apps/program.h"
 
 namespace vibrissa::apps {

@@ -1,4 +1,4 @@
-#include "apps/diagnosis_page.h"
+#include "views/diagnosis_page.h"
 
 #include <gmock/gmock.h>
 
@@ -47,7 +47,7 @@ diagnosis::Diagnosis example() {
 }
 
 TEST(DiagnosisPage, SaysTheVerdictThenWhereWhatHowFarAndWhatNext) {
-  const report::Page page = diagnosis_page(example());
+  const report::Page page = views::diagnosis_page(example());
   EXPECT_EQ(page.headline,
             "Joint friction and stiffness explain why the bench differs from the simulation");
   EXPECT_THAT(page.verdict,
@@ -59,7 +59,7 @@ TEST(DiagnosisPage, SaysTheVerdictThenWhereWhatHowFarAndWhatNext) {
 }
 
 TEST(DiagnosisPage, GivesEachNumberItsUnitAndItsInterval) {
-  const report::Page page = diagnosis_page(example());
+  const report::Page page = views::diagnosis_page(example());
   ASSERT_THAT(page.numbers, SizeIs(4));
   EXPECT_EQ(page.numbers[0].value, "90 %");
   EXPECT_EQ(page.numbers[1].value, "97 %");
@@ -69,7 +69,7 @@ TEST(DiagnosisPage, GivesEachNumberItsUnitAndItsInterval) {
 }
 
 TEST(DiagnosisPage, ShowsTheParametersOfAnswersThatAreNotImprobable) {
-  const report::PageSection what = diagnosis_page(example()).sections[1];
+  const report::PageSection what = views::diagnosis_page(example()).sections[1];
   ASSERT_THAT(what.tables, SizeIs(3));
   EXPECT_EQ(what.tables[1].table.to_csv(),
             "answer,effect,parameter,value,95 % from,95 % to,unit,at limit\n"
@@ -77,7 +77,7 @@ TEST(DiagnosisPage, ShowsTheParametersOfAnswersThatAreNotImprobable) {
 }
 
 TEST(DiagnosisPage, ShowsTheWholeHeldOutRecordAndItsFirstSecond) {
-  const report::PageSection how_far = diagnosis_page(example()).sections[2];
+  const report::PageSection how_far = views::diagnosis_page(example()).sections[2];
   ASSERT_THAT(how_far.figures, SizeIs(1));
   ASSERT_THAT(how_far.figures[0].panels, SizeIs(2));
   EXPECT_THAT(how_far.figures[0].panels[0].curves[0].x, SizeIs(4000));
@@ -86,18 +86,18 @@ TEST(DiagnosisPage, ShowsTheWholeHeldOutRecordAndItsFirstSecond) {
 
 TEST(DiagnosisPage, SaysInPlainWordsWhatIsNoEffect) {
   diagnosis::Diagnosis d;
-  EXPECT_THAT(diagnosis_page(d).headline, HasSubstr("No cause is needed"));
+  EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("No cause is needed"));
   d.verdict = "outside_catalogue";
-  EXPECT_THAT(diagnosis_page(d).headline, HasSubstr("no known effect explains"));
+  EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("no known effect explains"));
   d.verdict = "stiffness";
-  EXPECT_THAT(diagnosis_page(d).verdict, ElementsAre(HasSubstr("wants recalibration")));
+  EXPECT_THAT(views::diagnosis_page(d).verdict, ElementsAre(HasSubstr("wants recalibration")));
   d.verdict = "delay";
-  EXPECT_THAT(diagnosis_page(d).headline, HasSubstr("Delay explains why"));
+  EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("Delay explains why"));
 }
 
 TEST(DiagnosisPage, NamesOfRecordsNeverBecomeMarkup) {
   const Folder folder;
-  const std::string html = report::to_html(diagnosis_page(example()), folder.file(""));
+  const std::string html = report::to_html(views::diagnosis_page(example()), folder.file(""));
   EXPECT_THAT(html, Not(HasSubstr(hostile)));
   EXPECT_THAT(html, HasSubstr("a&lt;/script&gt;&lt;script&gt;alert(&quot;1&quot;)"));
   EXPECT_THAT(html, HasSubstr(R"(a\u003c/script\u003e\u003cscript\u003ealert(\"1\"))"));
@@ -114,7 +114,7 @@ TEST(DiagnosisPage, HoldsADiagnosisOfSixtySecondsInSixMegabytes) {
                                (list == &d.trace.mended ? 0.3 : 0.)));
   }
   const Folder folder;
-  EXPECT_LT(report::to_html(diagnosis_page(d), folder.file("")).size(), 6000000u);
+  EXPECT_LT(report::to_html(views::diagnosis_page(d), folder.file("")).size(), 6000000u);
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <map>
 #include <random>
 
-#include "separation/simulation.h"
-#include "signals/record_io.h"
+#include "separation/model/simulation.h"
+#include "signals/files/record_io.h"
 #include "tests/apps/program.h"
 #include "tests/signals/rate.h"
 

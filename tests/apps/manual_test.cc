@@ -1,4 +1,4 @@
-#include "apps/manual.h"
+#include "apps/command_line/manual.h"
 
 #include <gmock/gmock.h>
 

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "report/child_process.h"
-#include "signals/record_io.h"
-#include "signals/reduced_model.h"
+#include "report/files/child_process.h"
+#include "signals/files/record_io.h"
+#include "signals/model/reduced_model.h"
 #include "tests/apps/program.h"
 
 namespace vibrissa::apps {

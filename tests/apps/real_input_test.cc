@@ -2,7 +2,7 @@
 
 #include <regex>
 
-#include "signals/record_io.h"
+#include "signals/files/record_io.h"
 #include "tests/apps/program.h"
 
 namespace vibrissa::apps {

@@ -8,8 +8,8 @@
 #include <functional>
 #include <random>
 
-#include "signals/record_io.h"
-#include "signals/reduced_model.h"
+#include "signals/files/record_io.h"
+#include "signals/model/reduced_model.h"
 #include "tests/apps/program.h"
 
 namespace vibrissa::apps {

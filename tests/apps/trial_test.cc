@@ -5,10 +5,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "apps/trial_score.h"
-#include "apps/trial_statistics.h"
-#include "report/child_process.h"
+#include "report/files/child_process.h"
 #include "tests/apps/program.h"
+#include "trial/scoring/trial_score.h"
+#include "trial/scoring/trial_statistics.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 TEST(TrialStatistics, IntervalsOfSharesAreThoseOfClopperAndPearson) {
-  const Share none{.hits = 0, .of = 10}, half{.hits = 5, .of = 10};
+  const trial::Share none{.hits = 0, .of = 10}, half{.hits = 5, .of = 10};
   EXPECT_NEAR(none.ci95()[1], 1. - std::pow(0.025, 0.1), 1e-12);
   EXPECT_EQ(none.ci95()[0], 0.);
   // Clopper and Pearson's chart, 5 of 10.
@@ -28,14 +28,14 @@ TEST(TrialStatistics, IntervalsOfSharesAreThoseOfClopperAndPearson) {
 
 TEST(TrialStatistics, AreaUnderTheCurve) {
   const std::vector<double> low{0.1, 0.2, 0.3}, high{0.7, 0.8}, mixed{0.2, 0.4};
-  EXPECT_EQ(auroc(low, high), 1.);
-  EXPECT_EQ(auroc(high, low), 0.);
-  EXPECT_EQ(auroc(low, low), 0.5);
-  EXPECT_NEAR(auroc(low, mixed), (1.5 + 3.) / 6., 1e-15);
+  EXPECT_EQ(trial::auroc(low, high), 1.);
+  EXPECT_EQ(trial::auroc(high, low), 0.);
+  EXPECT_EQ(trial::auroc(low, low), 0.5);
+  EXPECT_NEAR(trial::auroc(low, mixed), (1.5 + 3.) / 6., 1e-15);
 }
 
 TEST(TrialStatistics, LogisticLineIsFoundInAnswersThatFollowOne) {
-  const LogisticLine none = logistic_line({});
+  const trial::LogisticLine none = trial::logistic_line({});
   EXPECT_EQ(none.offset, 0.);
   EXPECT_EQ(none.slope, 1.);
   constexpr double offset = -0.7, slope = 0.4;
@@ -44,7 +44,7 @@ TEST(TrialStatistics, LogisticLineIsFoundInAnswersThatFollowOne) {
   for (const double x : {-2., -1., 0., 1., 2., 3., 4., 5.})
     for (int i = 0; i < n_each; ++i)
       answers.emplace_back(x, i < n_each / (1. + std::exp(-offset - slope * x)));
-  const LogisticLine found = logistic_line(answers);
+  const trial::LogisticLine found = trial::logistic_line(answers);
   EXPECT_NEAR(found.offset, offset, 0.01);
   EXPECT_NEAR(found.slope, slope, 0.01);
 }
@@ -56,9 +56,9 @@ TEST(TrialStatistics, CalibrationErrorIsTheWeightedDistance) {
     answers.emplace_back(0.95, i < 6);
     answers.emplace_back(0.35, i < 3);
   }
-  const auto bins = reliability(answers);
+  const auto bins = trial::reliability(answers);
   ASSERT_EQ(bins.size(), 2u);
-  EXPECT_NEAR(expected_calibration_error(bins), 0.5 * 0.35 + 0.5 * 0.05, 1e-12);
+  EXPECT_NEAR(trial::expected_calibration_error(bins), 0.5 * 0.35 + 0.5 * 0.05, 1e-12);
 }
 
 /// A trial of which only names, labels and answers exist.
@@ -92,7 +92,7 @@ class WrittenTrial : public testing::Test {
               {"findings", json::array()}}}};
   }
   Folder folder_;
-  TrialIndex trial_;
+  trial::TrialIndex trial_;
   json labels_ = json::object();
 };
 
@@ -105,9 +105,9 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
   add("none", json::array(), answer("none", 0.9));
   add("retune_only", json::array(), answer("damping", 0.9));
   add("nameless", {{{"id", "x"}, {"size", 1.}, {"limit", 0.1}}}, answer("hum", 0.95));
-  const TrialScore score = score_trial(trial_, labels_);
+  const trial::TrialScore score = trial::score_trial(trial_, labels_);
   const auto share = [&](const std::string& name) {
-    const Share& found = score.shares.at(name);
+    const trial::Share& found = score.shares.at(name);
     return std::pair(found.hits, found.of);
   };
   using Pair = std::pair<std::size_t, std::size_t>;
@@ -139,7 +139,8 @@ TEST_F(WrittenTrial, JudgesTheOpenSetByTheOddsOfNoKnownEffect) {
   add("nameless", x, with_odds(0.3));
   add("left_out", hum, with_odds(0.1));
   EXPECT_DOUBLE_EQ(
-      score_trial(trial_, labels_).figures.at("outside_catalogue, area under the curve"), 0.75);
+      trial::score_trial(trial_, labels_).figures.at("outside_catalogue, area under the curve"),
+      0.75);
 }
 
 TEST_F(WrittenTrial, CountsWhatFurtherExperimentsResolve) {
@@ -161,22 +162,23 @@ TEST_F(WrittenTrial, CountsWhatFurtherExperimentsResolve) {
   // An experiment that came to no answer resolved nothing.
   undecided["recommended"] = {{"experiment", "wide_band"}, {"message", "no such file"}};
   add("single", delay, undecided);
-  const TrialScore score = score_trial(trial_, labels_);
-  const Share recommended = score.shares.at("undecided, the recommended experiment resolves"),
-              by_chance = score.shares.at("undecided, another one resolves");
+  const trial::TrialScore score = trial::score_trial(trial_, labels_);
+  const trial::Share recommended =
+                         score.shares.at("undecided, the recommended experiment resolves"),
+                     by_chance = score.shares.at("undecided, another one resolves");
   EXPECT_EQ(std::pair(recommended.hits, recommended.of), std::pair(std::size_t{1}, std::size_t{3}));
   EXPECT_EQ(std::pair(by_chance.hits, by_chance.of), std::pair(std::size_t{0}, std::size_t{1}));
 }
 
 TEST_F(WrittenTrial, CountsNoFaultAsAnAnswer) {
   const json delay = {{{"id", "delay"}, {"size", 1e-3}, {"limit", 1e-4}}};
-  for (const int status : {bad_input, too_poor_data, fault}) {
+  for (const int status : {trial::bad_input, trial::too_poor_data, trial::fault}) {
     add("wrong_metadata", json::array(), {{"exit_status", status}, {"message", ""}});
     add("single", delay, {{"exit_status", status}, {"message", ""}});
   }
-  const TrialScore score = score_trial(trial_, labels_);
-  const Share noticed = score.shares.at("wrong metadata, noticed"),
-              named = score.shares.at("single at 3 limits, not called none");
+  const trial::TrialScore score = trial::score_trial(trial_, labels_);
+  const trial::Share noticed = score.shares.at("wrong metadata, noticed"),
+                     named = score.shares.at("single at 3 limits, not called none");
   EXPECT_EQ(std::pair(noticed.hits, noticed.of), std::pair(std::size_t{1}, std::size_t{3}));
   EXPECT_EQ(std::pair(named.hits, named.of), std::pair(std::size_t{0}, std::size_t{3}));
 }
@@ -202,7 +204,7 @@ TEST_F(WrittenTrial, CountsTheGapThatStandsOutOfTheNoiseOfItsOwnRecords) {
   nameless["diagnosis"]["ranking"][0]["held_out"] = {{"not_foretold", json::array()},
                                                      {"records", {record("held_out", 0.5, 0.8)}}};
   add("nameless", {{{"id", "x"}, {"size", 1.}, {"limit", 0.1}}}, nameless);
-  const TrialScore score = score_trial(trial_, labels_);
+  const trial::TrialScore score = trial::score_trial(trial_, labels_);
   EXPECT_NEAR(score.figures.at("gap closed, 5th percentile"), 0.75, 1e-9);
   EXPECT_NEAR(score.figures.at("gap closed at another level and wind, median"), 1., 1e-9);
 }
@@ -218,7 +220,7 @@ TEST_F(WrittenTrial, SetsTheConfusionBesideTheExpectedOne) {
   add("single", delay, doubtful);
   add("single", lowpass, doubtful);
   add("single", lowpass, doubtful);
-  EXPECT_EQ(confusion_table(score_trial(trial_, labels_)).to_csv(),
+  EXPECT_EQ(trial::confusion_table(trial::score_trial(trial_, labels_)).to_csv(),
             "truth,verdict,cases,expected\ndelay,sensor_lowpass,1,0.75\n");
 }
 
@@ -226,7 +228,7 @@ TEST_F(WrittenTrial, SaysWhatHasNoAnswerYet) {
   add("none", json::array(), answer("none", 0.9));
   trial_.cases.push_back({"case77", {}});
   labels_["case77"] = labels_["case0"];
-  EXPECT_EQ(score_trial(trial_, labels_).unanswered, 1u);
+  EXPECT_EQ(trial::score_trial(trial_, labels_).unanswered, 1u);
 }
 
 /// Ten sensors, from records to score, as a user would.

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/diagnosis.h"
-#include "one_mode_rig.h"
-#include "signals/error.h"
-#include "signals/record_io.h"
+#include "signals/base/error.h"
+#include "signals/files/record_io.h"
+#include "tests/diagnosis/one_mode_rig.h"
 #include "tests/signals/temporary_folder.h"
 
 namespace vibrissa::diagnosis {

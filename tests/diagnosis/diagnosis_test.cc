@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/diagnosis_json.h"
-#include "diagnosis/nominal_identification.h"
-#include "one_mode_rig.h"
-#include "signals/error.h"
+#include "diagnosis/nominal/nominal_identification.h"
+#include "signals/base/error.h"
+#include "tests/diagnosis/one_mode_rig.h"
 
 namespace vibrissa::diagnosis {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/nominal_model.h"
-#include "signals/dataset.h"
+#include "diagnosis/model/nominal_model.h"
+#include "signals/files/dataset.h"
 
 namespace vibrissa::diagnosis::test {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnosis/resonance_gap.h"
+#include "diagnosis/resonances/resonance_gap.h"
 
 namespace vibrissa::diagnosis::test {
 

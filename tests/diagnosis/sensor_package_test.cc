@@ -9,9 +9,9 @@
 #include <filesystem>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/nominal_identification.h"
-#include "signals/record_io.h"
-#include "signals/resample.h"
+#include "diagnosis/nominal/nominal_identification.h"
+#include "signals/files/record_io.h"
+#include "signals/spectra/resample.h"
 
 namespace vibrissa::diagnosis {
 namespace {

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "fem/solver_session.h"
+#include "fem/linalg/solver_session.h"
 
 int main(int argc, char** argv) {
   testing::InitGoogleMock(&argc, argv);

@@ -2,7 +2,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include "fem/sensor.h"
+#include "fem/sensor/sensor.h"
 
 namespace vibrissa::fem {
 

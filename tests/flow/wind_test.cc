@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "signals/error.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::flow {
 namespace {

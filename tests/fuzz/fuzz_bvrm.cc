@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "separation/sampled_bvrm.h"
-#include "signals/error.h"
+#include "separation/model/sampled_bvrm.h"
+#include "signals/base/error.h"
 #include "tests/fuzz/file_of_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

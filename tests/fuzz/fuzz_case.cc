@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "apps/case_file.h"
-#include "signals/error.h"
+#include "case/case_file.h"
+#include "signals/base/error.h"
 #include "tests/fuzz/file_of_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -12,14 +12,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::FileOfBytes file(data, size);
   std::string text;
   try {
-    apps::CaseFile read(file.path());
+    sensor_case::CaseFile read(file.path());
     read.read();
     text = read.resolved();
   } catch (const signals::UserError&) {
     return 0;
   }
   const fuzz::FileOfBytes written(text);
-  apps::CaseFile again(written.path());
+  sensor_case::CaseFile again(written.path());
   again.read();
   if (again.resolved() != text) std::abort();
   return 0;

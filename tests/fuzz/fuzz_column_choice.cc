@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "signals/channel_name.h"
-#include "signals/column_choice.h"
-#include "signals/error.h"
+#include "signals/base/error.h"
+#include "signals/files/column_choice.h"
+#include "signals/record/channel_name.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vibrissa::signals;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/command_tree.h"
-#include "apps/parse_advice.h"
-#include "signals/error.h"
+#include "apps/command_line/parse_advice.h"
+#include "apps/commands/command_tree.h"
+#include "signals/base/error.h"
 
 namespace {
 

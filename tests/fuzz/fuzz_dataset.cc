@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "signals/dataset.h"
-#include "signals/error.h"
+#include "signals/base/error.h"
+#include "signals/files/dataset.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "diagnosis/mended_model_json.h"
-#include "signals/error.h"
+#include "diagnosis/model/updated_model_json.h"
+#include "signals/base/error.h"
 #include "tests/fuzz/file_of_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "meshes/msh_text.h"
-#include "signals/error.h"
+#include "signals/base/error.h"
 #include "tests/fuzz/file_of_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "signals/error.h"
-#include "signals/record_io.h"
+#include "signals/base/error.h"
+#include "signals/files/record_io.h"
 #include "tests/fuzz/file_of_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "signals/error.h"
-#include "signals/formats/response_file.h"
+#include "signals/base/error.h"
+#include "signals/files/response_file.h"
 #include "tests/fuzz/named_file_of_bytes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

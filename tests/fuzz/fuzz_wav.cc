@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "signals/error.h"
-#include "signals/wav_file.h"
+#include "signals/base/error.h"
+#include "signals/formats/wav_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vibrissa;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <numeric>
 
-#include "signals/error.h"
+#include "signals/base/error.h"
 #include "signals/formats/record_table.h"
 #include "tests/fuzz/file_of_bytes.h"
 

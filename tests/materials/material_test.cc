@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "signals/error.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::materials {
 namespace {

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "signals/error.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::materials {
 namespace {

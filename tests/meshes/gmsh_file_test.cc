@@ -16,7 +16,7 @@
 #include "meshes/mesh_audit.h"
 #include "meshes/regions.h"
 #include "meshes/sensor_mesh.h"
-#include "signals/error.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::meshes {
 namespace {

@@ -7,7 +7,7 @@
 #include <deal.II/grid/grid_generator.h>
 
 #include "meshes/regions.h"
-#include "signals/error.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::meshes {
 namespace {

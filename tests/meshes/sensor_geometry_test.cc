@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "signals/error.h"
+#include "signals/base/error.h"
 #include "tests/meshes/flow_sensor.h"
 
 namespace vibrissa::meshes {

@@ -12,7 +12,7 @@
 
 #include "meshes/mesh_audit.h"
 #include "meshes/regions.h"
-#include "signals/error.h"
+#include "signals/base/error.h"
 #include "tests/meshes/flow_sensor.h"
 
 namespace vibrissa::meshes {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "report/json_file.h"
-#include "report/page.h"
+#include "report/page/page.h"
+#include "report/text/json_file.h"
 #include "tests/report/meshes.h"
 
 namespace vibrissa::report::testing {

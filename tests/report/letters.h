@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "report/page_layout.h"
-#include "report/text.h"
+#include "report/drawing/page_layout.h"
+#include "report/text/text.h"
 
 namespace vibrissa::report {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "report/palette.h"
+#include "report/figures/palette.h"
 
 namespace vibrissa::report::testing {
 

@@ -29,7 +29,7 @@ std::vector<double> numbers_of(const std::string& bytes) {
   return {numbers.begin(), numbers.end()};
 }
 
-/// A list of report/packed_numbers.h, read as the page's script reads it.
+/// A list of report/figures/packed_numbers.h, read as the page's script reads it.
 inline std::vector<double> unpacked(const nlohmann::json& entry) {
   if (entry.contains("f64")) return numbers_of<double>(bytes_of_base64(entry["f64"]));
   if (entry.contains("f32")) return numbers_of<float>(bytes_of_base64(entry["f32"]));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "separation/fitted_bvrm.h"
+#include "separation/model/fitted_bvrm.h"
 
 namespace vibrissa::separation::test {
 

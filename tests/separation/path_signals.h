@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "separation/spectra_buffer.h"
-#include "signals/fft.h"
-#include "test_signals.h"
+#include "separation/filters/spectra_buffer.h"
+#include "signals/spectra/fft.h"
+#include "tests/separation/test_signals.h"
 
 namespace vibrissa::separation::test {
 

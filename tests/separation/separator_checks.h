@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "separation/separator.h"
-#include "signals/error.h"
-#include "test_signals.h"
+#include "separation/filters/separator.h"
+#include "signals/base/error.h"
+#include "tests/separation/test_signals.h"
 
 namespace vibrissa::separation::test {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "separation/rational_model.h"
+#include "separation/model/rational_model.h"
 #include "tests/signals/rate.h"
 #include "tests/signals/white_noise.h"
 

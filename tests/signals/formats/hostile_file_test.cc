@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "signals/error.h"
+#include "signals/base/error.h"
 #include "signals/formats/hdf5_file.h"
 #include "signals/formats/mat_file.h"
 #include "tests/signals/temporary_folder.h"

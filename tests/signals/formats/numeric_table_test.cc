@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "signals/error.h"
+#include "signals/base/error.h"
 #include "signals/formats/matrix_columns.h"
 
 namespace vibrissa::signals::formats {

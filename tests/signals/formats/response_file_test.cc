@@ -1,11 +1,11 @@
-#include "signals/formats/response_file.h"
+#include "signals/files/response_file.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <fstream>
 
-#include "signals/error.h"
+#include "signals/base/error.h"
 #include "tests/signals/temporary_folder.h"
 
 namespace vibrissa::signals::formats {

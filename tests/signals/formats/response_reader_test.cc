@@ -3,8 +3,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "signals/error.h"
-#include "signals/formats/response_file.h"
+#include "signals/base/error.h"
+#include "signals/files/response_file.h"
 #include "tests/signals/temporary_folder.h"
 
 namespace vibrissa::signals::formats {

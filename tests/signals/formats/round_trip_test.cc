@@ -8,9 +8,9 @@
 #include <string>
 #include <tuple>
 
-#include "signals/error.h"
+#include "signals/base/error.h"
+#include "signals/files/record_io.h"
 #include "signals/formats/mat_file.h"
-#include "signals/record_io.h"
 #include "tests/signals/temporary_folder.h"
 
 namespace vibrissa::signals::formats {

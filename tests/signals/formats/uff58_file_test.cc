@@ -6,8 +6,8 @@
 #include <bit>
 #include <fstream>
 
-#include "signals/error.h"
-#include "signals/formats/uff58_record.h"
+#include "signals/base/error.h"
+#include "signals/formats/uff58/uff58_record.h"
 #include "tests/signals/temporary_folder.h"
 
 namespace vibrissa::signals::formats {

@@ -1,0 +1,38 @@
+#include "apps/command_line/case_options.h"
+
+namespace vibrissa::apps {
+
+void CaseOptions::add_settings_to(CLI::App& command) {
+  command.add_option("--set", settings, "SECTION/ENTRY=VALUE of the case file; repeatable");
+}
+
+void CaseOptions::add_case_to(CLI::App& command) {
+  command.add_option("case", case_file, "Case file (.prm)")->required();
+  add_settings_to(command);
+}
+
+void CaseOptions::add_to(CLI::App& command) {
+  add_case_to(command);
+  command.add_option("--base-acceleration", base_acceleration_file,
+                     "File with a recorded base acceleration (CSV, .mat, .h5, .npy, .uff, .wav)");
+  command.add_option("--wind", wind_file, "File with a recorded wind speed");
+  command.add_option(
+      "--column", columns,
+      "CHANNEL=COLUMN[unit]*FACTOR[unit] of these files, e.g. 'base_acceleration=ax[g]'; "
+      "channels: base_acceleration, wind_speed; repeatable");
+  command.add_option("--rate", rates, "[CHANNEL=]HZ: sampling rate of these files; repeatable");
+  command.add_option("--rows", rows, "CHANNEL=FIRST:LAST data rows used; repeatable");
+  command.add_option("--range", ranges, "CHANNEL=LOW:HIGH: scaled to this range; repeatable");
+  command.add_option("--remove-mean", remove_means,
+                     "CHANNEL whose mean (gravity) is taken off; repeatable");
+  command.add_option("--duration", duration_s, "Length of all records [s]");
+}
+
+void CaseOptions::add_folder_to(CLI::App& command) {
+  command.add_option(
+      "-o,--output,--out", output_folder,
+      "Results folder; must not exist yet (default: Output/Folder of the case, else a "
+      "new one in runs/)");
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,160 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/command_line/case_options.h"
+#include "apps/command_line/command.h"
+#include "apps/command_line/record_options.h"
+#include "apps/jobs/measured_response.h"
+#include "fem/linalg/solver_session.h"
+#include "fem/sensor/reduction.h"
+#include "report/pictures.h"
+#include "signals/base/error.h"
+#include "signals/files/response_file.h"
+#include "signals/system/output_file.h"
+#include "views/bode_data.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+struct BodeOptions {
+  CommonOptions common;
+  RecordOptions record;
+  std::string input;
+  CaseOptions chosen;
+  std::optional<std::string> folder, response_file;
+  ResponseOptions response;
+  std::vector<std::string> realisations;
+  double low_hz = 1., high_hz = 200.;
+};
+
+std::vector<double> resonances(const signals::ReducedModel& model) {
+  std::vector<double> f;
+  for (const auto& mode : model.modes) f.push_back(mode.frequency_hz);
+  return f;
+}
+
+views::BodeCurve of_model(const signals::ReducedModel& model, const BodeOptions& options) {
+  return views::bode_curve(
+      model, views::bode_frequencies(options.low_hz, options.high_hz, resonances(model)));
+}
+
+views::BodeCurve of_case(const BodeOptions& options) {
+  CaseOptions chosen = options.chosen;
+  chosen.case_file = options.input;
+  const sensor_case::Case parameters = chosen.load().read();
+  const fem::SolverSession session;
+  auto model = fem::reduce(fem::Sensor(parameters.sensor));
+  model.name = "simulated sensor";
+  return of_model(model, options);
+}
+
+MeasuredResponse of_record(const BodeOptions& options) {
+  std::vector<signals::Record> records = {options.record.read(options.input)};
+  for (const auto& file : options.realisations) records.push_back(options.record.read(file));
+  return measure_response(records, options.response);
+}
+
+MeasuredResponse make_response(const BodeOptions& options) {
+  if (!(options.low_hz > 0. && options.low_hz < options.high_hz)) {
+    throw signals::UserError("--low must be positive and below --high");
+  }
+  const auto extension = std::filesystem::path(options.input).extension();
+  if (extension != ".prm" && !options.chosen.is_plain())
+    throw signals::UserError("--set is for case files (.prm), which " + options.input + " is not");
+  if (extension != ".prm" && extension != ".json") return of_record(options);
+  if (options.response.method || options.response.period_samples > 0 ||
+      !options.realisations.empty()) {
+    throw signals::UserError("--method, --period and --realisation are for records, and " +
+                             options.input + " is a model");
+  }
+  return {extension == ".prm" ? of_case(options)
+                              : of_model(signals::read_reduced_model(options.input), options),
+          {},
+          {},
+          {}};
+}
+
+void write_folder(const std::string& folder, const MeasuredResponse& measured) {
+  signals::make_new_folder(folder);
+  report::write_figure(folder, views::bode_figure({measured.curve}));
+  const auto write = [&](const std::string& name, const report::Table& table) {
+    signals::write_file(std::filesystem::path(folder) / name,
+                        [&](std::ostream& out) { out << table.to_csv(); });
+  };
+  write("response.csv", response_table(measured));
+  if (!measured.detection.empty()) write("detection.csv", detection_table(measured.detection));
+}
+
+void bode(const BodeOptions& options) {
+  FileNames inputs(options.realisations.begin(), options.realisations.end());
+  inputs.push_back(options.input);
+  refuse_overwriting(inputs, {options.response_file});
+  const MeasuredResponse measured = make_response(options);
+  if (options.response_file)
+    signals::formats::write_response(*options.response_file, measured.curve.response,
+                                     measured.curve.label);
+  if (options.folder) {
+    write_folder(*options.folder, measured);
+    const auto pictures = report::draw_pictures(*options.folder);
+    if (!options.common.json) {
+      std::cout << pictures.message << "\n"
+                << measured.words << (measured.words.empty() ? "" : "\n");
+    }
+  }
+  if (options.common.json) {
+    print_json(response_json(measured));
+    return;
+  }
+  if (options.common.quiet && (options.response_file || options.folder)) return;
+  if (options.response_file)
+    std::cout << "wrote " << *options.response_file << ": "
+              << measured.curve.response.frequency_hz.size() << " frequencies\n";
+  else if (!options.folder)
+    std::cout << response_table(measured).to_csv();
+}
+
+}  // namespace
+
+void add_bode_command(CLI::App& app) {
+  const auto options = std::make_shared<BodeOptions>();
+  auto* command = app.add_subcommand(
+      "bode", "Frequency response base acceleration -> base moment of a case, a model or a record");
+  command->add_option("input", options->input, "Case file (.prm), reduced model (.json) or record")
+      ->required();
+  options->chosen.add_settings_to(*command);
+  command->add_option("-o,--output,--out", options->folder,
+                      "New folder for figure, picture and response.csv");
+  command->add_option("--response", options->response_file,
+                      "Also write the response for other programs: .uff, .unv, .uf58 (Universal "
+                      "File, type 58), .mat or .csv");
+  command->add_option(
+      "--period", options->response.period_samples,
+      "Period of a periodic record in steady state [samples]; the last whole periods are used");
+  command->add_option(
+      "--method", options->response.method,
+      "For records (default: periods with --period, else welch):" + response_method_help());
+  command->add_option("--realisation", options->realisations,
+                      "Further record with other phases, for --method robust (may be repeated)");
+  command
+      ->add_option("--segment", options->response.segment_samples,
+                   "Segment length of Welch's method [samples]")
+      ->check(positive_number())
+      ->capture_default_str();
+  command->add_option("--low", options->low_hz, "Lowest frequency of a model's diagram [Hz]")
+      ->capture_default_str();
+  command->add_option("--high", options->high_hz, "Highest frequency of a model's diagram [Hz]")
+      ->capture_default_str();
+  options->record.add_to(*command);
+  add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa bode sensor.prm -o response\n"
+      "  vibrissa bode bench.csv --period 2048 --column 'base_acceleration=ax[g]'\n"
+      "  vibrissa bode bench.csv --method local-polynomial --response bench.uff");
+  command->callback([options] { bode(*options); });
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,92 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/command_line/command.h"
+#include "apps/command_line/record_options.h"
+#include "signals/base/error.h"
+#include "signals/files/file_format.h"
+#include "signals/files/record_io.h"
+#include "signals/files/response_file.h"
+#include "signals/formats/mat_file.h"
+
+namespace vibrissa::apps {
+namespace {
+
+struct ConvertOptions {
+  CommonOptions common;
+  RecordOptions record;
+  std::string from, to;
+  std::string mat_version = "5";
+  bool frequency_response = false;
+  std::string response_as;
+};
+
+void convert_response(const ConvertOptions& options) {
+  if (options.mat_version != "5")
+    throw signals::UserError("--mat-version " + options.mat_version +
+                             " is for records; frequency responses are written as version 5");
+  const auto response = signals::formats::read_response(options.from, {options.response_as});
+  signals::formats::write_response(options.to, response,
+                                   std::filesystem::path(options.from).stem().string());
+  if (options.common.json)
+    print_json({{"response", options.to}, {"frequencies", response.frequency_hz.size()}});
+  else if (!options.common.quiet)
+    std::cout << "wrote " << options.to << ": " << response.frequency_hz.size() << " frequencies\n";
+}
+
+void convert(const ConvertOptions& options) {
+  const signals::Record record = options.record.read(options.from);
+  if (options.mat_version == "7.3" && signals::formats::extension_of(options.to) == ".mat")
+    signals::formats::write_mat(options.to, record, signals::formats::MatVersion::v7_3);
+  else
+    signals::write_record(options.to, record);
+  if (options.common.json)
+    print_json(written_record_json(options.to, record));
+  else if (!options.common.quiet)
+    std::cout << written_record_text(options.to, record);
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+  const auto options = std::make_shared<ConvertOptions>();
+  auto* command = app.add_subcommand(
+      "convert", "A record from one file format to another, its units converted to SI");
+  command
+      ->add_option("from", options->from,
+                   "Record: .csv, .mat (MATLAB 4, 5, 7.3), .h5, .hdf5, .npy, .uff, .unv, .uf58 "
+                   "(Universal File, type 58), .wav")
+      ->required();
+  command->add_option("to", options->to, "File written: .csv, .mat, .h5, .hdf5, .npy, .uff, .unv")
+      ->required();
+  command->add_option("--mat-version", options->mat_version, "Version of a .mat file")
+      ->check(CLI::IsMember({"5", "7.3"}))
+      ->capture_default_str();
+  command->add_flag("--frequency-response", options->frequency_response,
+                    "The file holds a frequency response base acceleration -> base moment: a "
+                    "Universal File (function of type 4), a .mat or a CSV; written as .uff, .unv, "
+                    ".uf58, .mat or .csv");
+  command->add_option(
+      "--response-as", options->response_as,
+      "--frequency-response: NAME[unit]*FACTOR[unit] of its values, as 'H[mN mm/g]' "
+      "or '[uT/g]*0.18[N m/T]'; of several in a Universal File its number");
+  options->record.add_to(*command);
+  add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa convert bench.mat bench.csv --column 'base_acceleration=ax[g]' \\\n"
+      "    --column 'base_moment=B[uT]*0.18[N m/T]' --rate 500\n"
+      "  vibrissa convert record.csv record.uff\n"
+      "  vibrissa convert modal_test.uff response.mat --frequency-response");
+  command->callback([options] {
+    refuse_overwriting({options->from}, {options->to});
+    if (options->frequency_response || !options->response_as.empty())
+      convert_response(*options);
+    else
+      convert(*options);
+  });
+}
+
+}  // namespace vibrissa::apps

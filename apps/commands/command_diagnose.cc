@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "apps/command_line/command.h"
+#include "apps/command_line/record_options.h"
+#include "apps/commands/resonance_diagnosis.h"
+#include "apps/jobs/nominal_input.h"
+#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/model/updated_model_json.h"
+#include "diagnosis/planning/next_experiment.h"
+#include "report/files/run_folder.h"
+#include "report/pictures.h"
+#include "signals/base/error.h"
+#include "signals/system/progress.h"
+#include "views/diagnosis_page.h"
+#include "views/diagnosis_plots.h"
+
+namespace vibrissa::apps {
+namespace {
+
+struct DiagnoseCommand {
+  CommonOptions common;
+  NominalInput simulation;
+  FigureInput figures;   // in place of records
+  RecordOptions record;  // of the real sensor
+  std::optional<std::string> real;
+  std::optional<std::filesystem::path> folder;
+  std::size_t max_effects = diagnosis::SearchOptions{}.max_effects;
+  std::vector<std::string> possible_experiments;
+};
+
+constexpr std::size_t whole_verdict = 1000;
+
+void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& diagnosis) {
+  const auto folder =
+      report::RunFolder::given_or_free(options.folder, std::filesystem::path("results/diagnosis"));
+  folder.write_run({.command_line = given_command_line()});
+  folder.write_text("diagnosis.json", diagnosis::diagnosis_json(diagnosis));
+  folder.write_text("mended_model.json", diagnosis::mended_model_json(diagnosis.mended));
+  folder.write_text("verdict.txt", diagnosis::verdict_text(diagnosis, whole_verdict));
+  folder.write_text("ranking.csv", views::ranking_table(diagnosis).to_csv());
+  for (const report::Figure& figure : views::diagnosis_figures(diagnosis))
+    report::write_figure(folder.path(), figure);
+  const auto pictures = report::draw_pictures(folder.path());
+  report::write_page(folder.path(), views::diagnosis_page(diagnosis));
+  if (!options.common.is_talkative()) return;
+  std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
+}
+
+/// A simulation that is compared with itself has no gap, and noise of its own that no other has.
+void refuse_the_same(const signals::Dataset& simulated, const signals::Dataset& real) {
+  const auto is_simulated = [&](const signals::DatasetRecord& measured) {
+    const auto moment = measured.record.channel(signals::channel::base_moment);
+    return std::any_of(simulated.records.begin(), simulated.records.end(),
+                       [&](const signals::DatasetRecord& entry) {
+                         const auto other = entry.record.channel(signals::channel::base_moment);
+                         return std::equal(moment.begin(), moment.end(), other.begin(),
+                                           other.end());
+                       });
+  };
+  if (std::all_of(real.records.begin(), real.records.end(), is_simulated))
+    throw signals::UserError(
+        "--real holds the very samples of --sim: between a record and itself there is no gap; "
+        "give records of the sensor on the bench as --real");
+}
+
+void diagnose_records(const DiagnoseCommand& options) {
+  if (!options.real)
+    throw signals::UserError(
+        "give the records of the real sensor as --real DATASET; without records give the figures "
+        "alone as --resonance SIMULATED_HZ:MEASURED_HZ");
+  diagnosis::check_menu_names(options.possible_experiments);
+  const bool show = options.common.is_talkative();
+  options.simulation.check_one_is_given();
+  const signals::Dataset real = signals::read_dataset(*options.real, options.record.read_options());
+  const NominalInput::Simulation simulation = options.simulation.read(show);
+  refuse_the_same(simulation.dataset, real);
+  // About forty single effects and combinations are fitted.
+  constexpr std::size_t usual_fits = 75;
+  signals::Progress progress("fitting effects", usual_fits, show);
+  diagnosis::DiagnoseOptions settings;
+  settings.simulated_rate_hz = simulation.sampling_rate_hz();
+  settings.search.max_effects = options.max_effects;
+  settings.possible_experiments = options.possible_experiments;
+  settings.search.on_fit = [&] { progress.advance(); };
+  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(simulation.model, real, settings);
+  if (options.common.json)
+    std::cout << diagnosis::diagnosis_json(diagnosis) << std::endl;
+  else
+    std::cout << diagnosis::verdict_text(diagnosis) << std::endl;
+  if (options.folder || !options.common.json) write_results(options, diagnosis);
+}
+
+void diagnose(const DiagnoseCommand& options) {
+  report::RunFolder::refuse_taken(options.folder);
+  if (!options.figures.is_given()) return diagnose_records(options);
+  if (options.real || options.simulation.simulation)
+    throw signals::UserError(
+        "--resonance, --damping and --example compare figures, --real and --sim records: give "
+        "either figures or records");
+  diagnose_figures(options.figures, options.simulation, options.common, options.folder);
+}
+
+}  // namespace
+
+void add_diagnose_command(CLI::App& app) {
+  const auto options = std::make_shared<DiagnoseCommand>();
+  auto* command = app.add_subcommand(
+      "diagnose",
+      "Why the records differ from the simulation: where, which effect, how far the gap closes");
+  command->add_option(
+      "--model", options->simulation.model,
+      "The simulation as a case file (.prm), a reduced model or a mended model (.json)");
+  command->add_option("--sim", options->simulation.simulation,
+                      "The simulation as a dataset: a folder of records with dataset.json");
+  command->add_option("--real", options->real,
+                      "Dataset of the real sensor: a folder, or one record");
+  options->record.add_to(*command);
+  options->figures.add_to(*command);
+  command->add_option(
+      "-o,--out,--output", options->folder,
+      "New folder for report.html, diagnosis.json, mended_model.json, ranking.csv and pictures "
+      "(default: results/diagnosis, numbered when it is there)");
+  command
+      ->add_option("--max-effects", options->max_effects,
+                   "Most effects that are combined beside retuned parameters")
+      ->check(CLI::Range(1, 5))
+      ->capture_default_str();
+  command
+      ->add_option("--bench-can", options->possible_experiments,
+                   "Experiments to choose the next one from, comma-separated; else all of the menu")
+      ->delimiter(',');
+  add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n  vibrissa diagnose --sim simulated --real bench --out diagnosis\n"
+      "  vibrissa diagnose --model case.prm --real bench.csv --column 'base_acceleration=ax[g]' "
+      "\\\n"
+      "    --column 'base_moment=hall[uT]*0.18[N m/T]' --column 'time=t[s]'\n"
+      "  vibrissa diagnose --resonance 37.32:31.47 --damping 0.05:0.027 --model model.json\n"
+      "  vibrissa diagnose --example paper-gap\n"
+      "Exit status: 0 an answer, 2 bad input, 3 too little data to say anything.");
+  command->callback([options] { diagnose(*options); });
+}
+
+}  // namespace vibrissa::apps

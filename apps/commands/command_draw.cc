@@ -1,0 +1,48 @@
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/command_line/command.h"
+#include "report/pictures.h"
+#include "signals/base/error.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+nlohmann::json to_json(const report::PictureReport& pictures) {
+  nlohmann::json made = nlohmann::json::array();
+  for (const auto& picture : pictures.made) made.push_back(picture.string());
+  return {{"made", made}, {"problems", pictures.problems}, {"message", pictures.message}};
+}
+
+void draw(const std::string& folder, const CommonOptions& common) {
+  if (!std::filesystem::is_directory(folder))
+    throw signals::UserError(folder + ": is no results folder");
+  bool is_complete;
+  if (common.json || common.quiet) {
+    const report::PictureReport pictures = report::draw_pictures(folder);
+    is_complete = !pictures.made.empty() && pictures.problems.empty();
+    if (common.json) print_json(to_json(pictures));
+  } else {
+    is_complete = report::draw_folder(folder) == 0;
+  }
+  if (!is_complete) throw signals::UserError(folder + ": not every figure could be drawn");
+}
+
+}  // namespace
+
+void add_draw_command(CLI::App& app) {
+  const auto folder = std::make_shared<std::string>();
+  const auto common = std::make_shared<CommonOptions>();
+  auto* command = app.add_subcommand(
+      "draw", "Draws the figures of a results folder again (needs a display, or xvfb-run)");
+  command->add_option("folder", *folder, "Results folder")->required();
+  add_common_options(*command, *common);
+  command->footer(
+      "Example:\n"
+      "  vibrissa draw runs/flow_sensor");
+  command->callback([folder, common] { draw(*folder, *common); });
+}
+
+}  // namespace vibrissa::apps

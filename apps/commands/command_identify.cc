@@ -1,0 +1,226 @@
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "apps/command_line/command.h"
+#include "apps/command_line/record_options.h"
+#include "separation/identification/identify.h"
+#include "separation/identification/identify_response.h"
+#include "separation/identification/output_only.h"
+#include "separation/model/c_header.h"
+#include "separation/model/sampled_bvrm.h"
+#include "signals/base/error.h"
+#include "signals/files/response_file.h"
+#include "views/identification_report.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+/// Beyond it nothing is told apart, and trying takes hours.
+constexpr int highest_order = 40;
+
+struct IdentifyCommandOptions {
+  CommonOptions common;
+  RecordOptions record;
+  std::string record_file;
+  std::optional<std::string> held_out_file, model_file, c_header_file;
+  separation::IdentifyOptions identify;
+  std::optional<std::string> hold;
+  std::string method = "output-error";
+  bool no_direct_term = false, cross_validation = false, output_only = false;
+  std::size_t max_lags = separation::OutputOnlyOptions{}.max_lags;
+  bool frequency_response = false;
+  std::string response_as;
+};
+
+using GivenOptions = std::vector<std::pair<bool, std::string>>;
+
+void refuse(const GivenOptions& given, const std::string& reason) {
+  for (const auto& [is_given, name] : given)
+    if (is_given) throw signals::UserError(name + reason + "; leave one of them out");
+}
+
+/// Those that only a record of acceleration and moment has a use for.
+GivenOptions options_of_records(const IdentifyCommandOptions& options) {
+  return {{options.held_out_file.has_value(), "--held-out"},
+          {options.c_header_file.has_value(), "--c-header"},
+          {options.hold.has_value(), "--hold"},
+          {options.cross_validation, "--cross-validation"},
+          {options.identify.period_samples > 0, "--period"},
+          {options.method != "output-error", "--method"}};
+}
+
+void refuse_what_needs_an_input(const IdentifyCommandOptions& options) {
+  const std::string reason = " needs the base acceleration, which --output-only does without";
+  refuse(options_of_records(options), reason);
+  refuse({{options.model_file.has_value(), "-o"},
+          {options.no_direct_term, "--no-direct-term"},
+          {options.frequency_response, "--frequency-response"}},
+         reason);
+}
+
+void refuse_what_needs_a_record(const IdentifyCommandOptions& options) {
+  const std::string reason = " is for records, which --frequency-response has none of";
+  refuse(options_of_records(options), reason);
+  refuse({{!options.record.columns.empty(), "--column"},
+          {options.record.rate_hz.has_value(), "--rate"},
+          {options.record.rows.has_value(), "--rows"},
+          {!options.record.remove_mean.empty(), "--remove-mean"}},
+         reason);
+}
+
+void identify_from_response(const IdentifyCommandOptions& options) {
+  refuse_what_needs_a_record(options);
+  const signals::FrequencyResponse response =
+      signals::formats::read_response(options.record_file, {options.response_as});
+  if (response.coherence.empty() && response.standard_deviation.empty())
+    std::cerr << "warning: " << options.record_file
+              << ": no coherence and no standard deviation: every line counts alike, also where "
+                 "nothing was excited\n";
+  const auto found =
+      separation::identify_response(response, {.order = options.identify.order,
+                                               .max_order = options.identify.max_order,
+                                               .direct_term = !options.no_direct_term});
+  if (options.model_file) separation::write_bvrm(*options.model_file, {found.fit.model});
+  if (options.common.json) {
+    print_json(separation::identified_response_json(found));
+    return;
+  }
+  std::cout << views::identification_table(found.fit).to_text() << "direct term "
+            << found.fit.direct_term_kg_m.value << " kg m; order " << found.order << ", "
+            << response.value.size() << " lines from " << response.frequency_hz.front() << " to "
+            << response.frequency_hz.back() << " Hz, " << separation::to_string(found.fit.end)
+            << "\nfit of every third line by a model of the others: " << found.held_out_fit_percent
+            << " %\n";
+}
+
+void identify_from_output(const IdentifyCommandOptions& options) {
+  refuse_what_needs_an_input(options);
+  const signals::Record record = options.record.read(options.record_file);
+  separation::OutputOnlyOptions output_only;
+  output_only.max_lags = options.max_lags;
+  if (options.identify.order) output_only.max_order = *options.identify.order;
+  const auto found = separation::identify_output_only(record.channel(signals::channel::base_moment),
+                                                      record.sampling_rate_hz(), output_only);
+  if (options.common.json) {
+    print_json(separation::output_only_json(found));
+    return;
+  }
+  std::cout << views::output_only_table(found).to_text() << found.words << "\n";
+}
+
+void identify(const IdentifyCommandOptions& options) {
+  const signals::Record all = options.record.read(options.record_file);
+  separation::IdentifyOptions identify = options.identify;
+  identify.method = separation::parse_identify_method(options.method);
+  if (options.hold) identify.hold = separation::parse_hold(*options.hold);
+  identify.direct_term = !options.no_direct_term;
+  if (options.cross_validation) identify.order_rule = separation::OrderRule::cross_validation;
+  // Without a second file the last third is held out, never used to fit.
+  const auto [fit, held_out] =
+      options.held_out_file
+          ? separation::SplitRecord{all, options.record.read(*options.held_out_file)}
+          : separation::hold_out_last_third(all);
+  const auto result = separation::identify_bvrm(fit, held_out, identify);
+  const separation::ModelEvidence evidence = separation::examine(result, fit, held_out);
+  // The header comes first: it may be refused, and then nothing has been written.
+  if (options.c_header_file) {
+    separation::write_c_header(*options.c_header_file, result.fit.model,
+                               {all.sampling_rate_hz(), result.hold});
+  }
+  if (options.model_file)
+    separation::write_bvrm(*options.model_file, {result.fit.model, result.hold});
+  if (options.common.json) {
+    print_json(separation::identification_report(result, evidence, options.method));
+    return;
+  }
+  std::cout << views::identification_table(result.fit).to_text() << "direct term "
+            << result.fit.direct_term_kg_m.value << " kg m; order " << result.order << ", "
+            << separation::to_string(result.hold) << " input, "
+            << separation::to_string(result.fit.end)
+            << "\nfit on held-out data, free simulation: " << result.held_out_fit_percent << " % ("
+            << result.held_out_vaf_percent << " % of the variance)\n"
+            << (result.order_words.empty() ? "" : "order: " + result.order_words + "\n")
+            << views::evidence_text(evidence);
+  if (!options.held_out_file && !options.common.quiet) {
+    std::cout << "Held out: the last third of the record.\n";
+  }
+}
+
+}  // namespace
+
+void add_identify_command(CLI::App& app) {
+  const auto options = std::make_shared<IdentifyCommandOptions>();
+  auto* command = app.add_subcommand(
+      "identify", "Base vibration response model from a record of base acceleration and moment");
+  command->add_option("record", options->record_file, "Record, or frequency response")->required();
+  command->add_option("--held-out", options->held_out_file,
+                      "Record that only scores the model (default: last third of the record)");
+  command
+      ->add_option(
+          "--order", options->identify.order,
+          "Number of poles, two for each mode, hence even (default: by information criterion)")
+      ->check(CLI::Range(1, highest_order));
+  command->add_option("--max-order", options->identify.max_order, "Highest order tried, even")
+      ->check(CLI::Range(1, highest_order))
+      ->capture_default_str();
+  command->add_flag("--cross-validation", options->cross_validation,
+                    "Choose the order by a held-out part of the fit record instead");
+  command
+      ->add_option("--period", options->identify.period_samples,
+                   "Period of a periodic record [samples]")
+      ->check(not_negative_number());
+  command->add_option("--hold", options->hold,
+                      "Input between samples: first_order, zero_order or band_limited (default: "
+                      "first_order or band_limited, whichever fits better)");
+  command->add_flag("--no-direct-term", options->no_direct_term, "Strictly proper model");
+  command
+      ->add_option("--method", options->method,
+                   "output-error; srivc, refined instrumental variables; or frequency, the fit of "
+                   "the frequency response (of whole periods with --period, else Welch's)")
+      ->capture_default_str();
+  command->add_flag("--output-only", options->output_only,
+                    "Resonances and damping from base_moment alone, for a drive that nobody "
+                    "measured and that is taken for white: no gain, no model. --order is then "
+                    "the highest tried (default 20)");
+  command
+      ->add_option("--lags", options->max_lags,
+                   "--output-only: half the longest lag of the covariances [samples]; a few "
+                   "periods of the lowest resonance should fit into twice as many")
+      ->check(positive_number())
+      ->capture_default_str();
+  command->add_flag("--frequency-response", options->frequency_response,
+                    "The file holds a measured frequency response base acceleration -> base "
+                    "moment: a Universal File (function of type 4), a .mat or a CSV");
+  command->add_option(
+      "--response-as", options->response_as,
+      "--frequency-response: NAME[unit]*FACTOR[unit] of its values, as 'H[mN mm/g]' "
+      "or '[uT/g]*0.18[N m/T]'; of several in a Universal File its number");
+  command->add_option("-o,--output,--out", options->model_file, "Model written as JSON");
+  command->add_option("--c-header", options->c_header_file,
+                      "Model written as C header for a microcontroller, at the record's rate");
+  options->record.add_to(*command);
+  add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa identify bench.csv --column 'base_acceleration=ax[g]' -o bvrm.json\n"
+      "  vibrissa identify bench.csv --method srivc --hold first_order --c-header bvrm.h\n"
+      "  vibrissa identify modal_test.uff --frequency-response --response-as '2[mN mm/g]'\n"
+      "  vibrissa identify ring_down.csv --output-only");
+  command->callback([options] {
+    refuse_overwriting({options->record_file, options->held_out_file},
+                       {options->model_file, options->c_header_file});
+    if (!options->response_as.empty()) options->frequency_response = true;
+    if (options->output_only)
+      identify_from_output(*options);
+    else if (options->frequency_response)
+      identify_from_response(*options);
+    else
+      identify(*options);
+  });
+}
+
+}  // namespace vibrissa::apps

@@ -1,0 +1,267 @@
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/command_line/command.h"
+#include "apps/command_line/record_options.h"
+#include "apps/jobs/stream_separation.h"
+#include "diagnosis/model/updated_model_json.h"
+#include "diagnosis/prediction/record_simulation.h"
+#include "separation/filters/bvrm_separator.h"
+#include "separation/filters/fdaf.h"
+#include "separation/metrics/wind_speed.h"
+#include "separation/model/sampled_bvrm.h"
+#include "separation/stream_methods.h"
+#include "signals/base/error.h"
+#include "signals/base/is_constant.h"
+#include "signals/files/file_format.h"
+#include "signals/files/record_io.h"
+#include "signals/model/reduced_model.h"
+#include "signals/system/output_file.h"
+#include "views/separation_scores.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+struct SeparateOptions {
+  CommonOptions common;
+  RecordOptions record;
+  std::string record_file;
+  std::optional<std::string> model_file, truth_column, output_file, dtw_path_file;
+  std::optional<std::string> hold;
+  separation::FdafOptions fdaf = {64, 512, {}, {}, 0.};
+  std::vector<std::string> methods = {"fdaf"};
+  std::optional<std::string> sensor_model_file;
+  double moment_deviation_n_m = 1e-6;
+  double settling_s = 2.;
+  bool stream = false;
+};
+
+/// What is left of the measured moment when a mended model has foretold the part of the base.
+std::vector<double> separate_by_mended_model(const std::string& file,
+                                             const signals::Record& record) {
+  std::vector<double> wind =
+      diagnosis::simulate_vibration(diagnosis::read_mended_model(file), record);
+  const auto measured = record.channel(signals::channel::base_moment);
+  std::transform(measured.begin(), measured.end(), wind.begin(), wind.begin(), std::minus<>());
+  return wind;
+}
+
+/// The base acceleration between its samples as told, else as the model's fit took it.
+std::unique_ptr<separation::BvrmSeparator> bvrm_separator(const SeparateOptions& options,
+                                                          const double sampling_rate_hz) {
+  const separation::SampledBvrm bvrm = separation::read_bvrm(*options.model_file);
+  std::optional<separation::Hold> told;
+  if (options.hold) told = separation::parse_hold(*options.hold);
+  const separation::Hold hold = bvrm.hold_or(told);
+  if (bvrm.hold && hold != *bvrm.hold && !options.common.quiet)
+    std::cerr << "vibrissa: " << *options.model_file << " was fitted to a " << to_string(*bvrm.hold)
+              << " base acceleration, which --hold takes as " << to_string(hold) << "\n";
+  return std::make_unique<separation::BvrmSeparator>(bvrm.model, sampling_rate_hz, hold);
+}
+
+std::vector<views::SeparatedSignal> separate_all(const SeparateOptions& options,
+                                                 const signals::Record& record,
+                                                 const std::vector<double>& truth) {
+  const auto measured = record.channel(signals::channel::base_moment);
+  std::vector<views::SeparatedSignal> signals{views::score(
+      "nothing removed", {measured.begin(), measured.end()}, record, truth, options.settling_s)};
+  if (options.model_file && diagnosis::is_mended_model(*options.model_file)) {
+    signals.push_back(views::score("mended_model",
+                                   separate_by_mended_model(*options.model_file, record), record,
+                                   truth, options.settling_s));
+  } else if (options.model_file) {
+    const auto bvrm = bvrm_separator(options, record.sampling_rate_hz());
+    signals.push_back(views::score("bvrm", separation::separate_record(*bvrm, record), record,
+                                   truth, options.settling_s));
+  }
+  for (const auto& name : options.methods) {
+    const auto separator = separation::stream_method(name).make(options.fdaf);
+    signals.push_back(views::score(name, separation::separate_record(*separator, record), record,
+                                   truth, options.settling_s));
+  }
+  return signals;
+}
+
+signals::Record output_record(const signals::Record& record,
+                              const std::vector<views::SeparatedSignal>& signals) {
+  signals::Record output(record.sampling_rate_hz(), record.n_samples(), record.time_s(0));
+  for (const auto& name : record.channel_names()) {
+    const auto values = record.channel(name);
+    output.set_channel(name, {values.begin(), values.end()});
+  }
+  for (const auto& signal : signals) {
+    if (signal.name == "nothing removed") continue;
+    output.set_channel("wind_moment_" + signal.name + "_N_m", signal.wind_moment_n_m);
+  }
+  return output;
+}
+
+constexpr double fastest_wind_m_s = 30.;
+
+// Adds the speed of the wind and the ends of its interval for each method, by the sensor model's
+// steady drag.
+void add_wind_speeds(const SeparateOptions& options,
+                     const std::vector<views::SeparatedSignal>& signals, signals::Record& output) {
+  const auto model = signals::read_reduced_model(*options.sensor_model_file);
+  const separation::DragCalibration calibration(
+      [&model](const double speed) { return signals::steady_wind_moment(model, speed); },
+      fastest_wind_m_s);
+  for (const auto& signal : signals) {
+    if (signal.name == "nothing removed") continue;
+    std::vector<double> value, low, high;
+    for (const auto& speed : separation::wind_speed(calibration, signal.wind_moment_n_m,
+                                                    options.moment_deviation_n_m)) {
+      value.push_back(speed.value_m_s);
+      low.push_back(speed.low_m_s);
+      high.push_back(speed.high_m_s);
+    }
+    output.set_channel("wind_speed_" + signal.name + "_m_s", std::move(value));
+    output.set_channel("wind_speed_low_" + signal.name + "_m_s", std::move(low));
+    output.set_channel("wind_speed_high_" + signal.name + "_m_s", std::move(high));
+  }
+}
+
+void warn_of_dead_accelerometer(const signals::Record& record) {
+  if (!record.has(signals::channel::base_acceleration)) return;
+  const auto a = record.channel(signals::channel::base_acceleration);
+  if (signals::is_constant(a))
+    std::cerr << "warning: base_acceleration is " << a.front()
+              << " throughout: no vibration is taken off; is the accelerometer's column the right "
+                 "one?\n";
+}
+
+void separate_as_stream(const SeparateOptions& options) {
+  if (!options.output_file || options.truth_column || options.sensor_model_file)
+    throw signals::UserError(
+        "--stream writes wind moments as it reads (name the file: -o) and holds no record, which "
+        "--truth, --dtw-path and --sensor-model need");
+  if (signals::formats::extension_of(*options.output_file) != ".csv")
+    throw signals::UserError("--stream writes CSV: give -o a name that ends in .csv");
+  if (options.model_file && diagnosis::is_mended_model(*options.model_file))
+    throw signals::UserError(*options.model_file +
+                             ": a mended model is simulated whole: leave --stream out, or give a "
+                             "model of 'vibrissa identify'");
+  signals::RecordStream record(options.record_file, options.record.read_options());
+  std::vector<NamedSeparator> methods;
+  if (options.model_file)
+    methods.push_back({"bvrm", bvrm_separator(options, record.sampling_rate_hz())});
+  for (const auto& name : options.methods)
+    methods.push_back({name, separation::stream_method(name).make(options.fdaf)});
+  separate_stream(record, methods, *options.output_file, options.common.is_talkative());
+  if (options.common.json)
+    print_json({{"record", *options.output_file}, {"samples", record.n_samples()}});
+  else if (!options.common.quiet)
+    std::cout << "wrote " << *options.output_file << ": " << record.n_samples() << " samples\n";
+}
+
+void separate(const SeparateOptions& options) {
+  refuse_overwriting({options.record_file, options.model_file, options.sensor_model_file},
+                     {options.output_file, options.dtw_path_file});
+  if (options.stream) return separate_as_stream(options);
+  if (options.sensor_model_file && !options.output_file) {
+    throw signals::UserError("--sensor-model adds wind speeds to the output record: name it (-o)");
+  }
+  if (options.dtw_path_file && !options.truth_column) {
+    throw signals::UserError(
+        "--dtw-path lays estimates beside the true wind moment: name its "
+        "column (--truth)");
+  }
+  const signals::Record record = options.record.read(options.record_file);
+  warn_of_dead_accelerometer(record);
+  std::vector<double> truth;
+  if (options.truth_column) {
+    truth = options.record.read_column(options.record_file, *options.truth_column);
+  }
+  const auto signals = separate_all(options, record, truth);
+  if (options.dtw_path_file) {
+    const auto table = views::warping_table(signals, record, truth, options.settling_s);
+    signals::write_file(*options.dtw_path_file, [&](std::ostream& out) { out << table.to_csv(); });
+  }
+  if (options.output_file) {
+    signals::Record output = output_record(record, signals);
+    if (options.sensor_model_file) add_wind_speeds(options, signals, output);
+    signals::write_record(*options.output_file, output);
+  }
+  if (options.common.json) {
+    print_json(views::separation_json(signals));
+    return;
+  }
+  if (options.output_file && !options.common.quiet)
+    std::cout << written_record_text(*options.output_file, record);
+  const bool is_blind = !options.truth_column;
+  std::cout
+      << (is_blind ? views::blind_separation_table : views::separation_table)(signals).to_text();
+  if (!options.common.quiet)
+    std::cout << (is_blind ? views::blind_metric_notes : views::metric_notes)(options.settling_s)
+              << "\n";
+}
+
+}  // namespace
+
+void add_separate_command(CLI::App& app) {
+  const auto options = std::make_shared<SeparateOptions>();
+  auto* command = app.add_subcommand(
+      "separate", "Wind part of a record's base moment, by a BVRM and by an adaptive filter");
+  command
+      ->add_option("record", options->record_file, "Record with base acceleration and base moment")
+      ->required();
+  command->add_option(
+      "--model", options->model_file,
+      "BVRM as JSON, from 'vibrissa identify -o', or mended_model.json of a diagnosis (without it: "
+      "adaptive filter only)");
+  command->add_option("--hold", options->hold,
+                      "Base acceleration between samples: first_order, zero_order or band_limited "
+                      "(default: as the model was fitted, else first_order)");
+  std::string known;
+  for (const auto& method : separation::stream_methods())
+    known += "\n  " + method.name + ": " + method.about;
+  command
+      ->add_option("--method", options->methods,
+                   "Methods that need no model (may be repeated):" + known)
+      ->capture_default_str();
+  command->add_option(
+      "--sensor-model", options->sensor_model_file,
+      "model.json of a run: adds the wind speed, by its steady drag, to the output");
+  command
+      ->add_option("--moment-deviation", options->moment_deviation_n_m,
+                   "Standard deviation of the separated moment, for the speed's interval [N m]")
+      ->check(not_negative_number())
+      ->capture_default_str();
+  command->add_option("--truth", options->truth_column,
+                      "Column with the true wind moment [N m], for the scores");
+  command->add_option("--dtw-path", options->dtw_path_file,
+                      "CSV written: which time of each estimate the DTW score lays beside which "
+                      "of the truth");
+  command->add_option("-o,--output,--out", options->output_file,
+                      "Record written, with a wind moment for each method");
+  command
+      ->add_option("--block", options->fdaf.block_length, "Block of the adaptive filter [samples]")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command
+      ->add_option("--taps", options->fdaf.filter_length, "Length of the adaptive filter [samples]")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  command->add_option("--step", options->fdaf.step.step, "Step size mu of the adaptive filter")
+      ->capture_default_str();
+  command->add_option("--settling", options->settling_s, "Start left out of the scores [s]")
+      ->check(not_negative_number())
+      ->capture_default_str();
+  command->add_flag("--stream", options->stream,
+                    "For records of any length: reads and writes (-o, CSV) block by block, without "
+                    "scores");
+  options->record.add_to(*command);
+  add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa separate bench.csv --model bvrm.json -o wind.csv\n"
+      "  vibrissa separate bench.csv --method kalman --method fdaf --taps 400 -o wind.csv\n"
+      "  vibrissa separate long.csv --model bvrm.json --stream -o wind.csv");
+  command->callback([options] { separate(*options); });
+}
+
+}  // namespace vibrissa::apps

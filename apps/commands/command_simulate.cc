@@ -1,0 +1,115 @@
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/command_line/case_options.h"
+#include "apps/command_line/command.h"
+#include "apps/command_line/record_options.h"
+#include "case/inputs.h"
+#include "case/rig.h"
+#include "case/sensor_model.h"
+#include "diagnosis/model/updated_model_json.h"
+#include "diagnosis/prediction/record_simulation.h"
+#include "fem/linalg/processes.h"
+#include "fem/linalg/solver_session.h"
+#include "signals/base/error.h"
+#include "signals/files/record_io.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+struct SimulateOptions {
+  CommonOptions common;
+  CaseOptions chosen;
+  std::string record_file = "record.csv";
+  std::optional<std::string> model_file, input_file;
+  bool periodic = false;
+};
+
+/// The inputs of a record with the base moment that a mended model reads under them.
+signals::Record mended_record(const SimulateOptions& options) {
+  if (!options.chosen.is_plain() || options.model_file)
+    throw signals::UserError(
+        "a mended model is simulated under --inputs as it is: what changes a case file, and "
+        "--model, are not for it");
+  if (!options.input_file)
+    throw signals::UserError("--inputs: a mended model needs a record with its inputs");
+  signals::Record record = signals::read_record(*options.input_file);
+  record.set_channel(
+      signals::channel::base_moment,
+      diagnosis::simulate_moment(
+          diagnosis::read_mended_model(options.chosen.case_file), record,
+          options.periodic ? diagnosis::Start::periodic : diagnosis::Start::settled));
+  return record;
+}
+
+FileNames recordings_of(const sensor_case::Case& parameters) {
+  return {parameters.base.recorded.file.string(), parameters.wind_record.file.string()};
+}
+
+void report(const SimulateOptions& options, const signals::Record& record,
+            const std::string& solver) {
+  if (options.common.json) {
+    nlohmann::json document = written_record_json(options.record_file, record);
+    document["solver"] = solver;
+    print_json(document);
+  } else if (!options.common.quiet) {
+    std::cout << written_record_text(options.record_file, record);
+  }
+}
+
+void simulate(const SimulateOptions& options) {
+  const FileNames outputs = {options.record_file, options.model_file};
+  refuse_overwriting({options.chosen.case_file, options.input_file}, outputs);
+  if (diagnosis::is_mended_model(options.chosen.case_file)) {
+    if (!fem::is_first_process()) return;
+    const signals::Record record = mended_record(options);
+    signals::write_record(options.record_file, record);
+    report(options, record, "mended model");
+    return;
+  }
+  if (options.input_file)
+    throw signals::UserError("--inputs is for a mended model; a case file names its own inputs");
+  if (options.periodic)
+    throw signals::UserError("--periodic is for the --inputs of a mended model");
+  const sensor_case::Case parameters = options.chosen.load().read();
+  refuse_overwriting(recordings_of(parameters), outputs);
+  sensor_case::check_reduced_wind(parameters);
+  const sensor_case::Inputs inputs = sensor_case::make_inputs(parameters);
+  const fem::SolverSession session;
+  const fem::Sensor sensor(parameters.sensor);
+  const auto model =
+      sensor_case::make_reduced_model(sensor, parameters.sensor, !options.common.quiet);
+  const signals::Record record = sensor_case::measure_on_rig(model, parameters, inputs).both;
+  if (!fem::is_first_process()) return;
+  signals::write_record(options.record_file, record);
+  if (options.model_file) signals::write_reduced_model(*options.model_file, model);
+  report(options, record, "reduced");
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app) {
+  const auto options = std::make_shared<SimulateOptions>();
+  auto* command = app.add_subcommand(
+      "simulate", "Base-moment record of a sensor that is shaken and blown at, with noise");
+  options->chosen.add_to(*command);
+  command->add_option("-o,--output,--out,--record", options->record_file, "Record written")
+      ->capture_default_str();
+  command->add_option("--model", options->model_file, "Also write the reduced model (JSON)");
+  command->add_option("--inputs", options->input_file,
+                      "With a mended model (mended_model.json of a diagnosis) in place of the case "
+                      "file: record with its base acceleration and wind speed; no noise");
+  command->add_flag("--periodic", options->periodic,
+                    "These inputs are whole periods in steady state");
+  add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa simulate sensor.prm -o simulated.csv --model model.json\n"
+      "  vibrissa simulate sensor.prm --set 'Materials/Silicone/c1=2.4e5' -o softer.csv\n"
+      "  vibrissa simulate diagnosis/mended_model.json --inputs bench.csv -o mended.csv");
+  command->callback([options] { simulate(*options); });
+}
+
+}  // namespace vibrissa::apps

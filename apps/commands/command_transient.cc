@@ -1,0 +1,97 @@
+#include <iostream>
+#include <memory>
+
+#include "apps/command_line/command.h"
+#include "apps/jobs/transient_job.h"
+#include "report/figures/table.h"
+#include "signals/base/error.h"
+
+namespace vibrissa::apps {
+
+namespace {
+
+struct TransientCommandOptions {
+  CommonOptions common;
+  CaseOptions chosen;
+  std::optional<std::string> resumed_folder, strain;
+};
+
+void print_substeps(const nlohmann::json& substeps) {
+  std::cout << substeps["smallest"] << " to " << substeps["largest"] << " substeps a sample, "
+            << report::Cell(substeps["mean"].get<double>()).rounded(3)
+            << " in the mean; samples gone through anew: " << substeps["rejected_intervals"]
+            << "\n";
+  if (substeps["intervals_over_tolerance"] > 0)
+    std::cout << "Samples above Transient/Time tolerance at the most substeps: "
+              << substeps["intervals_over_tolerance"] << " (substeps.csv)\n";
+}
+
+void print_outcome(const TransientOutcome& outcome) {
+  const auto number = [&](const char* name) {
+    return report::Cell(outcome.summary[name].get<double>()).rounded(3);
+  };
+  std::cout << outcome.summary["samples"] << " samples, " << outcome.summary["unknowns"]
+            << " unknowns, " << outcome.summary["steps"] << " steps, "
+            << outcome.summary["iterations"] << " iterations, " << outcome.summary["factorisations"]
+            << " factorisations\nLargest base moment " << number("largest_base_moment_n_m")
+            << " N m; its two routes differ by " << number("two_moment_routes_relative_difference")
+            << " of it\n";
+  if (outcome.summary.contains("substeps")) print_substeps(outcome.summary["substeps"]);
+  if (outcome.summary.contains("energy_error_over_largest_work"))
+    std::cout << "Energy balance closes to " << number("energy_error_over_largest_work")
+              << " of the largest work\n";
+  std::cout << "Results: " << outcome.folder.string() << "\n";
+}
+
+TransientOutcome run(TransientCommandOptions& options) {
+  const bool show = options.common.is_talkative();
+  if (options.resumed_folder) {
+    if (!options.chosen.case_file.empty() || options.strain || !options.chosen.is_plain())
+      throw signals::UserError(
+          "--resume goes on with the folder's own case: give nothing beside it");
+    return resume_transient(*options.resumed_folder, show);
+  }
+  if (options.chosen.case_file.empty())
+    throw signals::UserError("name a case file (.prm), or a folder to go on with by --resume");
+  if (options.strain) options.chosen.settings.push_back("Transient/Strain=" + *options.strain);
+  return run_transient(options.chosen, given_command_line(), show);
+}
+
+void report_outcome(const TransientOutcome& outcome, const CommonOptions& common) {
+  const std::string folder = outcome.folder.string();
+  if (!outcome.is_done)
+    throw Interrupted("interrupted; go on with: vibrissa transient --resume '" + folder + "'");
+  if (common.json) {
+    auto document = outcome.summary;
+    document["folder"] = folder;
+    print_json(document);
+  } else {
+    print_outcome(outcome);
+  }
+}
+
+}  // namespace
+
+void add_transient_command(CLI::App& app) {
+  const auto options = std::make_shared<TransientCommandOptions>();
+  auto* command = app.add_subcommand(
+      "transient",
+      "The full-order solid through the case's record, at finite strain: base moment, energies, "
+      "fields; can be interrupted and gone on with");
+  options->chosen.add_to(*command);
+  options->chosen.add_folder_to(*command);
+  command->get_option("case")->required(false);
+  command->add_option("--strain", options->strain,
+                      "finite or small: as Transient/Strain of the case file");
+  command->add_option("--resume", options->resumed_folder,
+                      "Go on with the run in this folder from its checkpoint, in place of a case");
+  add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n"
+      "  vibrissa transient sensor.prm --duration 0.5 --output runs/finite\n"
+      "  vibrissa transient --resume runs/finite\n"
+      "  mpirun -np 2 vibrissa transient sensor.prm --strain small");
+  command->callback([options] { report_outcome(run(*options), options->common); });
+}
+
+}  // namespace vibrissa::apps

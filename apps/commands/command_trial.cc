@@ -1,0 +1,210 @@
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "apps/command_line/command.h"
+#include "apps/jobs/trial_programs.h"
+#include "report/files/child_process.h"
+#include "report/files/run_folder.h"
+#include "report/pictures.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
+#include "signals/system/progress.h"
+#include "trial/scoring/trial_files.h"
+#include "trial/scoring/trial_page.h"
+#include "trial/scoring/trial_run.h"
+#include "trial/scoring/trial_score.h"
+
+namespace vibrissa::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TrialCommand {
+  CommonOptions common;
+  fs::path folder;
+  std::size_t n_cases = 20, first = 0;
+  std::uint64_t seed = 1;
+  trial::TrialRunOptions run;
+  std::optional<fs::path> key, out;
+  std::size_t n_benches = 25;
+  bool as_built = false, finite_strain = false;
+  std::array<double, 4> asked{2., 9., 2., 1.};
+};
+
+/// Sensors that the generator has begun, in the folder that it will rename when it is done.
+std::size_t n_begun(const fs::path& folder) {
+  std::error_code none_yet;
+  std::size_t n = 0;
+  for (const auto& entry : fs::directory_iterator(folder.string() + ".making", none_yet))
+    n += entry.path().filename().string().starts_with("case") ? 1 : 0;
+  return n;
+}
+
+/// The generator is a program of its own: it shares no code with the diagnosis.
+void make(const TrialCommand& options) {
+  const fs::path generator = trial_program("generate_trial");
+  constexpr double a_day_s = 86400.;
+  signals::Progress progress("sensors", options.n_cases, options.common.is_talkative());
+  std::size_t n_shown = 0;
+  std::vector<std::string> words{generator.string(), std::to_string(options.seed),
+                                 std::to_string(options.first), std::to_string(options.n_cases),
+                                 options.folder.string()};
+  if (options.finite_strain) words.push_back("finite-strain");
+  const report::ChildResult child = report::run_child(words, a_day_s, [&] {
+    for (const std::size_t n = n_begun(options.folder); n_shown + 1 < n; ++n_shown)
+      progress.advance();
+  });
+  if (!child.succeeded())
+    throw signals::UserError("the generator " + child.what_happened() + ": " + child.output);
+  const trial::TrialIndex trial = trial::read_trial(options.folder);
+  if (options.common.json)
+    return print_json({{"folder", options.folder.string()},
+                       {"cases", trial.cases.size()},
+                       {"labels_commitment_sha256", trial.commitment}});
+  std::cout << trial.cases.size() << " sensors in " << options.folder.string()
+            << "; their labels are sealed, the key is " << options.folder.string()
+            << ".key.\nLabels are bound to (SHA-256, salted): " << trial.commitment << "\n";
+}
+
+void run(const TrialCommand& options) {
+  trial::TrialRunOptions settings = options.run;
+  settings.show_progress = options.common.is_talkative();
+  const trial::TrialRunSummary done = trial::run_trial(options.folder, settings);
+  if (!done.is_first_rank) return;
+  if (options.common.json)
+    return print_json({{"answered", done.answered},
+                       {"refused", done.refused},
+                       {"failed", done.failed},
+                       {"there_before", done.there_before}});
+  if (!options.common.quiet)
+    std::cout << done.answered << " answered, " << done.refused << " refused, " << done.failed
+              << " failed, " << done.there_before << " were there before\n";
+}
+
+void score(const TrialCommand& options) {
+  const trial::TrialIndex trial = trial::read_trial(options.folder);
+  const fs::path key = options.key.value_or(fs::path(options.folder.string() + ".key"));
+  const trial::TrialScore score = trial::score_trial(trial, trial::open_labels(trial, key));
+  if (options.common.json) return print_json(to_json(score));
+  std::cout << "Labels open and are those that were bound to " << trial.commitment << ".\n\n"
+            << trial::summary_table(score).to_text() << "\nWrong answers\n"
+            << trial::confusion_table(score).to_text();
+  if (score.unanswered > 0)
+    std::cout << score.unanswered << " cases have no answer yet: vibrissa trial run "
+              << options.folder.string() << "\n";
+  const auto folder = report::RunFolder::given_or_free(options.out, options.folder / "score");
+  folder.write_run({.command_line = given_command_line()});
+  folder.write_text("score.json", to_json(score).dump(1) + "\n");
+  folder.write_text("cases.csv", trial::case_table(score).to_csv());
+  folder.write_text("summary.csv", trial::summary_table(score).to_csv());
+  folder.write_text("confusion.csv", trial::confusion_table(score).to_csv());
+  for (const report::Figure& figure : trial::trial_figures(score))
+    report::write_figure(folder.path(), figure);
+  const auto pictures = report::draw_pictures(folder.path());
+  report::write_page(folder.path(), trial::trial_page(score, trial.commitment));
+  std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
+}
+
+void observe(const TrialCommand& options) {
+  std::vector<std::string> words{"--benches", std::to_string(options.n_benches), "--seed",
+                                 std::to_string(options.seed), "--asked"};
+  for (const double share : options.asked) words.push_back(signals::to_text(share));
+  if (options.as_built) words.push_back("--as-built");
+  if (options.run.further) words.push_back("--further");
+  if (options.common.json) words.push_back("--json");
+  if (options.common.quiet) words.push_back("--quiet");
+  become_trial_program("observe_trial", words);
+}
+
+void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
+  auto* command = trial.add_subcommand("make", "Write records of sensors whose effect is sealed");
+  command->add_option("--cases", options->n_cases, "How many")
+      ->check(positive_number())
+      ->capture_default_str();
+  command->add_option("--first", options->first, "Number of the first, to go on with a seed")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "All sensors follow from it")->capture_default_str();
+  command->add_option("-o,--out,--output", options->folder, "New folder")->required();
+  command->add_flag("--finite-strain", options->finite_strain,
+                    "Sensors that are the whole solid at finite strain in place of its modes: "
+                    "fewer effects, and a quarter of an hour each");
+  add_common_options(*command, options->common);
+  command->footer("Example:\n  vibrissa trial make --cases 40 --seed 5 --out trial5");
+  command->callback([options] { make(*options); });
+}
+
+void add_run(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
+  auto* command = trial.add_subcommand(
+      "run", "Diagnose what has no answer yet; under mpirun all ranks take from one queue");
+  command->add_option("folder", options->folder, "The trial")->required();
+  command->add_option("--max-effects", options->run.max_effects, "Most effects that are combined")
+      ->check(CLI::Range(1, 5))
+      ->capture_default_str();
+  command->add_flag("--further", options->run.further,
+                    "Where answers are left, do the recommended experiment, and one by chance");
+  command->add_option("--threads", options->run.n_threads, "Of each rank")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->footer(
+      "Examples:\n  vibrissa trial run trial5\n"
+      "  mpirun -np 2 vibrissa trial run trial5 --threads 1");
+  command->callback([options] { run(*options); });
+}
+
+void add_score(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
+  auto* command = trial.add_subcommand("score", "Open the labels and compare");
+  command->add_option("folder", options->folder, "The trial")->required();
+  command->add_option("--key", options->key, "Key of the labels; else FOLDER.key");
+  command->add_option("-o,--out,--output", options->out,
+                      "New folder for tables and pictures; else FOLDER/score");
+  add_common_options(*command, options->common);
+  command->footer("Example:\n  vibrissa trial score trial5 --out score5");
+  command->callback([options] { score(*options); });
+}
+
+void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
+  auto* command = trial.add_subcommand(
+      "observe",
+      "How often could anyone be right? Asks who knows the form of every effect and the bench");
+  command->add_option("--benches", options->n_benches, "How many, of 22 sensors each")
+      ->check(positive_number())
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "All sensors follow from it")->capture_default_str();
+  auto* as_built =
+      command->add_flag("--as-built", options->as_built,
+                        "Every sensor is a little off in modulus, damping, gain and drag");
+  command
+      ->add_flag("--further", options->run.further,
+                 "Where answers are left, do each further experiment; not with --as-built")
+      ->excludes(as_built);
+  command
+      ->add_option("--asked", options->asked,
+                   "How often none, one, two and three effects are asked, to each other; 0: never")
+      ->check(CLI::Range(0., 1e6))
+      ->capture_default_str();
+  add_common_options(*command, options->common);
+  command->footer("Example:\n  vibrissa trial observe --benches 5 --as-built");
+  command->callback([options] { observe(*options); });
+}
+
+}  // namespace
+
+void add_trial_command(CLI::App& app) {
+  const auto options = std::make_shared<TrialCommand>();
+  auto* command = app.add_subcommand(
+      "trial", "Blind trials: how often diagnoses are right about sensors whose effect is sealed");
+  command->require_subcommand(1);
+  add_make(*command, options);
+  add_run(*command, options);
+  add_score(*command, options);
+  add_observe(*command, options);
+  command->footer(
+      "Example:\n  vibrissa trial make --cases 40 --seed 5 --out trial5\n"
+      "  mpirun -np 2 vibrissa trial run trial5 --threads 1\n  vibrissa trial score trial5\n"
+      "  vibrissa trial observe --as-built");
+}
+
+}  // namespace vibrissa::apps

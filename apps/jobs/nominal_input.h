@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "diagnosis/model/updated_model.h"
+#include "signals/files/dataset.h"
+#include "signals/model/reduced_model.h"
+
+namespace vibrissa::apps {
+
+/// How a command takes the simulation: as a model or as records.
+struct NominalInput {
+  std::optional<std::string> model, simulation;
+
+  /// The simulation and its records, none when it is a model. Throws UserError unless one of the
+  /// two is given, and what their readers throw.
+  struct Simulation {
+    diagnosis::MendedModel model;
+    signals::Dataset dataset;
+    /// Of the first record; 0: none.
+    double sampling_rate_hz() const;
+  };
+  Simulation read(bool show_progress) const;
+  /// What read() does first.
+  void check_one_is_given() const;
+  /// The model alone, which must be a case file or a reduced model.
+  signals::ReducedModel read_model(bool show_progress) const;
+};
+
+}  // namespace vibrissa::apps

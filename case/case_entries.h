@@ -1,0 +1,14 @@
+#pragma once
+
+#include <deal.II/base/parameter_handler.h>
+
+#include "case/case_file.h"
+
+namespace vibrissa::sensor_case {
+
+/// Declares every entry of a case file, with units and ranges.
+void declare_case(dealii::ParameterHandler& prm);
+/// The values of the entries; throws UserError when values contradict each other.
+Case parse_case(dealii::ParameterHandler& prm);
+
+}  // namespace vibrissa::sensor_case

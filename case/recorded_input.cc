@@ -1,0 +1,37 @@
+#include "case/recorded_input.h"
+
+#include "signals/base/error.h"
+#include "signals/files/record_io.h"
+#include "signals/spectra/resample.h"
+
+namespace vibrissa::sensor_case {
+
+std::vector<double> load_input(const RecordedInput& input, const std::string& channel,
+                               const double sampling_rate_hz, const std::size_t n_samples) {
+  signals::ReadOptions options;
+  options.columns = {signals::parse_column_choice(channel + "=" +
+                                                  (input.column.empty() ? channel : input.column))};
+  options.columns.front().scale *= input.scale;
+  options.columns.front().offset *= input.scale;
+  options.sampling_rate_hz = input.sampling_rate_hz;
+  options.first_row = input.first_row;
+  options.n_rows = input.n_rows;
+  const signals::Record record = signals::read_record(input.file, options);
+  const auto values = record.channel(channel);
+  std::vector<double> samples(values.begin(), values.end());
+  if (input.remove_mean) samples = signals::remove_mean(samples);
+  if (input.range)
+    samples = signals::scale_to_range(samples, input.range->first, input.range->second);
+  samples = signals::resample(samples, record.sampling_rate_hz(), sampling_rate_hz);
+  if (n_samples == 0) return samples;
+  if (samples.size() < n_samples) {
+    throw signals::UserError(input.file.string() + ": holds " + std::to_string(samples.size()) +
+                             " samples at " + std::to_string(sampling_rate_hz) + " Hz, but " +
+                             std::to_string(n_samples) +
+                             " are needed; shorten Records/Duration or take more rows");
+  }
+  samples.resize(n_samples);
+  return samples;
+}
+
+}  // namespace vibrissa::sensor_case

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "case/case_file.h"
+#include "case/inputs.h"
+#include "signals/model/reduced_model.h"
+#include "signals/record/record.h"
+
+namespace vibrissa::sensor_case {
+
+/// The records that a rig with this sensor would write, and the truth behind them.
+struct RigRecords {
+  signals::Record vibration_only, wind_only, both;  // as measured, with noise when asked for
+  std::vector<double> true_vibration_moment_n_m;    // M_b
+  std::vector<double> true_wind_moment_n_m;         // M_s
+};
+
+/// Throws UserError when the case asks for drag of relative velocity, which no reduced model has.
+void check_reduced_wind(const Case& parameters);
+
+/// Passes base motion, wind and both through the measuring chain of the case (signals/
+/// measuring_chain.h); each record has noise of its own.
+RigRecords measure_on_rig(const signals::ReducedModel& model, const Case& parameters,
+                          const Inputs& inputs);
+
+}  // namespace vibrissa::sensor_case

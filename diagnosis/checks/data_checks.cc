@@ -1,0 +1,200 @@
+#include "diagnosis/checks/data_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnosis/checks/dead_channels.h"
+#include "diagnosis/checks/period_check.h"
+#include "diagnosis/checks/response_checks.h"
+#include "diagnosis/model/words.h"
+#include "diagnosis/records/experiment.h"
+#include "diagnosis/records/level.h"
+#include "diagnosis/records/repeated_samples.h"
+#include "signals/base/number_text.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using signals::DatasetRecord;
+namespace channel = signals::channel;
+
+/// How often a channel takes its extreme value when that is a stop: more often than the value next
+/// to it, which the steps of a converter would fill as well.
+std::size_t samples_at_stop(std::span<const double> x, double side) {
+  std::map<double, std::size_t> counts;
+  for (const double v : x) ++counts[-side * v];  // extreme first
+  constexpr std::size_t fewest_values = 9, fewest_samples = 6;
+  if (counts.size() < fewest_values) return 0;
+  const std::size_t extreme = counts.begin()->second, next = std::next(counts.begin())->second;
+  return extreme >= fewest_samples && extreme > 3 * next ? extreme : 0;
+}
+
+void check_clipping(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  for (const std::string& name :
+       {channel::base_acceleration, channel::base_moment, channel::wind_speed}) {
+    if (!entry.record.has(name)) continue;
+    const auto x = entry.record.channel(name);
+    std::size_t n = samples_at_stop(x, 1.);
+    // Calm is a natural lower stop of wind.
+    if (name != channel::wind_speed) n += samples_at_stop(x, -1.);
+    if (n > 0)
+      findings.push_back({FindingKind::clipped_channel, entry.name,
+                          name + " is clipped: " + std::to_string(n) +
+                              " samples stand at its extremes; measure at a lower level or range"});
+  }
+}
+
+void check_repeats(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  const auto check = [&](const std::string& name, bool moves) {
+    if (!moves || !entry.record.has(name) || !is_polled(entry.record.channel(name))) return;
+    findings.push_back({FindingKind::repeated_samples, entry.name,
+                        three_digits(100. * repeat_share(entry.record.channel(name))) +
+                            " % of the samples of " + name +
+                            " equal the one before: it is polled faster than it is renewed"});
+  };
+  check(channel::base_acceleration, entry.excitation.base);
+  check(channel::base_moment, entry.excitation.base || entry.excitation.wind);
+}
+
+void check_channels(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  if (entry.excitation.wind && !entry.record.has(channel::wind_speed))
+    findings.push_back({FindingKind::missing_wind, entry.name,
+                        "wind acts but wind_speed_m_s is missing: the record cannot be used, and "
+                        "effects of wind cannot be told from it"});
+  if (entry.excitation.base && !entry.record.has(channel::base_acceleration))
+    findings.push_back({FindingKind::missing_acceleration, entry.name,
+                        "the base moves but base_acceleration_m_s2 is missing: the record cannot "
+                        "be used"});
+}
+
+void check_axes(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  if (!entry.excitation.base || !entry.record.has(channel::base_acceleration) ||
+      !entry.record.has(channel::cross_acceleration))
+    return;
+  const double axial = rms_about_mean(entry.record.channel(channel::base_acceleration)),
+               cross = rms_about_mean(entry.record.channel(channel::cross_acceleration));
+  // A stage that is meant to move along one axis does not move thrice as much across it.
+  constexpr double too_much = 3.;
+  if (cross > too_much * axial && axial > 0.)
+    findings.push_back({FindingKind::swapped_columns, entry.name,
+                        "cross_acceleration_m_s2 is " + three_digits(cross / axial) +
+                            " times base_acceleration_m_s2 (rms): the columns seem exchanged"});
+}
+
+void check_length(const NominalModel& nominal, const DatasetRecord& entry,
+                  std::vector<Finding>& findings) {
+  const std::size_t n = entry.record.n_samples(), fewest = fewest_samples(nominal, entry);
+  if (n < fewest)
+    findings.push_back({FindingKind::too_short, entry.name,
+                        std::to_string(n) +
+                            " samples are too few: the first hold the decay of "
+                            "an unknown start; at least " +
+                            std::to_string(fewest) +
+                            " are needed, or whole periods in steady "
+                            "state (period_samples). It is left out"});
+}
+
+void check_setup(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  if (!is_simulated(entry.setup))
+    findings.push_back({FindingKind::unsimulated_setup, entry.name,
+                        to_string(entry.setup) +
+                            ": neither the sensor's moment of inertia nor the coil's force is "
+                            "known, so this cannot be simulated. It is left out"});
+}
+
+/// One finding a rate.
+void check_rates(const signals::Dataset& real, double simulated_rate_hz,
+                 std::vector<Finding>& findings) {
+  std::map<double, std::vector<std::string>> by_rate;
+  for (const DatasetRecord& entry : real.records)
+    by_rate[entry.record.sampling_rate_hz()].push_back(entry.name);
+  for (const auto& [rate_hz, names] : by_rate)
+    if (simulated_rate_hz > 0. && std::abs(rate_hz / simulated_rate_hz - 1.) > 1e-3)
+      findings.push_back({FindingKind::different_rate,
+                          by_rate.size() > 1 ? joined(names, ", ") : "",
+                          "sampled at " + signals::to_text(rate_hz) + " Hz, the simulation at " +
+                              signals::to_text(simulated_rate_hz) +
+                              " Hz: compared in continuous frequency, which is sound below both "
+                              "halves"});
+}
+
+/// What the fit records hold that can be compared with the simulation.
+struct Holdings {
+  bool quiet = false, base = false, wind = false, held_out = false;
+  std::vector<double> levels{};  // of base motion, rms, m/s^2
+};
+
+Holdings holdings_of(const NominalModel& nominal, const signals::Dataset& real) {
+  Holdings out;
+  for (const DatasetRecord& entry : real.records) {
+    if (!is_comparable(nominal, entry)) continue;
+    if (entry.split == signals::Split::held_out) {
+      out.held_out |= entry.excitation != signals::Excitation{};
+      continue;
+    }
+    out.quiet |= entry.excitation == signals::Excitation{};
+    out.base |= entry.excitation.base;
+    out.wind |= entry.excitation.wind;
+    if (entry.excitation.base)
+      out.levels.push_back(rms_about_mean(entry.record.channel(channel::base_acceleration)));
+  }
+  return out;
+}
+
+bool has_one_level(const std::vector<double>& levels) {
+  if (levels.empty()) return false;
+  constexpr double distinct = 1.3;
+  return *std::max_element(levels.begin(), levels.end()) <
+         distinct * *std::min_element(levels.begin(), levels.end());
+}
+
+void check_what_is_there(const NominalModel& nominal, const signals::Dataset& real,
+                         std::vector<Finding>& findings) {
+  const Holdings there = holdings_of(nominal, real);
+  const auto add = [&](bool missing, FindingKind kind, const std::string& message) {
+    if (missing) findings.push_back({kind, "", message});
+  };
+  add(!there.quiet, FindingKind::no_quiet_record,
+      "no fit record at rest: drift, hum and the noise of both channels cannot be told from what "
+      "motion brings");
+  add(!there.held_out, FindingKind::no_held_out,
+      "no usable held_out record: how far the gap closes cannot be scored");
+  add(nominal.has_base && !there.base, FindingKind::no_base_motion,
+      "no usable fit record with base motion: sensor_gain and drag_error cannot be told from one "
+      "another, and effects of the base not at all");
+  add(nominal.has_wind && !there.wind, FindingKind::no_wind,
+      "no usable fit record with wind: sensor_gain and reference_gain cannot be told from one "
+      "another, and effects of wind not at all");
+  add(has_one_level(there.levels), FindingKind::one_level,
+      "base motion at one level only: hardening < 0, softening_history and joint_friction cannot "
+      "be told from one another, and what depends on level hardly from what does not");
+}
+
+}  // namespace
+
+std::vector<Finding> check_data(const NominalModel& nominal, const signals::Dataset& real,
+                                const double simulated_rate_hz) {
+  std::vector<Finding> findings;
+  const double acceleration_noise = channel_noise(real).acceleration_m_s2;
+  for (const DatasetRecord& entry : real.records) {
+    check_channels(entry, findings);
+    check_setup(entry, findings);
+    // A clamped stage does not move, and a sensor without its magnet reads nothing.
+    if (entry.setup.stage == signals::Stage::clamped) continue;
+    check_dead_channels(entry, findings);
+    check_axes(entry, findings);
+    check_period(entry, findings);
+    check_length(nominal, entry, findings);
+    check_clipping(entry, findings);
+    check_repeats(entry, findings);
+    if (entry.setup == signals::BenchSetup{})
+      check_response(nominal, entry, acceleration_noise, findings);
+  }
+  check_rates(real, simulated_rate_hz, findings);
+  check_rest(real, findings);
+  check_what_is_there(nominal, real, findings);
+  return findings;
+}
+
+}  // namespace vibrissa::diagnosis

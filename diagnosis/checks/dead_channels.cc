@@ -1,0 +1,159 @@
+#include "diagnosis/checks/dead_channels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/model/words.h"
+#include "diagnosis/records/level.h"
+#include "diagnosis/records/spectrum.h"
+#include "signals/base/is_constant.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using signals::DatasetRecord;
+using signals::is_constant;
+namespace channel = signals::channel;
+
+std::string hint(const DatasetRecord& entry, const std::string& name) {
+  const bool exchanged = name == channel::base_acceleration && !entry.excitation.wind &&
+                         entry.record.has(channel::wind_speed) &&
+                         !is_constant(entry.record.channel(channel::wind_speed));
+  return exchanged ? ", and wind_speed_m_s moves instead: are the columns exchanged?" : "";
+}
+
+void check_constant(const DatasetRecord& entry, const std::string& name,
+                    std::vector<Finding>& findings) {
+  if (!entry.record.has(name)) return;
+  const auto x = entry.record.channel(name);
+  if (!is_constant(x)) return;
+  if (name == channel::wind_speed && x.front() != 0.) {
+    findings.push_back({FindingKind::steady_wind, entry.name,
+                        "wind_speed_m_s is " + three_digits(x.front()) +
+                            " throughout: what wind does over time cannot be told from it"});
+    return;
+  }
+  findings.push_back({FindingKind::constant_channel, entry.name,
+                      name + " is " + three_digits(x.front() + 0.) +  // no minus zero
+                          " throughout though excitation is " + to_string(entry.excitation) +
+                          hint(entry, name) + "; mend the record or take it out of dataset.json"});
+}
+
+/// A stretch of equal samples.
+struct Run {
+  std::size_t first = 0, count = 0;
+};
+
+/// The longest stretch in which x stands still and y does not. Extremes are a clipped channel's,
+/// and steps of a converter are coarse beside what moves within a few samples.
+Run longest_run(std::span<const double> x, std::span<const double> y) {
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  Run longest;
+  for (std::size_t first = 0; first < x.size();) {
+    std::size_t end = first + 1;
+    while (end < x.size() && x[end] == x[first]) ++end;
+    const bool extreme = x[first] == *low || x[first] == *high;
+    if (!extreme && end - first > longest.count && !is_constant(y.subspan(first, end - first)))
+      longest = {first, end - first};
+    first = end;
+  }
+  return longest;
+}
+
+void check_stuck(const DatasetRecord& entry, const std::string& name, const std::string& mover,
+                 std::vector<Finding>& findings) {
+  if (!entry.record.has(name) || !entry.record.has(mover)) return;
+  const auto x = entry.record.channel(name), y = entry.record.channel(mover);
+  // A channel that is polled ten times too fast repeats ten times; a lost one stands for longer.
+  constexpr std::size_t fewest_samples = 32;
+  const Run run = longest_run(x, y);
+  if (run.count < fewest_samples) return;
+  std::vector<double> values(x.begin(), x.end());
+  std::sort(values.begin(), values.end());
+  const auto n_values =
+      static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
+  // Of a converter with few steps any of them may last.
+  if (n_values < x.size() / 8) return;
+  findings.push_back({FindingKind::stuck_channel, entry.name,
+                      name + " stands at " + three_digits(x[run.first]) + " for " +
+                          std::to_string(run.count) + " samples from " +
+                          three_digits(entry.record.time_s(run.first)) + " s on while " + mover +
+                          " moves: samples were lost; use the part before or after"});
+}
+
+/// A moment rings on after a blow: one sample far above both of its neighbours is none of it.
+void check_spikes(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  const auto x = entry.record.channel(channel::base_moment);
+  std::vector<double> sizes(x.begin(), x.end());
+  for (double& v : sizes) v = std::abs(v);
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  constexpr double above_all = 30., above_neighbours = 10.;
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+    const double size = std::abs(x[i]);
+    if (!(size > above_all * *middle) || *middle == 0.) continue;
+    if (size < above_neighbours * std::max(std::abs(x[i - 1]), std::abs(x[i + 1]))) continue;
+    findings.push_back({FindingKind::spike, entry.name,
+                        "base_moment_N_m jumps to " + three_digits(x[i]) + " for one sample at " +
+                            three_digits(entry.record.time_s(i)) +
+                            " s, far above its neighbours: a fault of the recording; use the part "
+                            "before or after"});
+    return;
+  }
+}
+
+}  // namespace
+
+void check_dead_channels(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  if (entry.excitation.base) {
+    check_constant(entry, channel::base_acceleration, findings);
+    check_stuck(entry, channel::base_acceleration, channel::base_moment, findings);
+    check_stuck(entry, channel::base_moment, channel::base_acceleration, findings);
+  }
+  if (entry.excitation.wind) check_constant(entry, channel::wind_speed, findings);
+  if (entry.excitation.base || entry.excitation.wind)
+    check_constant(entry, channel::base_moment, findings);
+  check_spikes(entry, findings);
+}
+
+namespace {
+
+bool is_coloured(std::span<const double> x) {
+  constexpr double coloured = 5.;
+  const std::vector<Complex> lines = spectrum_of(x);
+  return colour(powers({lines.begin() + 1, lines.end()})) > coloured;
+}
+
+bool is_driven(const DatasetRecord& entry) {
+  return entry.excitation.base && entry.record.has(channel::base_acceleration);
+}
+
+double least_level(const signals::Dataset& dataset, const std::string& name) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const DatasetRecord& entry : dataset.records)
+    if (is_driven(entry)) least = std::min(least, rms_about_mean(entry.record.channel(name)));
+  return least;
+}
+
+}  // namespace
+
+void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings) {
+  constexpr double much = 0.5;
+  const double acceleration = least_level(dataset, channel::base_acceleration),
+               moment = least_level(dataset, channel::base_moment);
+  for (const DatasetRecord& entry : dataset.records) {
+    if (entry.excitation != signals::Excitation{} || !entry.record.has(channel::base_acceleration))
+      continue;
+    const auto a = entry.record.channel(channel::base_acceleration);
+    if (rms_about_mean(a) > much * acceleration && is_coloured(a) &&
+        rms_about_mean(entry.record.channel(channel::base_moment)) > much * moment)
+      findings.push_back({FindingKind::moves_at_rest, entry.name,
+                          "excitation is none but the base moves at " +
+                              three_digits(rms_about_mean(a)) +
+                              " m/s^2 rms and the moment with it: noise cannot be taken from it; "
+                              "correct its excitation in dataset.json"});
+  }
+}
+
+}  // namespace vibrissa::diagnosis

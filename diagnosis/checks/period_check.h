@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/checks/finding.h"
+#include "signals/files/dataset.h"
+
+namespace vibrissa::diagnosis {
+
+/// Does the acceleration repeat after period_samples? Its tones must lie on multiples of the
+/// period's line. Proven by tests/diagnosis/checks/period_check_test.cc.
+void check_period(const signals::DatasetRecord& entry, std::vector<Finding>& findings);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,289 @@
+#include "diagnosis/checks/response_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "diagnosis/model/words.h"
+#include "diagnosis/records/experiment.h"
+#include "diagnosis/records/spectrum.h"
+#include "signals/base/number_text.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using signals::DatasetRecord;
+namespace channel = signals::channel;
+
+/// Measured over nominal response at lines where the nominal one is not faint.
+struct Ratio {
+  double median = 1.;
+  double spread = 0.;    // between quartiles of its logarithm
+  double likeness = 0.;  // normalized product of both: -1 for an opposite sign
+};
+
+double lowest_mode_hz(const NominalModel& nominal) {
+  double lowest = 0.;
+  for (const StructuralMode& mode : nominal.modes)
+    if (lowest == 0. || mode.frequency_rad_s < lowest) lowest = mode.frequency_rad_s;
+  return lowest / (2. * std::numbers::pi);
+}
+
+/// Spectrum of what a path makes of its input.
+std::vector<Complex> driven(std::span<const double> input, double rate_hz,
+                            const std::function<Complex(Complex)>& response) {
+  std::vector<Complex> out = spectrum_of(input);
+  const double line_rad_s = 2. * std::numbers::pi * rate_hz / static_cast<double>(input.size());
+  for (std::size_t k = 0; k < out.size(); ++k)
+    out[k] *= response({0., line_rad_s * static_cast<double>(k)});
+  return out;
+}
+
+std::vector<Complex> base_driven(const NominalModel& nominal, const DatasetRecord& entry,
+                                 const std::string& input) {
+  return driven(entry.record.channel(input), entry.record.sampling_rate_hz(),
+                [&](Complex s) { return nominal.base_response(s); });
+}
+
+std::vector<Complex> wind_driven(const NominalModel& nominal, const DatasetRecord& entry) {
+  const auto u = entry.record.channel(channel::wind_speed);
+  std::vector<double> force(u.begin(), u.end());
+  for (double& value : force) value *= std::abs(value);
+  return driven(force, entry.record.sampling_rate_hz(),
+                [&](Complex s) { return nominal.wind_response(s); });
+}
+
+class ResponseRatio {
+ public:
+  ResponseRatio(std::vector<Complex> predicted, const DatasetRecord& entry,
+                const std::string& output = channel::base_moment)
+      : measured_(spectrum_of(entry.record.channel(output))),
+        predicted_(std::move(predicted)),
+        line_hz_(entry.record.sampling_rate_hz() / static_cast<double>(entry.record.n_samples())) {
+    for (std::size_t k = 1; k + 1 < predicted_.size(); ++k)
+      largest_ = std::max(largest_, std::abs(predicted_[k]));
+  }
+
+  /// Of the lines up to a frequency that are not faint among themselves, nor beside all lines, for
+  /// then they are what noise predicts; nor faint as measured, for then an accelerometer that is
+  /// polled has its images there. Nothing: fewer lines than these.
+  std::optional<Ratio> up_to(double highest_hz, std::size_t fewest_lines) const {
+    const double last = std::min(highest_hz / line_hz_, static_cast<double>(measured_.size() - 2));
+    double largest = 0., largest_measured = 0., product = 0., measured = 0., predicted = 0.;
+    for (std::size_t k = 1; static_cast<double>(k) <= last; ++k) {
+      largest = std::max(largest, std::abs(predicted_[k]));
+      largest_measured = std::max(largest_measured, std::abs(measured_[k]));
+    }
+    const double least = std::max(0.1 * largest, 0.02 * largest_);
+    const double least_measured = 0.05 * largest_measured;
+    std::vector<double> logs;
+    for (std::size_t k = 1; static_cast<double>(k) <= last; ++k) {
+      if (!(std::abs(predicted_[k]) > least && std::abs(measured_[k]) > least_measured)) continue;
+      logs.push_back(std::log(std::abs(measured_[k] / predicted_[k])));
+      product += (measured_[k] * std::conj(predicted_[k])).real();
+      measured += std::norm(measured_[k]);
+      predicted += std::norm(predicted_[k]);
+    }
+    if (logs.size() < fewest_lines) return std::nullopt;
+    std::sort(logs.begin(), logs.end());
+    const std::size_t n = logs.size();
+    return Ratio{std::exp(logs[n / 2]), logs[3 * n / 4] - logs[n / 4],
+                 product / std::sqrt(measured * predicted)};
+  }
+
+ private:
+  std::vector<Complex> measured_, predicted_;
+  double line_hz_ = 1., largest_ = 0.;
+};
+
+/// Both as far as the records tell them.
+struct Ratios {
+  std::optional<Ratio> all, slow;
+  /// A mode that has moved changes the response about it tenfold, but not well below it.
+  double factor() const { return slow ? slow->median : all->median; }
+};
+
+Ratios ratios_of(const NominalModel& nominal, const ResponseRatio& lines) {
+  // A silicone of a third of its stiffness still has its mode above this.
+  constexpr double slow = 0.4;
+  constexpr std::size_t fewest_slow_lines = 4;
+  return {lines.up_to(std::numeric_limits<double>::infinity(), 1),
+          lines.up_to(slow * lowest_mode_hz(nominal), fewest_slow_lines)};
+}
+
+/// A factor of the response that a wrong unit gives.
+struct UnitMistake {
+  double factor;
+  const char* message;
+};
+
+bool near(double factor, double expected) {
+  // Twice the spread of what a built sensor's gain is off by, and half the way between units.
+  constexpr double tolerance = 1.6;
+  return factor > expected / tolerance && factor < expected * tolerance;
+}
+
+void check_factor(double factor, const std::string& record, const std::string& columns,
+                  const std::vector<UnitMistake>& mistakes, std::vector<Finding>& findings) {
+  const std::string how_much =
+      "the measured response is " + three_digits(factor) + " times the simulated one: ";
+  for (const UnitMistake& mistake : mistakes)
+    if (near(factor, mistake.factor)) {
+      findings.push_back({FindingKind::wrong_unit, record, how_much + mistake.message});
+      return;
+    }
+  // Beyond the ranges of all effects together.
+  constexpr double implausible = 30.;
+  if (factor > implausible || factor < 1. / implausible)
+    findings.push_back({FindingKind::wrong_unit, record,
+                        how_much + "no sensor is off by that; check the units of " + columns +
+                            " and that every channel was connected"});
+}
+
+/// Well below its resonance a sensor's moment is that of its mass, whatever its stiffness.
+void check_gain(const Ratios& ratios, const std::string& record, std::vector<Finding>& findings) {
+  if (!ratios.slow || near(ratios.slow->median, 1.)) return;
+  findings.push_back({FindingKind::unlikely_gain, record,
+                      "well below the first mode the measured response is " +
+                          three_digits(ratios.slow->median) +
+                          " times the simulated one, more than built sensors differ: check the "
+                          "factor from the sensor's reading to base_moment before any physics"});
+}
+
+void check_sign(const Ratios& ratios, const std::string& record, const std::string& message,
+                std::vector<Finding>& findings) {
+  constexpr double opposite = -0.9;
+  if (ratios.slow && ratios.slow->likeness < opposite)
+    findings.push_back({FindingKind::reversed_sign, record, message});
+}
+
+const std::vector<UnitMistake>& mistakes_of_base() {
+  static const std::vector<UnitMistake> mistakes{
+      {9.80665,
+       "base_acceleration_m_s2 seems to be in g; multiply it by 9.80665 (or --column "
+       "'base_acceleration=COLUMN[g]')"},
+      {9.80665e-3, "base_acceleration_m_s2 seems to be in milli-g; multiply it by 9.80665e-3"},
+      {1e-3, "base_acceleration_m_s2 seems to be in mm/s^2; multiply it by 1e-3"},
+      {1e3, "base_moment_N_m seems to be in N mm; multiply it by 1e-3"},
+      {1e6, "base_moment_N_m seems to be in mN mm; multiply it by 1e-6"},
+      {9.80665e3, "base_acceleration_m_s2 seems to be in g and base_moment_N_m in N mm"},
+      {9.80665e6, "base_acceleration_m_s2 seems to be in g and base_moment_N_m in mN mm"}};
+  return mistakes;
+}
+
+const std::vector<UnitMistake>& mistakes_of_wind() {
+  static const std::vector<UnitMistake> mistakes{
+      {1. / (3.6 * 3.6), "wind_speed_m_s seems to be in km/h; divide it by 3.6"},
+      {1e-4, "wind_speed_m_s seems to be in cm/s; multiply it by 1e-2"},
+      {1e-6, "wind_speed_m_s seems to be in mm/s; multiply it by 1e-3"},
+      {1e3, "base_moment_N_m seems to be in N mm; multiply it by 1e-3"},
+      {1e6, "base_moment_N_m seems to be in mN mm; multiply it by 1e-6"}};
+  return mistakes;
+}
+
+/// Is the drive more than its noise?
+bool is_driven(const DatasetRecord& entry, double acceleration_noise_m_s2) {
+  double square = 0.;
+  const auto a = entry.record.channel(channel::base_acceleration);
+  for (const double v : a) square += v * v;
+  return square >
+         9. * acceleration_noise_m_s2 * acceleration_noise_m_s2 * static_cast<double>(a.size());
+}
+
+void check_base(const NominalModel& nominal, const DatasetRecord& entry,
+                std::vector<Finding>& findings) {
+  const Ratios ratios =
+      ratios_of(nominal, {base_driven(nominal, entry, channel::base_acceleration), entry});
+  if (!ratios.all) return;
+  const auto exchanged = ratios_of(nominal, {base_driven(nominal, entry, channel::base_moment),
+                                             entry, channel::base_acceleration})
+                             .all;
+  const bool implausible = std::abs(std::log10(ratios.all->median)) > 4.;
+  if (implausible && exchanged && exchanged->median > 0.05 && exchanged->median < 20. &&
+      exchanged->spread < ratios.all->spread) {
+    findings.push_back({FindingKind::swapped_columns, entry.name,
+                        "base_acceleration_m_s2 and base_moment_N_m seem to be exchanged: as "
+                        "they stand the response is " +
+                            three_digits(ratios.all->median) +
+                            " times the simulated one, exchanged " +
+                            three_digits(exchanged->median) + " times"});
+    return;
+  }
+  const std::size_t n_before = findings.size();
+  check_factor(ratios.factor(), entry.name, "base_acceleration_m_s2 and base_moment_N_m",
+               mistakes_of_base(), findings);
+  if (findings.size() == n_before) check_gain(ratios, entry.name, findings);
+  check_sign(ratios, entry.name,
+             "well below the first mode base_moment_N_m has the sign of base_acceleration_m_s2 "
+             "that the simulation says it has not: multiply one of them by -1 (the moment is "
+             "positive for wind in +x, hence negative for a steady acceleration in +x)",
+             findings);
+}
+
+void check_wind(const NominalModel& nominal, const DatasetRecord& entry,
+                std::vector<Finding>& findings) {
+  const Ratios ratios = ratios_of(nominal, {wind_driven(nominal, entry), entry});
+  if (!ratios.all) return;
+  check_factor(ratios.factor(), entry.name, "wind_speed_m_s and base_moment_N_m",
+               mistakes_of_wind(), findings);
+  check_sign(ratios, entry.name,
+             "base_moment_N_m falls when wind_speed_m_s rises, against the simulation: multiply "
+             "one of them by -1 (the moment is positive for wind in +x)",
+             findings);
+}
+
+void check_both(const NominalModel& nominal, const DatasetRecord& entry,
+                std::vector<Finding>& findings) {
+  std::vector<Complex> predicted = base_driven(nominal, entry, channel::base_acceleration);
+  const std::vector<Complex> of_wind = wind_driven(nominal, entry);
+  for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k] += of_wind[k];
+  const Ratios ratios = ratios_of(nominal, {std::move(predicted), entry});
+  if (ratios.all)
+    check_factor(ratios.factor(), entry.name,
+                 "base_acceleration_m_s2, wind_speed_m_s and base_moment_N_m", mistakes_of_base(),
+                 findings);
+}
+
+void check_rate(const NominalModel& nominal, const DatasetRecord& entry,
+                std::vector<Finding>& findings) {
+  const double mode_hz = lowest_mode_hz(nominal), rate_hz = entry.record.sampling_rate_hz();
+  if (0.5 * rate_hz > mode_hz) return;
+  const std::string where = "sampled at " + signals::to_text(rate_hz) +
+                            " Hz, while the first mode is "
+                            "at " +
+                            three_digits(mode_hz) + " Hz: ";
+  // A whisker is sampled at no less than its mode and no more than a thousand times that.
+  constexpr double milli = 1e-3;
+  const bool in_ms = rate_hz < 0.1 * mode_hz && rate_hz / milli > mode_hz;
+  if (in_ms)
+    findings.push_back({FindingKind::wrong_unit, entry.name,
+                        where + "time_s seems to be in ms; multiply it by 1e-3"});
+  else if (rate_hz < 0.1 * mode_hz)
+    findings.push_back({FindingKind::wrong_unit, entry.name, where + "check the unit of time_s"});
+  else
+    findings.push_back({FindingKind::slow_rate, entry.name,
+                        where + "half the rate is below it, and what lies above half the rate "
+                                "comes back folded; sample faster"});
+}
+
+}  // namespace
+
+void check_response(const NominalModel& nominal, const DatasetRecord& entry,
+                    const double acceleration_noise_m_s2, std::vector<Finding>& findings) {
+  const signals::Excitation& moved = entry.excitation;
+  if (!nominal.modes.empty() && (moved.base || moved.wind)) check_rate(nominal, entry, findings);
+  if (!is_comparable(nominal, entry) || (!moved.base && !moved.wind)) return;
+  if (moved.base && !is_driven(entry, acceleration_noise_m_s2)) return;
+  if (moved.base && moved.wind)
+    check_both(nominal, entry, findings);
+  else if (moved.base)
+    check_base(nominal, entry, findings);
+  else
+    check_wind(nominal, entry, findings);
+}
+
+}  // namespace vibrissa::diagnosis

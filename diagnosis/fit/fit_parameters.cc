@@ -1,0 +1,96 @@
+#include "diagnosis/fit/fit_parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// Spread of the accelerometers' usual noise, of its logarithm.
+constexpr double usual_spread = 0.3;
+/// Upper edges of the bands of a discrepancy, in frequencies of the first mode; the last has none.
+constexpr std::array<double, 4> discrepancy_edges{0.5, 0.9, 1.1, 2.};
+
+/// The joint's share in the damping of the first mode is not more than all of it.
+double most_joint_loss(const NominalModel& nominal) {
+  constexpr double most = 1.3, least = 1.;
+  if (nominal.modes.empty()) return most;
+  const StructuralMode& mode = nominal.modes.front();
+  const double viscous = nominal.joint_viscous_ratio();
+  return viscous > 0. ? std::clamp(2. * mode.damping_ratio / viscous, least, most) : most;
+}
+
+}  // namespace
+
+std::size_t n_discrepancy_bands() {
+  return discrepancy_edges.size() + 1;
+}
+
+std::size_t discrepancy_band(const double frequency_ratio) {
+  return static_cast<std::size_t>(
+      std::upper_bound(discrepancy_edges.begin(), discrepancy_edges.end(), frequency_ratio) -
+      discrepancy_edges.begin());
+}
+
+std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothesis& hypothesis) {
+  std::vector<FreeFigure> figures(n_own_figures);
+  const double m = std::log(experiment.moment_noise);
+  figures[place_moment_noise].description = {
+      .name = "moment_noise",
+      .unit = "N m",
+      .logarithmic = true,
+      .prior = {.kind = Prior::Kind::uniform, .low = m - 4., .high = m + 4.}};
+  figures[place_acceleration_noise].description = {
+      .name = "acceleration_noise",
+      .unit = "m/s^2",
+      .logarithmic = true,
+      .prior = {.kind = Prior::Kind::normal,
+                .centre = std::log(usual_acceleration_noise),
+                .scale = usual_spread,
+                .low = std::log(1e-6),
+                .high = std::log(20.)}};
+  figures[place_joint_share].description =
+      normal("joint_share", "1", experiment.nominal.joint_share,
+             experiment.nominal.joint_share_deviation, 0.3, 1., 1.);
+  figures[place_joint_loss].description =
+      normal("joint_loss_factor", "1", experiment.nominal.joint_loss_factor, 0.05, 0.7,
+             most_joint_loss(experiment.nominal), 1.);
+  const auto add = [&](const Effect& effect, bool nuisance) {
+    for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+      figures.push_back({&effect, i, effect.parameters[i], nuisance});
+      // As a finding of its own a retune parameter may lie anywhere in its range.
+      if (effect.retune && !nuisance && i == 0)
+        figures.back().description.prior.kind = Prior::Kind::uniform;
+    }
+  };
+  for (const std::string& id : nuisance_ids()) {
+    const Effect& effect = find_effect(id);
+    if (shows(experiment, effect) && !hypothesis.contains(id)) add(effect, true);
+  }
+  for (const Effect* effect : hypothesis.effects()) add(*effect, false);
+  if (hypothesis.is_discrepancy())
+    for (std::size_t i = 0; i < n_discrepancy_bands(); ++i)
+      figures.push_back({nullptr, i, log_uniform("discrepancy", "1", 1e-4, 1., 0.), false});
+  if (!hypothesis.effects().empty())
+    figures.push_back({nullptr, 0, uniform("form_error_share", "1", 0., 1., 0.), false});
+  return figures;
+}
+
+Chain make_chain(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+                 const Eigen::VectorXd& x, const Effect* left_out) {
+  Chain chain = experiment.nominal_chain();
+  chain.joint_share = x(place_joint_share);
+  chain.joint_loss_factor = x(place_joint_loss);
+  for (std::size_t i = n_own_figures; i < figures.size();) {
+    const Effect* effect = figures[i].effect;
+    if (effect == nullptr) break;  // form error and discrepancy come last
+    std::vector<double> values;
+    for (; i < figures.size() && figures[i].effect == effect; ++i)
+      values.push_back(figures[i].description.value(x(static_cast<Eigen::Index>(i))));
+    if (effect != left_out) effect->extend(chain, values, experiment.scales);
+  }
+  return chain;
+}
+
+}  // namespace vibrissa::diagnosis

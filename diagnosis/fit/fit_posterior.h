@@ -1,0 +1,103 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/fit/fit_parameters.h"
+#include "diagnosis/prediction/chain_simulation.h"
+
+namespace vibrissa::diagnosis {
+
+/// What an effect or nuisance does.
+struct EffectAction {
+  const Effect* effect = nullptr;
+  /// Whitened, sum |mean - mean without it|^2 / S, of effects with the change of S.
+  double energy = 0.;
+  std::vector<std::vector<Complex>> change{};  // of the mean [record][bin], N m
+};
+
+/// What is wrong with a form is wrong beside its lines, too: up to this many bins away.
+inline constexpr std::size_t form_reach = 10;
+
+/// Power that the form error of an effect may have around each bin, given what it changes.
+std::vector<double> form_error_power(const Effect& effect, std::span<const Complex> change);
+
+/// Derivatives by the figures: of the mean (real and imaginary parts in turn) [N m], of its
+/// variance [(N m)^2], of the accelerometer's variance [(m/s^2)^2].
+struct Derivatives {
+  Eigen::MatrixXd mean, variance;
+  Eigen::VectorXd acceleration;
+};
+
+/// Log posterior of a fit's figures by Whittle's likelihood (see fit_hypothesis()). What the
+/// variance takes from the mean, misfit of the nominal form and form errors, is held fixed between
+/// renewals. experiment and figures must outlive it.
+class FitPosterior {
+ public:
+  FitPosterior(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+               const Hypothesis& hypothesis);
+
+  std::vector<Prediction> predict(const Eigen::VectorXd& x) const;
+  /// Renews what the variance takes from the mean; at: the predictions at x.
+  void renew_slow_variance(const Eigen::VectorXd& x, const std::vector<Prediction>& at);
+
+  /// Of a sample of the accelerometer [(m/s^2)^2].
+  double acceleration_variance(const Eigen::VectorXd& x) const;
+  /// Of each bin of a record [(N m)^2].
+  std::vector<double> variance(const Eigen::VectorXd& x, const Prediction& prediction,
+                               std::size_t record, double acceleration_variance) const;
+  double log_likelihood(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
+  double log_prior(const Eigen::VectorXd& x) const;
+
+  /// By the figures that their priors leave free; those of the noise are left at zero.
+  Derivatives derivatives(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
+  /// Gradient of the log posterior, and Fisher's information plus the prior's curvature.
+  /// derivatives: at x, or at a place from which they have hardly changed.
+  void linearise(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                 const Derivatives& derivatives, Eigen::VectorXd& gradient,
+                 Eigen::MatrixXd& information) const;
+
+  /// In the order of the figures.
+  std::vector<EffectAction> actions(const Eigen::VectorXd& x,
+                                    const std::vector<Prediction>& at) const;
+
+ private:
+  using BinVariances = std::vector<std::vector<double>>;  // [record][bin]
+
+  /// A figure's step to a place nearby.
+  double step_of(const Eigen::VectorXd& x, Eigen::Index place) const;
+  /// From the predictions at a step h of one figure, under a chain.
+  void set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                      const BinVariances& s, const Chain& moved,
+                      const std::vector<Prediction>& there, double h, Eigen::Index place,
+                      Derivatives& out) const;
+  /// Of the whole variance, over it: those of the figures of noise are set.
+  Derivatives whitened(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                       const BinVariances& s, double acceleration_variance,
+                       const Derivatives& derivatives) const;
+  void set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                        const BinVariances& s, double acceleration_variance, Eigen::Index place,
+                        Derivatives& out) const;
+  void set_share_column(const Eigen::VectorXd& x, const BinVariances& s, Eigen::Index place,
+                        Derivatives& out) const;
+  BinVariances variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                         double acceleration_variance) const;
+  void remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
+                       const Eigen::MatrixXd& mean_columns, Eigen::VectorXd& gradient,
+                       Eigen::MatrixXd& information) const;
+  void add_form_error(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                      const Effect& effect);
+  /// Figure of the discrepancy that a bin belongs to.
+  Eigen::Index discrepancy_place(std::size_t record, std::size_t b) const;
+  /// Variance of the accelerometer under a chain of its own.
+  double acceleration_variance(const Eigen::VectorXd& x, const Chain& chain) const;
+
+  const Experiment& experiment_;
+  const std::vector<FreeFigure>& figures_;
+  bool form_error_, discrepancy_;
+  BinVariances misfit_, form_, power_;
+};
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,83 @@
+#include "diagnosis/localisation/location.h"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "diagnosis/localisation/gap_by_level.h"
+#include "diagnosis/model/words.h"
+#include "diagnosis/search/calibrated_odds.h"
+
+namespace vibrissa::diagnosis {
+
+Location locate_gap(const Experiment& experiment) {
+  Location out;
+  const RestNoise rest = rest_noise(experiment);
+  std::vector<RecordGap> gaps;
+  for (const PreparedRecord& record : experiment.records)
+    if (kind_of(record) != "rest") gaps.push_back(gap_of(experiment, record, rest));
+  out.map = gap_map(experiment, gaps, rest);
+  out.by_level = gap_map_by_level(experiment, gaps, rest);
+  out.in_time = gap_in_time(gaps);
+  out.present_at_rest = rest.coloured;
+  out.p_value = rest.p_value;
+  for (const ChannelGap& channel : out.map) out.p_value = std::min(out.p_value, channel.p_value);
+  out.p_value = std::min(1., 2. * out.p_value);  // bands, and presence at rest
+  out.bands_hz = merged_bands(out.map);
+  out.mode = nearest_mode(experiment.nominal, out.map);
+  out.channels = gap_channels(out.map, out.present_at_rest);
+  if (const auto exponent = level_exponent(gaps)) {
+    out.level_exponent = exponent->value;
+    out.level_exponent_deviation = exponent->deviation;
+  }
+  out.harmonics = harmonics_of(gaps, rest);
+  out.varies_in_time = varies_in_time(gaps);
+  return out;
+}
+
+std::vector<std::string> likely_links(const SearchResult& result) {
+  constexpr double least = 0.1;
+  if (answer_kind(result.candidates.front().name) == AnswerKind::none) return {};
+  std::map<std::string, double> sums;
+  for (const Candidate& candidate : result.candidates) {
+    std::map<std::string, bool> links;
+    for (const std::string& id : effect_ids(candidate.name))
+      for (const Effect& effect : effect_catalogue())
+        if (effect.id == id) links[to_string(effect.link)] = true;
+    for (const auto& [link, named] : links) sums[link] += candidate.probability;
+  }
+  std::vector<std::pair<double, std::string>> sorted;
+  for (const auto& [link, sum] : sums)
+    if (sum > least) sorted.emplace_back(-sum, link);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::string> links;
+  for (const auto& [sum, link] : sorted) links.push_back(link);
+  return links;
+}
+
+std::string location_sentence(const Location& location) {
+  if (location.channels.empty()) return "No gap beyond noise.";
+  std::ostringstream text;
+  text.precision(3);
+  text << "The gap shows ";
+  std::vector<std::string> when;
+  for (const std::string& channel : location.channels)
+    when.push_back(channel == "rest"      ? "at rest"
+                   : channel == "product" ? "only when base and wind act together"
+                                          : "under " + channel);
+  text << joined(when, ", ");
+  if (!location.bands_hz.empty())
+    text << ", " << location.bands_hz.front()[0] << ".." << location.bands_hz.back()[1] << " Hz";
+  if (location.mode) text << ", strongest near mode " << *location.mode;
+  if (location.level_exponent && *location.level_exponent != 0.)
+    text << ", grows as level^" << *location.level_exponent;
+  if (location.harmonics != Harmonics::none)
+    text << ", with "
+         << (location.harmonics == Harmonics::both ? "odd and even" : to_string(location.harmonics))
+         << " distortion";
+  if (location.varies_in_time) text << ", changes in time";
+  text << ".";
+  return text.str();
+}
+
+}  // namespace vibrissa::diagnosis

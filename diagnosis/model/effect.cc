@@ -1,0 +1,165 @@
+#include "diagnosis/model/effect.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "signals/base/error.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+constexpr double student_dof = 6.;
+/// Logarithm of the density's denominator at zero, scale 1: sqrt(6 pi) G(3) / G(3.5).
+const double student_log_norm =
+    std::log(std::sqrt(student_dof * std::numbers::pi) * std::tgamma(0.5 * student_dof) /
+             std::tgamma(0.5 * (student_dof + 1.)));
+
+}  // namespace
+
+std::string to_string(const Link link) {
+  switch (link) {
+    case Link::reference:
+      return "reference";
+    case Link::mount:
+      return "mount";
+    case Link::structure:
+      return "structure";
+    case Link::wind:
+      return "wind";
+    case Link::sensor:
+      return "sensor";
+    case Link::clock:
+      return "clock";
+  }
+  return "";
+}
+
+double Prior::log_density(const double x) const {
+  const double z = (x - centre) / scale;
+  switch (kind) {
+    case Kind::normal:
+      return -0.5 * z * z - std::log(scale * std::sqrt(2. * std::numbers::pi));
+    case Kind::student:
+      return -0.5 * (student_dof + 1.) * std::log1p(z * z / student_dof) - std::log(scale) -
+             student_log_norm;
+    case Kind::uniform:
+      return -std::log(high - low);
+  }
+  return 0.;
+}
+
+double Prior::slope(const double x) const {
+  const double z = (x - centre) / scale;
+  switch (kind) {
+    case Kind::normal:
+      return -z / scale;
+    case Kind::student:
+      return -(student_dof + 1.) * z / (student_dof + z * z) / scale;
+    case Kind::uniform:
+      return 0.;
+  }
+  return 0.;
+}
+
+double Prior::curvature(const double x) const {
+  const double z = (x - centre) / scale;
+  switch (kind) {
+    case Kind::normal:
+      return 1. / (scale * scale);
+    case Kind::student:
+      return (student_dof + 1.) / (student_dof + z * z) / (scale * scale);
+    // The Gaussian of the same variance, so that no parameter is ever known worse than before.
+    case Kind::uniform:
+      return 12. / ((high - low) * (high - low));
+  }
+  return 0.;
+}
+
+Parameter log_uniform(std::string name, std::string unit, const double low, const double high,
+                      const double neutral) {
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .logarithmic = true,
+          .prior = {.kind = Prior::Kind::uniform, .low = std::log(low), .high = std::log(high)},
+          .neutral = neutral};
+}
+
+Parameter uniform(std::string name, std::string unit, const double low, const double high,
+                  const double neutral) {
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .prior = {.kind = Prior::Kind::uniform, .low = low, .high = high},
+          .neutral = neutral,
+          .step = 1e-4 * (high - low)};
+}
+
+Parameter log_usual(std::string name, std::string unit, const double usual_low,
+                    const double usual_high, const double low, const double high,
+                    const double neutral) {
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .logarithmic = true,
+          .prior = {.kind = Prior::Kind::student,
+                    .centre = 0.5 * std::log(usual_low * usual_high),
+                    .scale = 0.25 * std::log(usual_high / usual_low),
+                    .low = std::log(low),
+                    .high = std::log(high)},
+          .neutral = neutral};
+}
+
+Parameter ratio_near_one(std::string name, const double relative_scale, const double low,
+                         const double high) {
+  return {.name = std::move(name),
+          .unit = "1",
+          .logarithmic = true,
+          .prior = {.kind = Prior::Kind::normal,
+                    .centre = 0.,
+                    .scale = relative_scale,
+                    .low = std::log(low),
+                    .high = std::log(high)},
+          .neutral = 1.};
+}
+
+Parameter normal(std::string name, std::string unit, const double centre, const double scale,
+                 const double low, const double high, const double neutral) {
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .prior = {.kind = Prior::Kind::normal,
+                    .centre = centre,
+                    .scale = scale,
+                    .low = low,
+                    .high = high},
+          .neutral = neutral,
+          .step = 1e-3 * scale};
+}
+
+std::vector<double> geometric_series(const double low, const double high, const double ratio) {
+  std::vector<double> out;
+  for (double value = low; value <= high; value *= ratio) out.push_back(value);
+  return out;
+}
+
+Chain probe(const Effect& effect, const NominalModel& structure) {
+  Chain chain{.structure = structure};
+  effect.extend(chain, effect.starts.front(), {});
+  return chain;
+}
+
+bool is_nonlinear(const Effect& effect) {
+  const Chain chain = probe(effect);
+  // Samples that are taken twice fold lines onto others.
+  const bool folds = chain.renewed_share > 0.;
+  return !chain.joint.empty() || !chain.readout.empty() || chain.relative_wind.on || folds;
+}
+
+const Effect& find_effect(const std::string& id) {
+  const std::vector<Effect>& effects = effect_catalogue();
+  const auto found =
+      std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.id == id; });
+  if (found != effects.end()) return *found;
+  std::vector<std::string> known;
+  for (const Effect& effect : effects) known.push_back(effect.id);
+  throw signals::UserError(signals::unknown_name("effect", id, known));
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,90 @@
+#include "diagnosis/model/joint_model.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <unsupported/Eigen/MatrixFunctions>
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// The integrator keeps the joint's elastic moment as a state of its own: it needs a little
+/// flexibility of the whisker and a little loss in the joint.
+constexpr double most_share = 0.9999, least_loss = 1e-3;
+
+JointModel made_dynamic(JointModel model) {
+  model.share = std::min(model.share, most_share);
+  model.loss = std::max(model.loss, least_loss);
+  return model;
+}
+
+}  // namespace
+
+JointModel::JointModel(const StructuralMode& mode, const double joint_share,
+                       const double viscous_ratio, const JointChange& joint_change)
+    : frequency_rad_s(mode.frequency_rad_s), share(joint_share), change(joint_change) {
+  const double in_joint = std::clamp(viscous_ratio, 0., 2. * mode.damping_ratio);
+  loss = in_joint / share;
+  damping = mode.damping_ratio - 0.5 * in_joint;
+}
+
+std::optional<JointModel> joint_of(const Chain& chain) {
+  if (chain.structure.modes.empty()) return std::nullopt;
+  return JointModel(chain.structure.modes.front(), chain.joint_share,
+                    chain.joint_loss_factor * chain.structure.joint_viscous_ratio(),
+                    chain.joint_change);
+}
+
+JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) {
+  const JointModel model = made_dynamic(joint);
+  share_ = model.share;
+  rest_ = 1. / (1. - model.share);
+  spring_ = model.change.spring;
+  rate_factor_ = model.frequency_rad_s / (model.change.damper * model.loss);
+  // M = (theta - p y) / (1 - p), with time in steps.
+  const double angle = model.frequency_rad_s * dt, relax = rate_factor_ * dt;
+  const double pull = angle * angle / model.change.inertia;
+  // States theta, theta', y, then T, M_ext and their slopes over the step.
+  Eigen::Matrix<double, 7, 7> a = Eigen::Matrix<double, 7, 7>::Zero();
+  a(0, 1) = 1.;
+  a(1, 0) = -pull * rest_;
+  a(1, 1) = -2. * model.change.rest_damping * model.damping * angle;
+  a(1, 2) = pull * rest_ * model.share;
+  a(1, 4) = pull;
+  a(2, 0) = relax * rest_;
+  a(2, 2) = -relax * (rest_ * model.share + spring_);
+  a(2, 3) = -relax;
+  a(3, 5) = 1.;
+  a(4, 6) = 1.;
+  const Eigen::Matrix<double, 7, 7> e = a.exp();
+  transition_ = e.topLeftCorner<3, 3>();
+  torque_new_ = e.block<3, 1>(0, 5);
+  torque_old_ = e.block<3, 1>(0, 3) - torque_new_;
+  external_new_ = e.block<3, 1>(0, 6);
+  external_old_ = e.block<3, 1>(0, 4) - external_new_;
+  torque_rate_ = rate(torque_new_) - rate_factor_;
+  external_rate_ = rate(external_new_);
+  free_ = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+}
+
+double JointIntegrator::rate(const Eigen::Vector3d& state) const {
+  return rate_factor_ * ((state(0) - share_ * state(2)) * rest_ - spring_ * state(2));
+}
+
+JointIntegrator::AtBase JointIntegrator::accept(const Lanes& torque, const Lanes& external) {
+  const auto loaded = [&](const Lanes& free, Eigen::Index i) -> Lanes {
+    return free + torque_new_(i) * torque + external_new_(i) * external;
+  };
+  const Lanes theta = loaded(free_.theta, 0), speed = loaded(free_.speed, 1),
+              y = loaded(free_.y, 2);
+  const auto next = [&](Eigen::Index i) -> Lanes {
+    return transition_(i, 0) * theta + transition_(i, 1) * speed + transition_(i, 2) * y +
+           torque_old_(i) * torque + external_old_(i) * external;
+  };
+  free_.theta = next(0);
+  free_.speed = next(1);
+  free_.y = next(2);
+  free_.rate = rate_factor_ * ((free_.theta - share_ * free_.y) * rest_ - spring_ * free_.y);
+  return {(theta - share_ * y) * rest_, y};
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "diagnosis/model/chain.h"
+
+namespace vibrissa::diagnosis {
+
+/// The first mode as a joint in series with an elastic whisker that carries all inertia:
+///   joint    M = y + (rho / w) y' + T          (y = k phi its elastic moment, T what is added to
+///   it) whisker  theta = p y + (1 - p) M           (rotations in units of the static compliance)
+///   inertia  theta'' + 2 z w theta' = w^2 (M_ext - M)
+/// p: share of the joint in the compliance. The mode's damping ratio is zeta = z + p rho / 2; the
+/// share of the joint in it follows from the viscous part of the base moment, base_rate / base_gain
+/// = p rho. Proven by tests/diagnosis/model/joint_model_test.cc.
+struct JointModel {
+  double frequency_rad_s = 0.;
+  double share = 1.;    // p
+  double loss = 0.;     // rho
+  double damping = 0.;  // z
+  JointChange change{};
+
+  /// viscous_ratio: NominalModel::joint_viscous_ratio times what is believed of it.
+  JointModel(const StructuralMode& mode, double joint_share, double viscous_ratio,
+             const JointChange& change = {});
+
+  /// Moment of inertia over w^2 theta. The poles are where its product with the compliance of joint
+  /// and whisker in series, share / stiffness_ratio + 1 - share, is -1.
+  Complex inertia(Complex s) const {
+    const Complex x = s / frequency_rad_s;
+    return x * x + 2. * damping * x;
+  }
+  /// With its factors changed.
+  Complex changed_inertia(Complex s) const {
+    const Complex x = s / frequency_rad_s;
+    return change.inertia * (x * x + 2. * change.rest_damping * damping * x);
+  }
+  /// With the factors of spring and damper, over the nominal elastic moment.
+  Complex changed_stiffness_ratio(Complex s) const {
+    return change.spring + change.damper * (loss * s / frequency_rad_s);
+  }
+  /// Viscous and elastic moment of the joint over its elastic one, 1 + rho s / w.
+  Complex stiffness_ratio(Complex s) const { return 1. + loss * s / frequency_rad_s; }
+};
+
+/// The joint model of a chain's first mode; nothing without a mode.
+std::optional<JointModel> joint_of(const Chain& chain);
+
+/// Exact step of the joint model, with its factors, for T and M_ext that run linearly over it, from
+/// rest; a lane for each record.
+class JointIntegrator {
+ public:
+  JointIntegrator(const JointModel& model, double dt);
+
+  /// Of the joint's elastic moment and its rate, when T and M_ext are so at the end of a step.
+  Lanes elastic(const Lanes& torque, const Lanes& external) const {
+    return free_.y + torque_new_(2) * torque + external_new_(2) * external;
+  }
+  Lanes elastic_rate(const Lanes& torque, const Lanes& external) const {
+    return free_.rate + torque_rate_ * torque + external_rate_ * external;
+  }
+  struct AtBase {
+    Lanes moment, elastic;  // whole, and the joint's elastic one
+  };
+  /// Takes the step; returns what is at its end.
+  AtBase accept(const Lanes& torque, const Lanes& external);
+
+ private:
+  double rate(const Eigen::Vector3d& state) const;
+
+  double share_, rest_, rate_factor_, spring_;  // p, 1 / (1 - p), w / rho
+  // Of the state (theta, theta' in steps, y).
+  Eigen::Matrix3d transition_;
+  Eigen::Vector3d torque_old_, torque_new_, external_old_, external_new_;
+  double torque_rate_, external_rate_;
+  struct Free {
+    Lanes theta, speed, y, rate;
+  } free_;  // next state without new loads
+};
+
+}  // namespace vibrissa::diagnosis

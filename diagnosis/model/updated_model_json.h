@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "diagnosis/model/updated_model.h"
+
+namespace vibrissa::diagnosis {
+
+/// Schema of the files, for those who must tell them from other models.
+inline const std::string mended_model_schema = "vibrissa-mended-model-1";
+
+/// The model as JSON: modes, direct terms, the joint's share, effects with named values, units and
+/// scales.
+std::string mended_model_json(const MendedModel& model);
+
+/// Throws UserError with the file and place of what is missing or out of its range, and the names
+/// that are known. Proven by tests/diagnosis/model/updated_model_test.cc.
+MendedModel read_mended_model(const std::filesystem::path& file);
+
+/// Is the file a JSON document of this schema? False for what is none.
+bool is_mended_model(const std::filesystem::path& file);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,160 @@
+#include "diagnosis/nominal/base_path_identification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "separation/identification/identify_frequency.h"
+#include "separation/identification/output_error.h"
+#include "signals/base/error.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using Entries = std::vector<const signals::DatasetRecord*>;
+using separation::Bvrm;
+namespace channel = signals::channel;
+
+constexpr std::size_t max_order = 6;
+/// A pair of poles more must lower the misfit to this share.
+constexpr double worthwhile = 0.5;
+/// Below it a record in six digits, of which the start is only nearly forgotten, says no more.
+constexpr double exact_misfit = 3e-4;
+
+struct PathCandidate {
+  Bvrm model;
+  double misfit = 0.;  // relative
+};
+
+signals::FrequencyResponse base_response_of(const signals::DatasetRecord& entry) {
+  const signals::Record& record = entry.record;
+  const auto a = record.channel(channel::base_acceleration);
+  const auto m = record.channel(channel::base_moment);
+  const double rate = record.sampling_rate_hz();
+  if (entry.period_samples > 0) return signals::periodic_response(a, m, rate, entry.period_samples);
+  return signals::welch_response(a, m, rate, {std::min<std::size_t>(2048, a.size() / 4)});
+}
+
+/// Lines of several records, each line from the first record that has it and weighted by the size
+/// of its response: a simulation's error is in proportion to it.
+signals::FrequencyResponse joined_response(const Entries& entries) {
+  std::map<double, Complex> lines;
+  for (const signals::DatasetRecord* entry : entries) {
+    const signals::FrequencyResponse response = base_response_of(*entry);
+    for (std::size_t i = 0; i < response.value.size(); ++i)
+      if (std::isfinite(std::abs(response.value[i])) && std::abs(response.value[i]) > 0.)
+        lines.emplace(response.frequency_hz[i], response.value[i]);
+  }
+  signals::FrequencyResponse joined;
+  for (const auto& [frequency_hz, value] : lines) {
+    joined.frequency_hz.push_back(frequency_hz);
+    joined.value.push_back(value);
+    joined.coherence.push_back(1.);
+    joined.standard_deviation.push_back(1e-3 * std::abs(value));
+  }
+  return joined;
+}
+
+double relative_misfit(const Bvrm& model, const signals::FrequencyResponse& response) {
+  const std::vector<Complex> fitted = separation::response(model, response.frequency_hz);
+  double sum = 0.;
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+    sum += std::norm(fitted[i] / response.value[i] - 1.);
+  return std::sqrt(sum / static_cast<double>(fitted.size()));
+}
+
+/// The one real gain of a simulation without dynamics of its own; nothing where it has some.
+std::optional<double> flat_gain(const signals::FrequencyResponse& response) {
+  constexpr double flat = 1e-4;
+  const double n = static_cast<double>(response.value.size());
+  double gain = 0., error = 0.;
+  for (const Complex& value : response.value) gain += value.real() / n;
+  for (const Complex& value : response.value) error += std::norm(value - gain) / n;
+  if (!(std::sqrt(error) <= flat * std::abs(gain))) return std::nullopt;
+  return gain;
+}
+
+/// Records of the rate that the first one has.
+std::vector<separation::Segment> segments_of(const Entries& entries) {
+  std::vector<separation::Segment> segments;
+  for (const signals::DatasetRecord* entry : entries)
+    if (entry->record.sampling_rate_hz() == entries.front()->record.sampling_rate_hz())
+      segments.push_back({entry->record.channel(channel::base_acceleration),
+                          entry->record.channel(channel::base_moment)});
+  return segments;
+}
+
+double mean_square_moment(std::span<const separation::Segment> segments) {
+  double sum = 0., n = 0.;
+  for (const separation::Segment& segment : segments) {
+    for (const double moment : segment.base_moment) sum += moment * moment;
+    n += static_cast<double>(segment.base_moment.size());
+  }
+  return sum / n;
+}
+
+/// Welch's window widens a resonance; the records themselves do not.
+std::optional<PathCandidate> refined(const Bvrm& start, const Entries& entries) {
+  const std::vector<separation::Segment> segments = segments_of(entries);
+  try {
+    const separation::FittedBvrm fit =
+        separation::refine_output_error(start, segments, entries.front()->record.sampling_rate_hz(),
+                                        {.hold = separation::Hold::band_limited});
+    return PathCandidate{fit.model,
+                         std::sqrt(fit.residual_variance / mean_square_moment(segments))};
+  } catch (const signals::UserError&) {
+    return std::nullopt;  // an order too high for these records
+  }
+}
+
+std::optional<PathCandidate> best_candidate(const signals::FrequencyResponse& response,
+                                            const Entries& entries, const bool periodic) {
+  std::optional<PathCandidate> best;
+  for (const auto& fit : separation::identify_frequency_orders(response, {.order = max_order})) {
+    if (best && best->misfit < exact_misfit && !periodic) break;
+    const std::optional<PathCandidate> candidate =
+        periodic ? PathCandidate{fit.model, relative_misfit(fit.model, response)}
+                 : refined(fit.model, entries);
+    if (candidate && (!best || candidate->misfit <= worthwhile * best->misfit)) best = candidate;
+  }
+  return best;
+}
+
+void set_modes(NominalModel& model, const Bvrm& found) {
+  for (const separation::ModalTerm& term : found.modes) {
+    const double w = std::sqrt(term.a0);
+    model.modes.push_back({.frequency_rad_s = w,
+                           .damping_ratio = term.damping_ratio(),
+                           .base_gain = term.b0 / term.a0,
+                           .base_rate = term.b1 / w});
+  }
+  // Joint laws act on the strongest mode of the band: it goes first.
+  std::sort(model.modes.begin(), model.modes.end(),
+            [](const StructuralMode& a, const StructuralMode& b) {
+              return std::abs(a.base_gain) > std::abs(b.base_gain);
+            });
+  model.base_direct = found.direct_term_kg_m;
+}
+
+}  // namespace
+
+void identify_base_path(NominalModel& model, std::span<const signals::DatasetRecord* const> base) {
+  Entries entries(base.begin(), base.end());
+  const auto is_periodic = [](const auto* entry) { return entry->period_samples > 0; };
+  const bool periodic = std::any_of(entries.begin(), entries.end(), is_periodic);
+  if (periodic) std::erase_if(entries, [&](const auto* entry) { return !is_periodic(entry); });
+  const signals::FrequencyResponse response = joined_response(entries);
+  if (const std::optional<double> gain = flat_gain(response)) {
+    model.base_direct = *gain;
+    model.has_base = true;
+    return;
+  }
+  if (const std::optional<PathCandidate> best = best_candidate(response, entries, periodic)) {
+    set_modes(model, best->model);
+    model.has_base = true;
+  }
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,174 @@
+#include "diagnosis/nominal/nominal_identification.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/nominal/base_path_identification.h"
+#include "diagnosis/prediction/chain_simulation.h"
+#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/experiment.h"
+#include "diagnosis/records/spectrum.h"
+#include "separation/identification/identify_frequency.h"
+#include "signals/base/error.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using signals::DatasetRecord;
+namespace channel = signals::channel;
+
+std::vector<const DatasetRecord*> choose(const signals::Dataset& dataset, bool base, bool wind) {
+  std::vector<const DatasetRecord*> alone, combined;
+  for (const DatasetRecord& entry : dataset.records) {
+    const signals::Excitation e = entry.excitation;
+    if (entry.setup != signals::BenchSetup{}) continue;
+    if (base && !e.base) continue;
+    if (wind && !e.wind) continue;
+    if (base && !entry.record.has(channel::base_acceleration)) continue;
+    if (wind && !entry.record.has(channel::wind_speed)) continue;
+    (e.base && e.wind ? combined : alone).push_back(&entry);
+  }
+  return alone.empty() ? combined : alone;
+}
+
+std::vector<double> signed_squares(std::span<const double> wind) {
+  std::vector<double> out(wind.begin(), wind.end());
+  for (double& u : out) u *= std::abs(u);
+  return out;
+}
+
+/// One column for each unknown of the wind path: gain and rate of each mode, direct term.
+Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& record) {
+  const std::vector<Complex> spectrum = spectrum_of(signed_squares(record.wind));
+  const auto n_modes = static_cast<Eigen::Index>(model.modes.size());
+  const auto n_bins = static_cast<Eigen::Index>(record.n_bins());
+  Eigen::MatrixXcd columns(n_bins, 2 * n_modes + 1);
+  for (Eigen::Index c = 0; c < columns.cols(); ++c) {
+    std::vector<Complex> whole(spectrum.size());
+    for (std::size_t k = 0; k < whole.size(); ++k) {
+      const Complex s = record.line_s(k);
+      Complex response = 1.;
+      if (c < 2 * n_modes) {
+        StructuralMode mode = model.modes[static_cast<std::size_t>(c / 2)];
+        mode.wind_gain = c % 2 == 0 ? 1. : 0.;
+        mode.wind_rate = c % 2 == 0 ? 0. : 1.;
+        response = mode.wind_response(s);
+      }
+      whole[k] = response * spectrum[k];
+    }
+    const std::vector<Complex> bins = judged_bins(record, samples_of(whole, record.n_samples));
+    for (Eigen::Index b = 0; b < n_bins; ++b) columns(b, c) = bins[static_cast<std::size_t>(b)];
+  }
+  return columns;
+}
+
+/// Without a base path the wind's own response gives the poles.
+void set_wind_poles(NominalModel& model, const std::vector<const DatasetRecord*>& entries) {
+  const signals::Record& record = entries.front()->record;
+  const std::vector<double> force = signed_squares(record.channel(channel::wind_speed));
+  const auto response = signals::welch_response(force, record.channel(channel::base_moment),
+                                                record.sampling_rate_hz(),
+                                                {std::min<std::size_t>(1024, force.size() / 4)});
+  const auto fit = separation::identify_frequency(response, {.order = 2});
+  for (const separation::ModalTerm& term : fit.model.modes)
+    model.modes.push_back(
+        {.frequency_rad_s = std::sqrt(term.a0), .damping_ratio = term.damping_ratio()});
+}
+
+void set_wind_path(NominalModel& model, const signals::Dataset& simulation) {
+  const std::vector<const DatasetRecord*> entries = choose(simulation, false, true);
+  if (entries.empty()) return;
+  if (model.modes.empty()) set_wind_poles(model, entries);
+  NominalModel without = model;
+  signals::Dataset dataset;
+  for (const DatasetRecord* entry : entries) {
+    dataset.records.push_back(*entry);
+    dataset.records.back().split = signals::Split::fit;
+  }
+  without.has_wind = true;
+  const Experiment experiment =
+      prepare_experiment(without, dataset, signals::Split::fit, InputNoise::as_measured);
+  // Only modes whose wind response the records move can be told; the rest is in the direct term.
+  NominalModel in_band = model;
+  in_band.modes.resize(1);
+  const Eigen::Index n_unknowns = 3;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n_unknowns, n_unknowns);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n_unknowns);
+  Chain base_only{.structure = without};
+  for (const PreparedRecord& record : experiment.records) {
+    const Eigen::MatrixXcd columns = wind_columns(in_band, record);
+    const std::vector<Complex> base = simulate_mean(base_only, record);
+    Eigen::VectorXcd rest(columns.rows());
+    for (Eigen::Index b = 0; b < rest.size(); ++b)
+      rest(b) = record.moment[static_cast<std::size_t>(b)] - base[static_cast<std::size_t>(b)];
+    normal += (columns.adjoint() * columns).real();
+    right += (columns.adjoint() * rest).real();
+  }
+  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
+  const Eigen::MatrixXd scaled =
+      scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd solution =
+      scale.cwiseInverse().asDiagonal() *
+      scaled.completeOrthogonalDecomposition().solve(scale.cwiseInverse().asDiagonal() * right);
+  model.modes.front().wind_gain = solution(0);
+  model.modes.front().wind_rate = solution(1);
+  model.wind_direct = solution(2);
+  model.has_wind = true;
+}
+
+/// One model foretells one kind of reading.
+signals::Readout readout_of(const signals::Dataset& simulation) {
+  if (simulation.records.empty()) return signals::Readout::moment;
+  const DatasetRecord& first = simulation.records.front();
+  for (const DatasetRecord& entry : simulation.records)
+    if (entry.readout != first.readout)
+      throw signals::UserError("the simulation's records '" + first.name + "' and '" + entry.name +
+                               "' differ in their readout: give all as moment or all as rotation");
+  return first.readout;
+}
+
+/// Misfit of the model on the simulation's own records, base alone and with wind.
+void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
+  double base_error = 0., base_power = 0., wind_error = 0., wind_power = 0.;
+  for (const signals::Split split : {signals::Split::fit, signals::Split::held_out}) {
+    if (std::none_of(simulation.records.begin(), simulation.records.end(),
+                     [&](const DatasetRecord& e) {
+                       return e.split == split && (e.excitation.base || e.excitation.wind);
+                     }))
+      continue;
+    const Experiment experiment =
+        prepare_experiment(model, simulation, split, InputNoise::as_measured);
+    for (const PreparedRecord& record : experiment.records) {
+      const std::vector<Complex> mean = simulate_mean({.structure = model}, record);
+      double error = 0., power = 0.;
+      for (std::size_t b = 0; b < mean.size(); ++b) {
+        error += std::norm(mean[b] - record.moment[b]);
+        power += std::norm(record.moment[b]);
+      }
+      (record.excitation.wind ? wind_error : base_error) += error;
+      (record.excitation.wind ? wind_power : base_power) += power;
+    }
+  }
+  if (base_power > 0.) model.base_misfit = std::sqrt(base_error / base_power);
+  if (wind_power > 0.) model.wind_misfit = std::sqrt(wind_error / wind_power);
+}
+
+}  // namespace
+
+NominalModel identify_nominal(const signals::Dataset& simulation) {
+  NominalModel model;
+  model.readout = readout_of(simulation);
+  const auto base = choose(simulation, true, false);
+  if (!base.empty()) identify_base_path(model, base);
+  set_wind_path(model, simulation);
+  if (!model.has_base && !model.has_wind)
+    throw signals::UserError(
+        "the simulation's records determine neither the base nor the wind response: at least one "
+        "needs excitation \"base\" with base_acceleration_m_s2 or \"wind\" with wind_speed_m_s");
+  set_misfits(model, simulation);
+  return model;
+}
+
+}  // namespace vibrissa::diagnosis

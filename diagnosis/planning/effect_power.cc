@@ -1,0 +1,318 @@
+#include "diagnosis/planning/effect_power.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "diagnosis/fit/model_form_errors.h"
+#include "diagnosis/model/parallel.h"
+#include "diagnosis/model/words.h"
+#include "diagnosis/planning/projection.h"
+#include "diagnosis/search/effect_size.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// A form error hides no more than this share of what an effect is found by.
+constexpr double most_share = 0.25;
+
+/// A small version of one start.
+struct FaintStart {
+  Eigen::VectorXd change;
+  bool of_variance = false;  // grows with the square of the share
+};
+
+struct StudiedEffect {
+  const Effect* effect = nullptr;
+  std::vector<EffectFamily> families{};  // one a start
+  Eigen::VectorXd change{};              // at typical strength
+  std::vector<FaintStart> faint{};       // one a start
+  std::size_t first_column = 0;          // of them among the directions
+  EffectPower power{};
+};
+
+/// Could the rival be taken for the effect, on such a sensor?
+struct OpenPair {
+  std::size_t effect = 0, rival = 0;
+  SensorKind kind = SensorKind::exact;
+};
+
+StudiedEffect studied(const Effect& effect) {
+  StudiedEffect out{.effect = &effect};
+  const std::vector<std::size_t> sized = size_parameters(effect);
+  for (const std::vector<double>& start : effect.starts)
+    out.families.emplace_back(effect, sized, start);
+  const std::size_t first = out.families.front().parameter();
+  out.power = {.effect = effect.id,
+               .parameter = effect.parameters[first].name,
+               .unit = effect.parameters[first].unit,
+               .typical = effect.starts.front()[first]};
+  return out;
+}
+
+std::string word_of(Lack lack) {
+  switch (lack) {
+    case Lack::base:
+      return "base motion";
+    case Lack::wind:
+      return "wind";
+    case Lack::cross:
+      return "transverse acceleration";
+    case Lack::repeats:
+      return "an accelerometer that is polled";
+    case Lack::modes:
+      return "a simulation with dynamics";
+    case Lack::duration:
+      return "more seconds of motion";
+  }
+  return "";
+}
+
+std::string missing(const std::vector<Lack>& lacks) {
+  std::vector<std::string> words;
+  for (const Lack lack : lacks) words.push_back(word_of(lack));
+  return joined(words, ", ");
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& id) {
+  return std::find(list.begin(), list.end(), id) != list.end();
+}
+
+class PowerStudy {
+ public:
+  PowerStudy(const Experiment& experiment, const ChannelNoise& noise, const PowerOptions& options)
+      : point_(experiment, noise), options_(options) {
+    for (const Effect& effect : effect_catalogue()) effects_.push_back(studied(effect));
+    for (std::size_t i = 0; i < effects_.size(); ++i) {
+      EffectPower& power = effects_[i].power;
+      power.needs = missing(lacks(experiment, *effects_[i].effect));
+      power.shown = power.needs.empty();
+    }
+  }
+
+  std::vector<EffectPower> run() {
+    for_each(effects_.size(), [&](std::size_t i) { find(effects_[i]); });
+    const std::vector<OpenPair> pairs = open_pairs();
+    std::vector<bool> taking_part(effects_.size(), false);
+    for (const OpenPair& pair : pairs) taking_part[pair.effect] = taking_part[pair.rival] = true;
+    for_each(effects_.size(), [&](std::size_t i) {
+      if (taking_part[i]) set_faint(effects_[i]);
+    });
+    set_directions();
+    std::vector<char> alike(pairs.size(), 0);
+    for_each(pairs.size(), [&](std::size_t i) { alike[i] = are_alike(pairs[i]) ? 1 : 0; });
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (alike[i] != 0)
+        effects_[pairs[i].effect]
+            .power.on(pairs[i].kind)
+            .alike.push_back(effects_[pairs[i].rival].effect->id);
+    std::vector<EffectPower> out;
+    for (StudiedEffect& effect : effects_) out.push_back(std::move(effect.power));
+    return out;
+  }
+
+ private:
+  void for_each(std::size_t n, const std::function<void(std::size_t)>& work) {
+    for_each_parallel(n, options_.n_threads, work);
+  }
+
+  const EffectPower* known(const std::string& id) const {
+    if (options_.fewer_records == nullptr) return nullptr;
+    for (const EffectPower& power : *options_.fewer_records)
+      if (power.effect == id) return &power;
+    return nullptr;
+  }
+
+  /// Sets what is found and, when asked for, from which size on.
+  void find(StudiedEffect& effect) {
+    if (effect.power.shown) {
+      if (!is_settled(effect))
+        effect.change = change_at(effect.families.front(), *effect.effect, 1.);
+      for (const SensorKind kind : sensor_kinds) {
+        Standing& standing = effect.power.on(kind);
+        const EffectPower* before = known(effect.effect->id);
+        standing.nats = before != nullptr && before->on(kind).found
+                            ? before->on(kind).nats
+                            : nats_of(effect, effect.change, kind);
+        standing.found = standing.nats >= nats_to_find;
+        if (options_.limits) set_limit(effect, kind);
+      }
+    }
+    const std::lock_guard lock(mutex_);
+    if (options_.on_effect) options_.on_effect();
+  }
+
+  /// Found before, and told from all that is shown now.
+  bool is_settled(const StudiedEffect& effect) const {
+    return std::all_of(sensor_kinds.begin(), sensor_kinds.end(), [&](SensorKind kind) {
+      return std::all_of(effects_.begin(), effects_.end(), [&](const StudiedEffect& rival) {
+        return &rival == &effect || !rival.power.shown || known_different(effect, rival, kind);
+      });
+    });
+  }
+
+  Eigen::VectorXd change_at(const EffectFamily& family, const Effect& effect, double share) const {
+    return point_.change(point_.x(), effect, family.values(share));
+  }
+
+  /// Figures that are free besides the given effects.
+  std::vector<std::size_t> free_figures(SensorKind kind, const Effect* effect,
+                                        const Effect* rival = nullptr) const {
+    std::vector<std::size_t> free;
+    for (std::size_t i = 0; i < point_.figures().size(); ++i) {
+      const Effect* own = point_.figures()[i].effect;
+      if (own == nullptr || (kind == SensorKind::as_built && own != effect && own != rival))
+        free.push_back(i);
+    }
+    return free;
+  }
+
+  double nats_of(const StudiedEffect& effect, const Eigen::VectorXd& change,
+                 SensorKind kind) const {
+    // Too strong to be foretold.
+    if (!change.allFinite()) return std::numeric_limits<double>::infinity();
+    return follow(point_, change, free_figures(kind, effect.effect)).left +
+           std::max(0., point_.changes().beyond_square(change));
+  }
+
+  /// Secant steps in logarithms: nats grow as some power of the size.
+  void set_limit(StudiedEffect& effect, SensorKind kind) {
+    constexpr double least_exponent = 0.5, largest_exponent = 6., near = 0.25, smallest = 1e-6;
+    constexpr int n_steps = 12;
+    const EffectFamily& family = effect.families.front();
+    Standing& standing = effect.power.on(kind);
+    const double low = std::log(smallest), high = std::log(family.largest_share());
+    double at = 0., nats = standing.nats, exponent = 2.;
+    for (int i = 0; i < n_steps; ++i) {
+      const double short_of = std::log(nats_to_find / std::max(nats, 1e-12));
+      if (std::abs(short_of) < near) break;
+      if ((short_of > 0. && at >= high) || (short_of < 0. && at <= low)) break;
+      const double move = std::isfinite(short_of) ? short_of / exponent : std::log(0.1);
+      const double next =
+          std::clamp(at + std::clamp(move, std::log(1e-2), std::log(30.)), low, high);
+      const double there = nats_of(effect, change_at(family, *effect.effect, std::exp(next)), kind);
+      if (nats > 0. && std::isfinite(nats) && std::isfinite(there) && there > 0.)
+        exponent =
+            std::clamp(std::log(there / nats) / (next - at), least_exponent, largest_exponent);
+      at = next;
+      nats = there;
+    }
+    standing.any_size = at <= low && nats > nats_to_find;
+    if (!standing.any_size && nats > 0.) at += std::log(nats_to_find / nats) / exponent;
+    if (at > high) return;
+    standing.limit = family.values(std::exp(at))[family.parameter()];
+  }
+
+  void set_faint(StudiedEffect& effect) const {
+    for (const EffectFamily& family : effect.families) {
+      FaintStart start{.change = change_at(family, *effect.effect, faint_share)};
+      const Chain chain = extended_chain(*effect.effect, family.values(faint_share));
+      start.of_variance = !chain.noise.empty() || chain.reference_variance > 0.;
+      effect.faint.push_back(std::move(start));
+    }
+  }
+
+  Chain extended_chain(const Effect& effect, const std::vector<double>& values) const {
+    Chain chain{.structure = point_.experiment().nominal};
+    effect.extend(chain, values, point_.experiment().scales);
+    return chain;
+  }
+
+  /// Effects that are found, and what is not known to be different.
+  std::vector<OpenPair> open_pairs() const {
+    std::vector<OpenPair> out;
+    for (const SensorKind kind : sensor_kinds)
+      for (std::size_t i = 0; i < effects_.size(); ++i)
+        for (std::size_t j = 0; j < effects_.size(); ++j)
+          if (j != i && effects_[i].power.on(kind).found && effects_[j].power.shown &&
+              !known_different(effects_[i], effects_[j], kind))
+            out.push_back({i, j, kind});
+    return out;
+  }
+
+  bool known_different(const StudiedEffect& effect, const StudiedEffect& rival,
+                       SensorKind kind) const {
+    const EffectPower *one = known(effect.effect->id), *other = known(rival.effect->id);
+    return one != nullptr && other != nullptr && one->on(kind).found && other->shown &&
+           !contains(one->on(kind).alike, other->effect);
+  }
+
+  bool are_alike(const OpenPair& pair) const {
+    const StudiedEffect &effect = effects_[pair.effect], &rival = effects_[pair.rival];
+    if (!effect.change.allFinite()) return false;
+    const std::vector<std::size_t> free = free_figures(pair.kind, effect.effect, rival.effect);
+    // Where the rival's directions leave this much, its curvature does not explain it either.
+    constexpr double hopeless = 0.05;
+    if (left_by_directions(effect, rival, free) >
+        std::max(nats_to_tell_apart, hopeless * effect.change.squaredNorm()))
+      return false;
+    const std::optional<Rival> begin = nearest(effect.change, rival);
+    if (!begin) return false;
+    const Following following = follow(point_, effect.change, free, begin);
+    const double form = rival.effect->form_error;
+    const double hidden =
+        std::min({most_hidden_by_form, most_share * effect.power.on(pair.kind).nats,
+                  form * form * following.rival_energy});
+    return following.left < std::max(nats_to_tell_apart, hidden);
+  }
+
+  /// All figures and all starts of the effects that take part, as directions.
+  void set_directions() {
+    std::vector<Eigen::VectorXd> columns = point_.columns();
+    std::vector<double> half_priors;
+    for (const FreeFigure& figure : point_.figures())
+      half_priors.push_back(half_prior(figure, figure.description.prior.centre, 1.));
+    for (StudiedEffect& effect : effects_) {
+      effect.first_column = columns.size();
+      for (const FaintStart& start : effect.faint) {
+        columns.push_back(start.change);
+        if (!start.change.allFinite()) columns.back().setZero();
+      }
+    }
+    half_priors.resize(columns.size(), 0.);
+    directions_ = FisherDirections(columns, half_priors);
+  }
+
+  /// Of the effect's direction at its typical energy, when all of the rival's directions follow it.
+  double left_by_directions(const StudiedEffect& effect, const StudiedEffect& rival,
+                            const std::vector<std::size_t>& free) const {
+    std::vector<bool> chosen(static_cast<std::size_t>(directions_.columns().cols()), false);
+    for (const std::size_t place : free) chosen[place] = true;
+    for (std::size_t i = 0; i < rival.faint.size(); ++i) chosen[rival.first_column + i] = true;
+    return directions_.left_of(static_cast<Eigen::Index>(effect.first_column),
+                               effect.change.squaredNorm(), chosen);
+  }
+
+  /// The rival at the start and size that follow a change best.
+  std::optional<Rival> nearest(const Eigen::VectorXd& change, const StudiedEffect& rival) const {
+    std::optional<Rival> best;
+    double most = 0.;
+    for (std::size_t s = 0; s < rival.faint.size(); ++s) {
+      const Eigen::VectorXd& faint = rival.faint[s].change;
+      const double own = faint.squaredNorm(), factor = change.dot(faint) / own;
+      if (!(own > 0.) || !(factor > 0.) || factor * factor * own <= most) continue;
+      most = factor * factor * own;
+      const EffectFamily& family = rival.families[s];
+      const double share = faint_share * (rival.faint[s].of_variance ? std::sqrt(factor) : factor);
+      best = Rival{rival.effect,
+                   family.values(std::clamp(share, faint_share, family.largest_share()))};
+    }
+    return best;
+  }
+
+  NominalPoint point_;
+  FisherDirections directions_;
+  const PowerOptions& options_;
+  std::vector<StudiedEffect> effects_;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+std::vector<EffectPower> effect_powers(const Experiment& experiment, const ChannelNoise& noise,
+                                       const PowerOptions& options) {
+  return PowerStudy(experiment, noise, options).run();
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,168 @@
+#include "diagnosis/planning/experiment_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "diagnosis/planning/planned_menu.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using Pairs = std::set<std::pair<std::string, std::string>>;
+
+Experiment prepared(const NominalModel& nominal, const std::vector<PlannedInput>& inputs,
+                    const ChannelNoise& noise) {
+  return prepare_experiment(nominal, planned_dataset(nominal, inputs, noise), signals::Split::fit,
+                            InputNoise::reduced);
+}
+
+double duration_of(const std::vector<PlannedInput>& inputs) {
+  double sum = 0.;
+  for (const PlannedInput& input : inputs)
+    sum += static_cast<double>(input.n_samples) / input.sampling_rate_hz;
+  return sum;
+}
+
+Pairs alike_pairs(const std::vector<EffectPower>& effects, SensorKind kind) {
+  Pairs out;
+  for (const EffectPower& effect : effects)
+    for (const std::string& rival : effect.on(kind).alike)
+      out.emplace(std::min(effect.effect, rival), std::max(effect.effect, rival));
+  return out;
+}
+
+void set_gain(PlannedStep& step, const std::vector<EffectPower>& before,
+              const std::vector<EffectPower>& after) {
+  std::set<std::string> finds;
+  Pairs separates;
+  for (const SensorKind kind : sensor_kinds) {
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (after[i].on(kind).found && !before[i].on(kind).found) finds.insert(after[i].effect);
+    const Pairs left = alike_pairs(after, kind);
+    for (const auto& pair : alike_pairs(before, kind))
+      if (left.count(pair) == 0) separates.insert(pair);
+  }
+  step.finds.assign(finds.begin(), finds.end());
+  step.separates.assign(separates.begin(), separates.end());
+  step.gain = undecided_probability(before) - undecided_probability(after);
+}
+
+/// What is left alike when everything is seen that the entry's table says.
+std::vector<EffectPower> by_table(const MenuEntry& entry, std::vector<EffectPower> effects) {
+  const auto differs = [&](const std::string& a, const std::string& b) {
+    const auto one = entry.shows.find(a), other = entry.shows.find(b);
+    return one != entry.shows.end() && other != entry.shows.end() && one->second != other->second;
+  };
+  for (const SensorKind kind : sensor_kinds)
+    for (EffectPower& effect : effects)
+      std::erase_if(effect.on(kind).alike,
+                    [&](const std::string& id) { return differs(effect.effect, id); });
+  return effects;
+}
+
+class Planner {
+ public:
+  Planner(const NominalModel& nominal, const std::vector<PlannedInput>& inputs,
+          const ChannelNoise& noise, const PlanOptions& options)
+      : nominal_(nominal),
+        inputs_(inputs),
+        noise_(noise),
+        options_(options),
+        experiment_(prepared(nominal, inputs, noise)) {}
+
+  ExperimentPlan run() {
+    ExperimentPlan plan{.noise = noise_};
+    for (const PlannedInput& input : inputs_)
+      plan.records.push_back({input.name,
+                              signals::to_string(signals::Excitation{!input.acceleration.empty(),
+                                                                     !input.wind.empty()}),
+                              duration_of({input})});
+    plan.effects = effect_powers(
+        experiment_, noise_, {.n_threads = options_.n_threads, .on_effect = options_.on_effect});
+    plan.undecided = undecided_probability(plan.effects);
+    for (const MenuEntry& entry : experiment_menu())
+      plan.steps.push_back(step_of(entry, plan.effects));
+    std::stable_sort(plan.steps.begin(), plan.steps.end(),
+                     [](const PlannedStep& a, const PlannedStep& b) { return a.gain > b.gain; });
+    return plan;
+  }
+
+ private:
+  PlannedStep step_of(const MenuEntry& entry, const std::vector<EffectPower>& before) const {
+    PlannedStep step{.name = entry.name, .what = entry.what};
+    const auto added = added_inputs(entry.name, nominal_, inputs_);
+    step.by_rule = !added.has_value();
+    if (added) {
+      step.duration_s = duration_of(*added);
+      set_gain(step, before, with_records(*added, before));
+    } else {
+      set_gain(step, before, by_table(entry, before));
+    }
+    return step;
+  }
+
+  std::vector<EffectPower> with_records(const std::vector<PlannedInput>& added,
+                                        const std::vector<EffectPower>& before) const {
+    std::vector<PlannedInput> inputs = inputs_;
+    inputs.insert(inputs.end(), added.begin(), added.end());
+    Experiment experiment = prepared(nominal_, inputs, noise_);
+    experiment.scales = experiment_.scales;
+    return effect_powers(experiment, noise_,
+                         {.limits = false,
+                          .n_threads = options_.n_threads,
+                          .fewer_records = &before,
+                          .on_effect = options_.on_effect});
+  }
+
+  const NominalModel& nominal_;
+  const std::vector<PlannedInput>& inputs_;
+  const ChannelNoise& noise_;
+  const PlanOptions& options_;
+  Experiment experiment_;
+};
+
+void check_noise(const ChannelNoise& noise) {
+  const auto refuse = [](double value, const std::string& name) {
+    if (!std::isfinite(value) || value <= 0.)
+      throw signals::UserError(name + " is " + signals::to_text(value) +
+                               "; give the standard deviation of a sample, more than 0");
+  };
+  refuse(noise.moment_n_m, "the noise of the moment");
+  refuse(noise.acceleration_m_s2, "the noise of the acceleration");
+}
+
+}  // namespace
+
+std::size_t n_plan_steps(const NominalModel& nominal, const std::vector<PlannedInput>& inputs) {
+  std::size_t n = 1;
+  for (const MenuEntry& entry : experiment_menu())
+    if (added_inputs(entry.name, nominal, inputs)) ++n;
+  return n * effect_catalogue().size();
+}
+
+ExperimentPlan plan_experiments(const NominalModel& nominal,
+                                const std::vector<PlannedInput>& inputs, const ChannelNoise& noise,
+                                const PlanOptions& options) {
+  check_noise(noise);
+  return Planner(nominal, inputs, noise, options).run();
+}
+
+double undecided_probability(const std::vector<EffectPower>& effects) {
+  const auto weight = [](const std::string& id) { return std::exp(find_effect(id).log_prior); };
+  double undecided = 0., all = 0.;
+  for (const SensorKind kind : sensor_kinds)
+    for (const EffectPower& effect : effects) {
+      const double own = weight(effect.effect);
+      double rivals = 0.;
+      for (const std::string& rival : effect.on(kind).alike) rivals += weight(rival);
+      undecided += effect.on(kind).found ? own * rivals / (own + rivals) : own;
+      all += own;
+    }
+  return all > 0. ? undecided / all : 0.;
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,219 @@
+#include "diagnosis/planning/experiment_plan_json.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "diagnosis/model/json_number.h"
+#include "diagnosis/model/words.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using json = nlohmann::ordered_json;
+using Words = std::vector<std::string>;
+
+json standing_json(const EffectPower& effect, SensorKind kind) {
+  const Standing& standing = effect.on(kind);
+  return {{"nats_at_typical", effect.shown ? json_number(standing.nats) : json(nullptr)},
+          {"found_at_typical", standing.found},
+          {"limit", standing.limit ? json_number(*standing.limit) : json(nullptr)},
+          {"found_at_any_size", standing.any_size},
+          {"alike", standing.alike}};
+}
+
+json effect_json(const EffectPower& effect) {
+  return {{"effect", effect.effect},
+          {"shown", effect.shown},
+          {"needs", effect.shown ? json(nullptr) : json(effect.needs)},
+          {"parameter", effect.parameter},
+          {"unit", effect.unit},
+          {"typical", json_number(effect.typical)},
+          {"exact", standing_json(effect, SensorKind::exact)},
+          {"as_built", standing_json(effect, SensorKind::as_built)}};
+}
+
+json step_json(const PlannedStep& step) {
+  json separates = json::array();
+  for (const auto& [a, b] : step.separates) separates.push_back({a, b});
+  return {{"name", step.name},
+          {"what", step.what},
+          {"simulated", !step.by_rule},
+          {"duration_s", step.by_rule ? json(nullptr) : json_number(step.duration_s)},
+          {"gain", json_number(step.gain)},
+          {"finds", step.finds},
+          {"separates", separates}};
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  return three_digits(value) + (unit == "1" ? "" : " " + unit);
+}
+
+/// "delay 6.3e-06 s", "backlash gap 0.0003".
+std::string limit_words(const EffectPower& effect) {
+  const Standing& standing = effect.as_built;
+  if (!standing.limit) return effect.effect + " at no size";
+  if (standing.any_size) return effect.effect + " at any size";
+  const std::string name =
+      effect.unit == "1" ? effect.effect + " " + effect.parameter : effect.effect;
+  return name + " " + with_unit(*standing.limit, effect.unit);
+}
+
+/// Words with commas on lines of at most 100 characters, the last one ending in dots when there are
+/// more than so many.
+Words filled(const std::string& head, const Words& words, std::size_t most_lines) {
+  constexpr std::size_t longest = 96;
+  Words lines{head};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string word = words[i] + (i + 1 < words.size() ? "," : "");
+    if (lines.back().size() + 1 + word.size() > longest) {
+      if (lines.size() == most_lines) {
+        lines.back() += " ...";
+        return lines;
+      }
+      lines.push_back("   ");
+    }
+    lines.back() += " " + word;
+  }
+  return lines;
+}
+
+Words chosen(const ExperimentPlan& plan, const std::function<bool(const EffectPower&)>& which) {
+  Words out;
+  for (const EffectPower& effect : plan.effects)
+    if (which(effect)) out.push_back(effect.effect);
+  return out;
+}
+
+std::string records_line(const ExperimentPlan& plan) {
+  double duration_s = 0.;
+  std::map<std::string, int> kinds;
+  for (const PlannedRecord& record : plan.records) {
+    duration_s += record.duration_s;
+    ++kinds[record.excitation == "none" ? "quiet" : record.excitation];
+  }
+  Words words;
+  for (const auto& [kind, n] : kinds) words.push_back(std::to_string(n) + " " + kind);
+  return "Planned: " + joined(words, ", ") + ", " + three_digits(duration_s) +
+         " s; noise a sample " + three_digits(plan.noise.moment_n_m) + " N m and " +
+         three_digits(plan.noise.acceleration_m_s2) + " m/s^2";
+}
+
+std::string found_line(const ExperimentPlan& plan) {
+  const Words found = chosen(plan, [](const EffectPower& e) { return e.as_built.found; });
+  const Words shown = chosen(plan, [](const EffectPower& e) { return e.shown; });
+  return "Would be found at typical strength: " + std::to_string(found.size()) + " of " +
+         std::to_string(plan.effects.size()) + " effects" +
+         (found.size() == shown.size() ? "" : "; else only from:");
+}
+
+/// Effects that are shown but too weak there, with the size that they would need.
+Words too_weak(const ExperimentPlan& plan) {
+  Words words;
+  for (const EffectPower& effect : plan.effects)
+    if (effect.shown && !effect.as_built.found) words.push_back(limit_words(effect));
+  return words;
+}
+
+Words not_shown_lines(const ExperimentPlan& plan) {
+  std::map<std::string, Words> by_need;
+  for (const EffectPower& effect : plan.effects)
+    if (!effect.shown) by_need[effect.needs].push_back(effect.effect);
+  Words lines;
+  for (const auto& [need, ids] : by_need)
+    lines.push_back("Not shown without " + need + ": " + joined(ids, ", "));
+  return lines;
+}
+
+Words limits_lines(const ExperimentPlan& plan) {
+  constexpr std::size_t most_lines = 5;
+  Words words;
+  for (const EffectPower& effect : plan.effects)
+    if (effect.as_built.found) words.push_back(limit_words(effect));
+  if (words.empty()) return {};
+  return filled("Found from:", words, most_lines);
+}
+
+Words alike_lines(const ExperimentPlan& plan) {
+  constexpr std::size_t most = 4;
+  Words lines;
+  for (const EffectPower& effect : plan.effects)
+    if (!effect.as_built.alike.empty())
+      lines.push_back("  " + effect.effect + " could be " + joined(effect.as_built.alike, ", "));
+  const std::size_t n = lines.size();
+  if (n > most + 1) {
+    lines.resize(most);
+    lines.push_back("  and " + std::to_string(n - most) + " more (plan.json)");
+  }
+  if (n > 0) lines.insert(lines.begin(), "Not told apart at typical strength:");
+  return lines;
+}
+
+std::string step_line(const PlannedStep& step, bool first) {
+  Words pairs;
+  for (const auto& [a, b] : step.separates) pairs.push_back(a + "/" + b);
+  std::string text = (first ? "Measure first: " : "Then: ") + step.name + " - " + step.what +
+                     " (-" + percent(step.gain) + (step.by_rule ? ", by rule" : "");
+  if (!step.finds.empty()) text += "; finds " + joined(step.finds, ", ");
+  if (!pairs.empty()) text += "; tells apart " + joined(pairs, ", ");
+  return text + ")";
+}
+
+Words step_lines(const ExperimentPlan& plan) {
+  constexpr std::size_t most = 3;
+  constexpr double worth_it = 0.005;
+  Words lines;
+  for (const PlannedStep& step : plan.steps)
+    if (step.gain >= worth_it && lines.size() < most)
+      lines.push_back(step_line(step, lines.empty()));
+  if (lines.empty())
+    lines.push_back("Measure first: what is planned; nothing of the menu adds to it");
+  return lines;
+}
+
+}  // namespace
+
+std::string plan_json(const ExperimentPlan& plan) {
+  json records = json::array(), effects = json::array(), steps = json::array();
+  for (const PlannedRecord& record : plan.records)
+    records.push_back({{"name", record.name},
+                       {"excitation", record.excitation},
+                       {"duration_s", json_number(record.duration_s)}});
+  for (const EffectPower& effect : plan.effects) effects.push_back(effect_json(effect));
+  for (const PlannedStep& step : plan.steps) steps.push_back(step_json(step));
+  const json document{{"schema", "vibrissa-plan-1"},
+                      {"noise",
+                       {{"moment_n_m", json_number(plan.noise.moment_n_m)},
+                        {"acceleration_m_s2", json_number(plan.noise.acceleration_m_s2)}}},
+                      {"nats_to_find", nats_to_find},
+                      {"nats_to_tell_apart", nats_to_tell_apart},
+                      {"records", records},
+                      {"undecided_probability", json_number(plan.undecided)},
+                      {"effects", effects},
+                      {"experiments", steps}};
+  return document.dump(2) + "\n";
+}
+
+std::string plan_text(const ExperimentPlan& plan) {
+  constexpr std::size_t most_lines = 20;
+  Words lines;
+  const auto add = [&](const std::string& line) {
+    if (line.empty()) return;
+    for (std::string& part : wrapped(line, 2)) lines.push_back(std::move(part));
+  };
+  add(records_line(plan));
+  add(found_line(plan) + (too_weak(plan).empty() ? "" : " " + joined(too_weak(plan), ", ")));
+  for (const std::string& line : not_shown_lines(plan)) add(line);
+  for (const std::string& line : limits_lines(plan)) add(line);
+  for (const std::string& line : alike_lines(plan)) add(line);
+  Words steps;
+  std::swap(steps, lines);
+  add("An effect would stay unfound or be mistaken with probability " + percent(plan.undecided));
+  for (const std::string& line : step_lines(plan)) add(line);
+  // What to do is never cut.
+  if (steps.size() + lines.size() > most_lines) steps.resize(most_lines - lines.size());
+  steps.insert(steps.end(), lines.begin(), lines.end());
+  return joined(steps, "\n") + "\n";
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,182 @@
+#include "diagnosis/planning/planned_records.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "diagnosis/fit/fit_parameters.h"
+#include "diagnosis/records/spectrum.h"
+#include "signals/base/error.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+namespace channel = signals::channel;
+
+/// A channel's samples; empty when it is missing or zero throughout.
+std::vector<double> moving_channel(const signals::Record& record, const std::string& name) {
+  if (!record.has(name)) return {};
+  const auto x = record.channel(name);
+  if (std::all_of(x.begin(), x.end(), [](double value) { return value == 0.; })) return {};
+  return {x.begin(), x.end()};
+}
+
+double rms(const std::vector<double>& x) {
+  double sum = 0.;
+  for (const double value : x) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(x.size()));
+}
+
+/// Sum of lines k / n of the rate with random phases, each of height 1.
+std::vector<double> lines_of(std::size_t n, const std::vector<std::size_t>& lines, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> phase(0., 2. * std::numbers::pi);
+  std::vector<Complex> spectrum(n / 2 + 1, 0.);
+  for (const std::size_t k : lines)
+    spectrum[k] = std::polar(0.5 * static_cast<double>(n), phase(random));
+  return samples_of(spectrum, n);
+}
+
+std::vector<double> nominal_moment(const NominalModel& nominal, const PlannedInput& input) {
+  const std::size_t n = input.n_samples;
+  std::vector<Complex> moment(n / 2 + 1, 0.);
+  const auto add = [&](const std::vector<double>& x, bool wind) {
+    if (x.empty()) return;
+    const std::vector<Complex> spectrum = spectrum_of(x);
+    for (std::size_t k = 0; k < moment.size(); ++k) {
+      const Complex s(0., 2. * std::numbers::pi * input.sampling_rate_hz * static_cast<double>(k) /
+                              static_cast<double>(n));
+      moment[k] += spectrum[k] * (wind ? nominal.wind_response(s) : nominal.base_response(s));
+    }
+  };
+  add(input.acceleration, false);
+  std::vector<double> force = input.wind;
+  for (double& u : force) u = nominal.drag_curve.drag(u);
+  add(force, true);
+  return samples_of(moment, n);
+}
+
+class NoiseMaker {
+ public:
+  std::vector<double> with_noise(std::vector<double> x, std::size_t n, double deviation) {
+    x.resize(n, 0.);
+    for (double& value : x) value += deviation * normal_(random_);
+    return x;
+  }
+
+ private:
+  std::mt19937 random_{20240611};
+  std::normal_distribution<double> normal_;
+};
+
+}  // namespace
+
+ChannelNoise usual_noise() {
+  return {.moment_n_m = 1e-6, .acceleration_m_s2 = usual_acceleration_noise};
+}
+
+std::vector<PlannedInput> inputs_of(const NominalModel& nominal, const signals::Dataset& dataset) {
+  std::vector<PlannedInput> out;
+  for (const signals::DatasetRecord& entry : dataset.records) {
+    if (entry.split != signals::Split::fit || !is_comparable(nominal, entry)) continue;
+    const signals::Record& record = entry.record;
+    PlannedInput input{.name = entry.name,
+                       .sampling_rate_hz = record.sampling_rate_hz(),
+                       .n_samples = record.n_samples(),
+                       .cross_acceleration = moving_channel(record, channel::cross_acceleration),
+                       .period_samples = entry.period_samples};
+    if (entry.excitation.base)
+      input.acceleration = moving_channel(record, channel::base_acceleration);
+    if (entry.excitation.wind) input.wind = moving_channel(record, channel::wind_speed);
+    out.push_back(std::move(input));
+  }
+  const bool moved = std::any_of(out.begin(), out.end(), [](const PlannedInput& input) {
+    return !input.acceleration.empty() || !input.wind.empty();
+  });
+  if (!moved)
+    throw signals::UserError(
+        "no record of the planned dataset moves the sensor in a way that the simulation knows: it "
+        "needs a fit record with excitation \"base\" or \"wind\"");
+  return out;
+}
+
+std::vector<PlannedInput> usual_inputs(const NominalModel& nominal, const double rate_hz) {
+  std::vector<PlannedInput> out;
+  if (nominal.has_base)
+    for (const auto& [name, level] :
+         {std::pair<std::string, double>{"base_low", 1.}, {"base_high", 4.}})
+      out.push_back(multisine_input(name, 4., 0.25 * rate_hz, level, rate_hz));
+  if (nominal.has_wind) out.push_back(gust_input("wind", 2., 10., rate_hz));
+  return out;
+}
+
+PlannedInput quiet_input(const double duration_s, const double rate_hz) {
+  return {.name = "quiet",
+          .sampling_rate_hz = rate_hz,
+          .n_samples = fast_length(static_cast<std::size_t>(duration_s * rate_hz))};
+}
+
+PlannedInput multisine_input(const std::string& name, const double low_hz, const double high_hz,
+                             const double level, const double rate_hz) {
+  constexpr std::size_t period = 2048;
+  std::vector<std::size_t> lines;
+  for (std::size_t k = 1; k < period / 2; k += 2) {
+    const double f = rate_hz * static_cast<double>(k) / static_cast<double>(period);
+    if (f >= low_hz && f <= high_hz && (k / 2) % 4 != 1) lines.push_back(k);
+  }
+  std::vector<double> once = lines_of(period, lines, 3);
+  const double scale = level / rms(once);
+  for (double& value : once) value *= scale;
+  PlannedInput out{.name = name,
+                   .sampling_rate_hz = rate_hz,
+                   .n_samples = 2 * period,
+                   .acceleration = once,
+                   .period_samples = period};
+  out.acceleration.insert(out.acceleration.end(), once.begin(), once.end());
+  return out;
+}
+
+PlannedInput gust_input(const std::string& name, const double mean_m_s, const double duration_s,
+                        const double rate_hz) {
+  constexpr double lowest_hz = 0.1, highest_hz = 40., ratio = 1.5, gusts = 0.25;
+  const std::size_t n = fast_length(static_cast<std::size_t>(duration_s * rate_hz));
+  std::vector<std::size_t> lines;
+  for (double f = lowest_hz; f < std::min(highest_hz, 0.4 * rate_hz); f *= ratio) {
+    const auto k = static_cast<std::size_t>(std::lround(f * static_cast<double>(n) / rate_hz));
+    if (k > 0 && (lines.empty() || k != lines.back())) lines.push_back(k);
+  }
+  PlannedInput out{.name = name, .sampling_rate_hz = rate_hz, .n_samples = n};
+  out.wind = lines_of(n, lines, 5);
+  const double scale = gusts * mean_m_s / rms(out.wind);
+  for (double& u : out.wind) u = mean_m_s + scale * u;
+  return out;
+}
+
+signals::Dataset planned_dataset(const NominalModel& nominal,
+                                 const std::vector<PlannedInput>& inputs,
+                                 const ChannelNoise& noise) {
+  NoiseMaker maker;
+  signals::Dataset out;
+  for (const PlannedInput& input : inputs) {
+    const std::size_t n = input.n_samples;
+    signals::Record record(input.sampling_rate_hz, n);
+    record.set_channel(channel::base_acceleration,
+                       maker.with_noise(input.acceleration, n, noise.acceleration_m_s2));
+    if (!input.cross_acceleration.empty())
+      record.set_channel(channel::cross_acceleration,
+                         maker.with_noise(input.cross_acceleration, n, noise.acceleration_m_s2));
+    record.set_channel(channel::base_moment,
+                       maker.with_noise(nominal_moment(nominal, input), n, noise.moment_n_m));
+    if (!input.wind.empty()) record.set_channel(channel::wind_speed, input.wind);
+    out.records.push_back({input.name,
+                           std::move(record),
+                           {!input.acceleration.empty(), !input.wind.empty()},
+                           input.period_samples,
+                           signals::Split::fit,
+                           nominal.readout});
+  }
+  return out;
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,258 @@
+#include "diagnosis/planning/projection.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/fit/fit_posterior.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+Eigen::VectorXd nominal_x(const std::vector<FreeFigure>& figures, const ChannelNoise& noise) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(figures.size()));
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    x(static_cast<Eigen::Index>(i)) = figures[i].description.prior.centre;
+  x(place_moment_noise) = std::log(noise.moment_n_m);
+  x(place_acceleration_noise) = std::log(noise.acceleration_m_s2);
+  return x;
+}
+
+FisherChanges nominal_changes(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+                              const Eigen::VectorXd& x) {
+  FitPosterior posterior(experiment, figures, Hypothesis{});
+  const std::vector<Prediction> at = posterior.predict(x);
+  posterior.renew_slow_variance(x, at);
+  std::vector<double> deviation;
+  for (std::size_t r = 0; r < at.size(); ++r)
+    for (const double variance :
+         posterior.variance(x, at[r], r, posterior.acceleration_variance(x)))
+      deviation.push_back(std::sqrt(variance));
+  return {experiment, std::move(deviation), noisy_chain(experiment, figures, x)};
+}
+
+/// Nats left that are as good as none.
+constexpr double surely_followed = 0.5;
+
+/// Distance of what follows from a change, with its price.
+class Pursuit {
+ public:
+  Pursuit(const NominalPoint& point, const Eigen::VectorXd& change,
+          const std::vector<std::size_t>& figures, const std::optional<Rival>& rival)
+      : point_(point), change_(change), figures_(figures), rival_(rival) {
+    const std::size_t n = figures.size() + (rival ? rival->values.size() : 0);
+    z_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
+    half_prior_ = z_;
+    low_ = high_ = centre_ = z_;
+    for (std::size_t i = 0; i < n; ++i) set_coordinate(i);
+    residual_ = residual(z_);
+    cost_ = cost(z_, residual_);
+    set_columns(true);
+  }
+
+  Following run() {
+    constexpr int n_steps = 14;
+    for (int i = 0; i < n_steps && !ended_; ++i) step();
+    if (!rival_) return {.left = cost_};
+    const Eigen::VectorXd alone = point_.change(figures_at(z_));
+    return {.left = cost_,
+            .rival_energy = std::min(point_.changes().mean_energy(change_),
+                                     point_.changes().mean_energy(change_ - residual_ - alone))};
+  }
+
+ private:
+  const Parameter& description(std::size_t i) const {
+    return i < figures_.size() ? point_.figures()[figures_[i]].description
+                               : rival_->effect->parameters[i - figures_.size()];
+  }
+
+  void set_coordinate(std::size_t i) {
+    const auto place = static_cast<Eigen::Index>(i);
+    const Parameter& parameter = description(i);
+    low_(place) = parameter.prior.low;
+    high_(place) = parameter.prior.high;
+    if (i < figures_.size()) {
+      const FreeFigure& figure = point_.figures()[figures_[i]];
+      z_(place) = centre_(place) = point_.x()(static_cast<Eigen::Index>(figures_[i]));
+      half_prior_(place) = half_prior(figure, parameter.prior.centre, 1.);
+    } else {
+      z_(place) = std::clamp(parameter.coordinate(rival_->values[i - figures_.size()]), low_(place),
+                             high_(place));
+    }
+  }
+
+  Eigen::VectorXd figures_at(const Eigen::VectorXd& z) const {
+    Eigen::VectorXd x = point_.x();
+    for (std::size_t i = 0; i < figures_.size(); ++i)
+      x(static_cast<Eigen::Index>(figures_[i])) = z(static_cast<Eigen::Index>(i));
+    return x;
+  }
+
+  Eigen::VectorXd residual(const Eigen::VectorXd& z) const {
+    const Eigen::VectorXd x = figures_at(z);
+    if (!rival_) return change_ - point_.change(x);
+    std::vector<double> values;
+    for (std::size_t i = figures_.size(); i < static_cast<std::size_t>(z.size()); ++i)
+      values.push_back(description(i).value(z(static_cast<Eigen::Index>(i))));
+    return change_ - point_.change(x, *rival_->effect, values);
+  }
+
+  double cost(const Eigen::VectorXd& z, const Eigen::VectorXd& residual) const {
+    const double sum =
+        residual.squaredNorm() + (half_prior_.array() * (z - centre_).array().square()).sum();
+    return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+  }
+
+  /// Derivatives at z; those by the figures are known where the pursuit begins.
+  void set_columns(bool at_start) {
+    columns_.resize(residual_.size(), z_.size());
+    for (Eigen::Index i = 0; i < z_.size(); ++i) {
+      const auto place = static_cast<std::size_t>(i);
+      if (at_start && place < figures_.size()) {
+        columns_.col(i) = point_.columns()[figures_[place]];
+        continue;
+      }
+      Eigen::VectorXd z = z_;
+      double h = description(place).step;
+      if (z(i) + h > high_(i)) h = -h;
+      z(i) += h;
+      columns_.col(i) = (residual_ - residual(z)) / h;
+      if (!columns_.col(i).allFinite()) columns_.col(i).setZero();
+    }
+    information_ = columns_.transpose() * columns_;
+    information_.diagonal() += half_prior_;
+    fresh_ = true;
+  }
+
+  /// Best move of the chosen coordinates when the others move as given.
+  Eigen::VectorXd move_of(const std::vector<Eigen::Index>& free, const Eigen::VectorXd& moved,
+                          const Eigen::VectorXd& uphill) const {
+    const Eigen::VectorXd right = (uphill - information_ * moved)(free);
+    Eigen::MatrixXd matrix = information_(free, free);
+    matrix.diagonal() *= 1. + damping_;
+    const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+    Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * right);
+    // Directions that are the same but for rounding count once.
+    constexpr double same = 1e-9;
+    for (Eigen::Index i = 0; i < along.size(); ++i)
+      along(i) = solver.eigenvalues()(i) > same ? along(i) / solver.eigenvalues()(i) : 0.;
+    return scale.asDiagonal() * (solver.eigenvectors() * along);
+  }
+
+  /// The others move on when one is held at its bound.
+  Eigen::VectorXd damped_move() const {
+    const Eigen::VectorXd uphill =
+        columns_.transpose() * residual_ - half_prior_.cwiseProduct(z_ - centre_);
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < z_.size(); ++i)
+      if (information_(i, i) > 0.) free.push_back(i);
+    Eigen::VectorXd held = Eigen::VectorXd::Zero(z_.size());
+    while (!free.empty()) {
+      const Eigen::VectorXd part = move_of(free, held, uphill);
+      std::vector<Eigen::Index> inside;
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        const Eigen::Index place = free[i];
+        const double to = z_(place) + part(static_cast<Eigen::Index>(i));
+        const double bounded = std::clamp(to, low_(place), high_(place));
+        if (bounded == to)
+          inside.push_back(place);
+        else
+          held(place) = bounded - z_(place);
+      }
+      if (inside.size() == free.size()) {
+        held(free) = part;
+        break;
+      }
+      free = std::move(inside);
+    }
+    return held;
+  }
+
+  /// One step of Levenberg's and Marquardt's; derivatives are renewed when they foretell badly.
+  void step() {
+    constexpr double far = 200., worthwhile_when_far = 0.3;
+    constexpr double worthwhile = 0.02, untrusted = 0.1, negligible = 0.2, most_damping = 1e3;
+    const Eigen::VectorXd z = (z_ + damped_move()).cwiseMax(low_).cwiseMin(high_);
+    const Eigen::VectorXd foretold_residual = residual_ - columns_ * (z - z_);
+    const double foretold = cost(z, foretold_residual);
+    const double least_gain = foretold > far ? worthwhile_when_far : worthwhile;
+    if (cost_ - foretold < least_gain * cost_) {
+      renew_or_end();
+      return;
+    }
+    Eigen::VectorXd there = residual(z);
+    const double value = cost(z, there);
+    if (!(value < cost_)) {
+      if (!fresh_) {
+        set_columns(false);
+        return;
+      }
+      damping_ = std::max(1e-2, 10. * damping_);
+      ended_ = damping_ > most_damping;
+      return;
+    }
+    ended_ = value < surely_followed;
+    z_ = z;
+    residual_ = std::move(there);
+    cost_ = value;
+    damping_ *= 0.2;
+    fresh_ = false;
+    foretold_well_ = value - foretold < std::max(negligible, untrusted * foretold);
+    if (!ended_ && !foretold_well_) set_columns(false);
+  }
+
+  /// No step helps: because the place is the best, unless the derivatives are of elsewhere.
+  void renew_or_end() {
+    if (fresh_ || foretold_well_)
+      ended_ = true;
+    else
+      set_columns(false);
+  }
+
+  const NominalPoint& point_;
+  const Eigen::VectorXd& change_;
+  const std::vector<std::size_t>& figures_;
+  const std::optional<Rival>& rival_;
+  Eigen::VectorXd z_, half_prior_, low_, high_, centre_, residual_;
+  Eigen::MatrixXd columns_, information_;
+  double cost_ = 0., damping_ = 1e-4;
+  bool fresh_ = false, foretold_well_ = false, ended_ = false;
+};
+
+}  // namespace
+
+NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noise)
+    : experiment_(experiment),
+      figures_(make_figures(experiment, Hypothesis{})),
+      x_(nominal_x(figures_, noise)),
+      changes_(nominal_changes(experiment, figures_, x_)) {
+  for (std::size_t i = 0; i < figures_.size(); ++i) {
+    Eigen::VectorXd x = x_;
+    const auto place = static_cast<Eigen::Index>(i);
+    double h = figures_[i].description.step;
+    if (x(place) + h > figures_[i].description.prior.high) h = -h;
+    x(place) += h;
+    columns_.push_back(change(x) / h);
+  }
+}
+
+Eigen::VectorXd NominalPoint::change(const Eigen::VectorXd& x) const {
+  return changes_.of(noisy_chain(experiment_, figures_, x));
+}
+
+Eigen::VectorXd NominalPoint::change(const Eigen::VectorXd& x, const Effect& effect,
+                                     const std::vector<double>& values) const {
+  NoisyChain moved = noisy_chain(experiment_, figures_, x);
+  effect.extend(moved.chain, values, experiment_.scales);
+  return changes_.of(moved);
+}
+
+Following follow(const NominalPoint& point, const Eigen::VectorXd& change,
+                 const std::vector<std::size_t>& figures, const std::optional<Rival>& rival) {
+  return Pursuit(point, change, figures, rival).run();
+}
+
+}  // namespace vibrissa::diagnosis

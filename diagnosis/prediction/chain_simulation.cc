@@ -1,0 +1,260 @@
+#include "diagnosis/prediction/chain_simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/spectrum.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+std::vector<Complex> wind_force_spectrum(const Chain& chain, const PreparedRecord& record) {
+  if (record.wind.empty()) return {};
+  std::vector<double> u = record.wind;
+  for (const auto& law : chain.wind) law(u, 1. / record.sampling_rate_hz);
+  const double factor = chain.drag_factor * record.wind_share;
+  for (double& value : u) value = factor * chain.structure.drag_curve.drag(value);
+  return spectrum_of(u);
+}
+
+/// d (u - v) |u - v| / d base velocity at rest, root mean square of the wind.
+double drag_per_velocity(const Chain& chain, const PreparedRecord& record) {
+  double sum = 0.;
+  for (const double u : record.wind) sum += u * u;
+  return record.wind.empty()
+             ? 0.
+             : 2. * chain.relative_wind.base_share * chain.drag_factor * record.wind_share *
+                   std::sqrt(sum / static_cast<double>(record.wind.size()));
+}
+
+Complex reading_of_source(const Chain& chain, const PreparedRecord& record, std::size_t k) {
+  const Complex polled = record.acceleration[k];
+  if (record.renewed.empty()) return polled;
+  return polled + chain.renewed_share * (record.renewed[k] - polled);
+}
+
+std::vector<Complex> bins_of_lines(const PreparedRecord& record,
+                                   const std::vector<Complex>& whole) {
+  if (record.n_judged == record.n_samples) return {whole.begin() + 1, whole.end() - 1};
+  return judged_bins(record, samples_of(whole, record.n_samples));
+}
+
+std::vector<std::vector<Complex>> judged_means(std::span<const PreparedRecord> records,
+                                               const std::vector<std::vector<Complex>>& readings) {
+  std::vector<std::vector<Complex>> out;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    out.push_back(records[r].is_still() ? std::vector<Complex>(records[r].n_bins(), 0.)
+                                        : bins_of_lines(records[r], readings[r]));
+  return out;
+}
+
+void paint(std::span<double> variance, const NoiseColour& colour, const PreparedRecord& record) {
+  if (colour.is_white()) return;
+  for (std::size_t b = 0; b < variance.size(); ++b)
+    variance[b] *= colour.density(record.bin_hz() * static_cast<double>(b + 1));
+}
+
+}  // namespace
+
+/// The linear part before the sensor, without what the transverse axis adds.
+ChainSimulator::Spectra ChainSimulator::linear_moments(std::span<const PreparedRecord> records) {
+  Spectra out;
+  for (const PreparedRecord& record : records) {
+    std::vector<Complex>& moment = out.emplace_back(record.n_samples / 2 + 1, 0.);
+    if (record.is_still()) continue;
+    const std::vector<LinearPart>& lines = response_.lines(record);
+    if (!record.acceleration.empty())
+      for (std::size_t k = 0; k < lines.size(); ++k)
+        moment[k] = lines[k].base * reading_of_source(chain_, record, k);
+    const std::vector<Complex> force = wind_force_spectrum(chain_, record);
+    if (!force.empty())
+      for (std::size_t k = 0; k < lines.size(); ++k) moment[k] += lines[k].wind * force[k];
+  }
+  return out;
+}
+
+ChainSimulator::Begun ChainSimulator::begin(std::span<const PreparedRecord> records) {
+  Begun out{.moments = linear_moments(records)};
+  if (!response_.joint()) return out;
+  out.task.chain = &chain_;
+  out.task.joint = &*response_.joint();
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    if (records[r].is_still() || !records[r].magnet || !is_dynamic(chain_, records[r])) continue;
+    const std::vector<LinearPart>& lines = response_.lines(records[r]);
+    out.places.push_back(r);
+    std::vector<Complex>& elastic =
+        out.task.elastic.emplace_back(ElasticMoment{&records[r], out.moments[r]}).spectrum;
+    for (std::size_t k = 0; k < lines.size(); ++k) elastic[k] *= lines[k].elastic;
+  }
+  return out;
+}
+
+std::vector<Complex> ChainSimulator::reading(const PreparedRecord& record,
+                                             std::vector<Complex> moment) {
+  if (!chain_.readout.empty()) {
+    std::vector<double> samples = samples_of(moment, record.n_samples);
+    for (const auto& law : chain_.readout)
+      for (double& value : samples) value = law(value);
+    moment = spectrum_of(samples);
+  }
+  const std::vector<LinearPart>& lines = response_.lines(record);
+  for (std::size_t k = 0; k < moment.size(); ++k) moment[k] *= lines[k].sensor;
+  if (chain_.clock_rate_error == 0.) return moment;
+  const std::size_t n = record.n_samples;
+  const double error = chain_.clock_rate_error;
+  const double first = error * record.clock_start_s * record.sampling_rate_hz;
+  return spectrum_of(resampled(moment, n, n, first, 1. + error));
+}
+
+ChainSimulator::Spectra ChainSimulator::finish(std::span<const PreparedRecord> records, Begun begun,
+                                               const std::vector<std::vector<double>>& dynamic) {
+  Spectra moments = std::move(begun.moments);
+  for (std::size_t i = 0; i < begun.places.size(); ++i) {
+    const std::vector<Complex> added = spectrum_of(dynamic[i]);
+    std::vector<Complex>& moment = moments[begun.places[i]];
+    for (std::size_t k = 0; k < added.size(); ++k) moment[k] += added[k];
+  }
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const PreparedRecord& record = records[r];
+    if (record.is_still()) continue;
+    if (!record.cross_acceleration.empty()) {
+      const std::vector<LinearPart>& lines = response_.lines(record);
+      for (std::size_t k = 0; k < lines.size(); ++k)
+        moments[r][k] += lines[k].cross * record.cross_acceleration[k];
+    }
+    moments[r] = reading(record, std::move(moments[r]));
+  }
+  return moments;
+}
+
+ChainSimulator::Spectra ChainSimulator::readings(std::span<const PreparedRecord> records) {
+  Begun begun = begin(records);
+  const auto dynamic = dynamic_parts({&begun.task, 1});
+  return finish(records, std::move(begun), dynamic.front());
+}
+
+std::vector<std::vector<Complex>> ChainSimulator::means(std::span<const PreparedRecord> records) {
+  return judged_means(records, readings(records));
+}
+
+std::vector<double> ChainSimulator::samples(const PreparedRecord& record) {
+  return samples_of(readings({&record, 1}).front(), record.n_samples);
+}
+
+std::vector<Prediction> ChainSimulator::predictions(std::span<const PreparedRecord> records,
+                                                    const Spectra& readings) {
+  std::vector<std::vector<Complex>> mean = judged_means(records, readings);
+  std::vector<Prediction> out;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    out.push_back(with_noise(records[r], std::move(mean[r])));
+  return out;
+}
+
+std::vector<Prediction> ChainSimulator::predict(std::span<const PreparedRecord> records) {
+  return predictions(records, readings(records));
+}
+
+/// Of a unit of variance a sample of the accelerometer, if it were white.
+void ChainSimulator::add_acceleration_noise(const PreparedRecord& record,
+                                            std::span<double> variance) {
+  // Both axes of an accelerometer are as noisy.
+  const bool base = !record.acceleration.empty(), cross = !record.cross_acceleration.empty();
+  const double n = static_cast<double>(record.n_judged);
+  const std::vector<LinearPart>& lines = response_.lines(record);
+  // The whisker's own velocity in the wind stems from the same noisy acceleration.
+  const double drag = base && chain_.relative_wind.on ? drag_per_velocity(chain_, record) : 0.;
+  for (std::size_t b = 0; b < variance.size(); ++b) {
+    const std::size_t k = record.whole_line(b);
+    const LinearPart& line = lines[k];
+    Complex felt = 0.;
+    if (drag != 0.) {
+      const Complex s = record.line_s(k);
+      if (gives_velocity(s)) felt = drag * line.wind / s;
+    }
+    if (base)
+      variance[b] += n * std::norm((line.base - felt) * line.sensor) * record.bin_noise_share[b];
+    if (cross) variance[b] += n * std::norm(line.cross * line.sensor);
+  }
+}
+
+std::vector<OwnUnknown> ChainSimulator::unknowns_of(const PreparedRecord& record) {
+  std::vector<OwnUnknown> out;
+  const double judged_s = static_cast<double>(record.n_judged) / record.sampling_rate_hz;
+  if (chain_.ramp_variance_rate > 0.)
+    out.push_back(
+        unknown_ramp(chain_.ramp_variance_rate * judged_s, record.n_judged, record.n_bins()));
+  const double age = chain_.renewed_share * record.unknown_age_s;
+  if (age > 0.) {
+    const std::vector<LinearPart>& lines = response_.lines(record);
+    // exp(s t) to second order; the mean of t^4 of a uniform t is 1.8 squares of its variance.
+    std::vector<Complex> first(record.n_samples / 2 + 1), second(first.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      const Complex s = record.line_s(k);
+      first[k] = s * lines[k].base * lines[k].sensor * reading_of_source(chain_, record, k);
+      second[k] = 0.5 * s * first[k];
+    }
+    out.push_back({age * age, bins_of_lines(record, first)});
+    out.push_back({1.8 * std::pow(age, 4), bins_of_lines(record, second)});
+  }
+  return out;
+}
+
+Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<Complex> mean) {
+  Prediction prediction;
+  prediction.mean = std::move(mean);
+  const std::size_t n_bins = record.n_bins();
+  const double n = static_cast<double>(record.n_judged);
+  prediction.moment_noise.assign(n_bins, n);
+  paint(prediction.moment_noise, record.colours.moment, record);
+  prediction.acceleration_noise.assign(n_bins, 0.);
+  if (!record.is_still()) {
+    add_acceleration_noise(record, prediction.acceleration_noise);
+    paint(prediction.acceleration_noise, record.colours.acceleration, record);
+  }
+  prediction.own_noise.assign(n_bins, 0.);
+  prediction.unknowns = unknowns_of(record);
+  if (!chain_.noise.empty()) {
+    const RecordView view{
+        .base = record.excitation.base,
+        .wind = record.excitation.wind,
+        .sampling_rate_hz = record.sampling_rate_hz,
+        .n_samples = record.n_judged,
+        .wind_speed = record.wind.empty()
+                          ? std::span<const double>{}
+                          : std::span(record.wind).subspan(record.first, record.n_judged),
+        .wind_response = [&](std::size_t k) {
+          const LinearPart& line = response_.lines(record)[record.whole_line(k - 1)];
+          return line.wind * line.sensor;
+        }};
+    for (const NoiseSource& source : chain_.noise) source(view, prediction.own_noise);
+  }
+  return prediction;
+}
+
+std::vector<std::vector<Prediction>> predict_together(std::span<const Chain> chains,
+                                                      std::span<const PreparedRecord> records) {
+  std::vector<ChainSimulator> simulators(chains.begin(), chains.end());
+  std::vector<ChainSimulator::Begun> begun;
+  std::vector<DynamicTask> tasks;
+  for (ChainSimulator& simulator : simulators) {
+    begun.push_back(simulator.begin(records));
+    tasks.push_back(std::move(begun.back().task));
+  }
+  const auto dynamic = dynamic_parts(tasks);
+  std::vector<std::vector<Prediction>> out;
+  for (std::size_t i = 0; i < simulators.size(); ++i)
+    out.push_back(simulators[i].predictions(
+        records, simulators[i].finish(records, std::move(begun[i]), dynamic[i])));
+  return out;
+}
+
+Prediction simulate(const Chain& chain, const PreparedRecord& record) {
+  return std::move(ChainSimulator(chain).predict({&record, 1}).front());
+}
+
+std::vector<Complex> simulate_mean(const Chain& chain, const PreparedRecord& record) {
+  return std::move(ChainSimulator(chain).means({&record, 1}).front());
+}
+
+}  // namespace vibrissa::diagnosis

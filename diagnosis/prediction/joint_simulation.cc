@@ -1,0 +1,335 @@
+#include "diagnosis/prediction/joint_simulation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/records/spectrum.h"
+#include "signals/model/base_velocity.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+constexpr auto n_lanes = static_cast<std::size_t>(Lanes::SizeAtCompileTime);
+
+/// Integrates what is added to the linear part, whose elastic joint moment is given. A step: begin,
+/// correct while it is open, end.
+class DifferenceIntegrator {
+ public:
+  DifferenceIntegrator(const Chain& chain, const JointModel& joint, const Lanes& record_number,
+                       double dt)
+      : dt_(dt), is_loaded_(chain.relative_wind.on), integrator_(joint, dt) {
+    for (const JointLawMaker& maker : chain.joint) laws_.push_back(maker(record_number));
+  }
+
+  /// To (y, y_rate) of the linear part at times t_s.
+  void begin(const Lanes& y, const Lanes& y_rate, const Lanes& t_s) {
+    y_ = y;
+    y_rate_ = y_rate;
+    t_s_ = t_s;
+    n_corrections_ = 0;
+    if (!laws_.empty()) begin_torque();
+  }
+
+  /// Is the residual before the last correction large in any lane? What is left after it is far
+  /// less.
+  bool is_open() const {
+    constexpr double tolerance = 1e-5;
+    constexpr int most_corrections = 4;
+    if (laws_.empty() || n_corrections_ == most_corrections) return false;
+    return (from_excess_.abs() - tolerance * at_.abs()).maxCoeff() > 0.;
+  }
+
+  void correct() {
+    ++n_corrections_;
+    const Lanes at_excess = law_moment(at_, false) - at_;
+    const Lanes slopes = (at_excess - from_excess_) / (at_ - from_);
+    from_ = at_;
+    from_excess_ = at_excess;
+    slope_ = where_negative(slopes, slopes, slope_);
+    at_ -= where_negative(slopes, at_excess, Lanes::Zero()) / slope_;
+  }
+
+  /// load gives the extra wind load for a rate of the joint moment. Returns the change at the base.
+  template <typename Load>
+  JointIntegrator::AtBase end(const Load& load) {
+    if (laws_.empty()) {
+      for (int pass = 0; pass < 2; ++pass)
+        external_ = load(y_rate_ + integrator_.elastic_rate(torque_, external_));
+      return integrator_.accept(torque_, external_);
+    }
+    torque_before_ = torque_;
+    torque_ = at_;
+    if (is_loaded_) external_ = load(y_rate_ + integrator_.elastic_rate(torque_, external_));
+    law_moment(torque_, true);
+    return integrator_.accept(torque_, external_);
+  }
+
+ private:
+  /// The extra moment at the step's end acts back on the joint's rotation at once: a stiff law
+  /// needs the solution of T = law(y(T)). Secant rule from the line through the steps before, with
+  /// their slope.
+  void begin_torque() {
+    from_ = 2. * torque_ - torque_before_;
+    from_excess_ = law_moment(from_, false) - from_;
+    at_ = from_ - from_excess_ / slope_;
+  }
+
+  Lanes law_moment(const Lanes& assumed, bool commit) {
+    const Lanes elastic = y_ + integrator_.elastic(assumed, external_);
+    const Lanes rate = y_rate_ + integrator_.elastic_rate(assumed, external_);
+    Lanes sum = Lanes::Zero();
+    for (const auto& law : laws_) sum += law->moment(elastic, rate, t_s_, dt_, commit);
+    return sum;
+  }
+
+  double dt_;
+  bool is_loaded_;
+  JointIntegrator integrator_;
+  std::vector<std::unique_ptr<JointLaw>> laws_;
+  Lanes torque_ = Lanes::Zero(), torque_before_ = Lanes::Zero(), external_ = Lanes::Zero();
+  Lanes slope_ = Lanes::Constant(-1.);  // of law(y(T)) - T, at the step before
+  // Of the step that has begun.
+  Lanes y_ = Lanes::Zero(), y_rate_ = Lanes::Zero(), t_s_ = Lanes::Zero();
+  Lanes from_ = Lanes::Zero(), from_excess_ = Lanes::Zero(), at_ = Lanes::Zero();
+  int n_corrections_ = 0;
+};
+
+/// A record on the fine grid. Periodic records are in steady state: their last part goes before
+/// them.
+struct FineSignal {
+  std::vector<double> samples{};
+  std::size_t before = 0;
+};
+
+/// All steps of a record; nothing after its end.
+std::vector<double> all_steps(const FineSignal& signal, std::size_t n_steps) {
+  const auto& [x, before] = signal;
+  std::vector<double> out(n_steps, 0.);
+  std::copy(x.end() - static_cast<std::ptrdiff_t>(before), x.end(), out.begin());
+  std::copy(x.begin(), x.end(), out.begin() + static_cast<std::ptrdiff_t>(before));
+  return out;
+}
+
+/// A lane for each record.
+std::vector<Lanes> interleaved(const std::vector<FineSignal>& signals, std::size_t n_steps) {
+  std::vector<std::vector<double>> of_lanes;
+  for (const FineSignal& signal : signals) of_lanes.push_back(all_steps(signal, n_steps));
+  of_lanes.resize(n_lanes, std::vector<double>(n_steps, 0.));
+  std::array<const double*, n_lanes> x{};
+  for (std::size_t lane = 0; lane < n_lanes; ++lane) x[lane] = of_lanes[lane].data();
+  std::vector<Lanes> out(n_steps);
+  // A loop over the lanes inside would be compiled to scattered stores, which are slow.
+  for (std::size_t i = 0; i < n_steps; ++i)
+    out[i] << x[0][i], x[1][i], x[2][i], x[3][i], x[4][i], x[5][i], x[6][i], x[7][i];
+  return out;
+}
+
+/// Signals of the linear part.
+struct FineSignals {
+  std::vector<Lanes> y, y_rate, wind{}, base_velocity{};
+  Lanes wind_share = Lanes::Zero();
+};
+
+std::size_t warm_up(const PreparedRecord& record, std::size_t factor) {
+  const std::size_t n = record.n_samples * factor;
+  return record.periodic ? n - n / 2 : 0;
+}
+
+std::vector<Complex> base_velocity(const PreparedRecord& record) {
+  std::vector<Complex> velocity(record.n_samples / 2 + 1, 0.);
+  for (std::size_t k = 1; k < velocity.size() && k < record.acceleration.size(); ++k) {
+    const Complex s = record.line_s(k);
+    if (gives_velocity(s)) velocity[k] = record.acceleration[k] / s;
+  }
+  return velocity;
+}
+
+FineSignals fine_signals(const Chain& chain, std::span<const ElasticMoment> elastic,
+                         std::size_t factor, std::size_t n_steps) {
+  std::vector<FineSignal> y, y_rate, wind, base;
+  Lanes wind_share = Lanes::Zero();
+  bool any_wind = false;
+  for (std::size_t lane = 0; lane < elastic.size(); ++lane) {
+    const PreparedRecord& record = *elastic[lane].record;
+    const std::size_t n = record.n_samples, before = warm_up(record, factor);
+    y.push_back({upsampled(elastic[lane].spectrum, n, factor), before});
+    std::vector<Complex> rate = elastic[lane].spectrum;
+    for (std::size_t k = 0; k < rate.size(); ++k) rate[k] *= record.line_s(k);
+    y_rate.push_back({upsampled(rate, n, factor), before});
+    wind.emplace_back();
+    base.emplace_back();
+    if (!chain.relative_wind.on || record.wind.empty()) continue;
+    any_wind = true;
+    wind_share(static_cast<Eigen::Index>(lane)) = record.wind_share;
+    wind.back() = {upsampled(spectrum_of(record.wind), n, factor), before};
+    base.back() = {upsampled(base_velocity(record), n, factor), before};
+  }
+  FineSignals out{.y = interleaved(y, n_steps),
+                  .y_rate = interleaved(y_rate, n_steps),
+                  .wind_share = wind_share};
+  if (any_wind) {
+    out.wind = interleaved(wind, n_steps);
+    out.base_velocity = interleaved(base, n_steps);
+  }
+  return out;
+}
+
+/// 25 points a period of the first mode keep the exponential rule's error below half a percent of
+/// what is added.
+std::size_t refinement(const JointModel& joint, double sampling_rate_hz) {
+  const double wanted_hz = 25. * joint.frequency_rad_s / (2. * std::numbers::pi);
+  return static_cast<std::size_t>(std::clamp(std::ceil(wanted_hz / sampling_rate_hz), 1., 16.));
+}
+
+/// Records of one sampling rate and readout under one chain, no more than there are lanes.
+class SideBySide {
+ public:
+  SideBySide(const DynamicTask& task, std::span<const ElasticMoment> elastic)
+      : rate_hz_(elastic.front().record->sampling_rate_hz),
+        factor_(refinement(*task.joint, rate_hz_)),
+        dt_(1. / (rate_hz_ * static_cast<double>(factor_))),
+        elastic_(elastic),
+        fine_(fine_signals(*task.chain, elastic, factor_, n_fine_steps())),
+        integrator_(*task.chain, *task.joint, record_numbers(), dt_),
+        moving_(task.chain->relative_wind),
+        rotation_(elastic.front().record->readout == signals::Readout::rotation) {
+    for (std::size_t lane = 0; lane < elastic.size(); ++lane) {
+      const std::size_t before = warm_up(*elastic[lane].record, factor_);
+      start_(static_cast<Eigen::Index>(lane)) = static_cast<double>(before);
+    }
+    wind_gain_ =
+        fine_.wind_share * task.chain->structure.modes.front().wind_gain * task.chain->drag_factor;
+  }
+
+  std::size_t n_steps() const { return fine_.y.size(); }
+
+  void begin(std::size_t i) {
+    // A record's own clock starts at its first sample: before it slow changes stand still.
+    const Lanes t_s = (static_cast<double>(i) - start_).max(0.) * dt_;
+    integrator_.begin(fine_.y[i], fine_.y_rate[i], t_s);
+  }
+
+  bool correct() {
+    if (!integrator_.is_open()) return false;
+    integrator_.correct();
+    return true;
+  }
+
+  void end(std::size_t i) {
+    const auto load = [&](const Lanes& rate) -> Lanes {
+      if (fine_.wind.empty()) return Lanes::Zero();
+      const Lanes& u = fine_.wind[i];
+      const Lanes felt =
+          u - moving_.base_share * fine_.base_velocity[i] - moving_.velocity_per_moment_rate * rate;
+      return wind_gain_ * (felt * felt.abs() - u * u.abs());
+    };
+    const JointIntegrator::AtBase added = integrator_.end(load);
+    // In the place of what this step was the last to read.
+    fine_.y[i] = rotation_ ? added.elastic : added.moment;
+  }
+
+  /// When all steps are done: what was added, at each record's samples.
+  std::vector<std::vector<double>> samples() const {
+    std::vector<std::vector<double>> out;
+    for (std::size_t lane = 0; lane < elastic_.size(); ++lane) {
+      const PreparedRecord& record = *elastic_[lane].record;
+      std::vector<double>& x = out.emplace_back(record.n_samples);
+      const Lanes* next = &fine_.y[warm_up(record, factor_)];
+      for (double& value : x) {
+        value = (*next)(static_cast<Eigen::Index>(lane));
+        next += factor_;
+      }
+    }
+    return out;
+  }
+
+ private:
+  std::size_t n_fine_steps() const {
+    std::size_t n = 0;
+    for (const ElasticMoment& e : elastic_)
+      n = std::max(n, warm_up(*e.record, factor_) + e.record->n_samples * factor_);
+    return n;
+  }
+
+  Lanes record_numbers() const {
+    Lanes number = Lanes::Zero();
+    for (std::size_t lane = 0; lane < elastic_.size(); ++lane)
+      number(static_cast<Eigen::Index>(lane)) = static_cast<double>(elastic_[lane].record->number);
+    return number;
+  }
+
+  double rate_hz_;
+  std::size_t factor_;
+  double dt_;
+  std::span<const ElasticMoment> elastic_;
+  FineSignals fine_;
+  DifferenceIntegrator integrator_;
+  RelativeWind moving_;
+  bool rotation_;
+  Lanes start_ = Lanes::Zero(), wind_gain_ = Lanes::Zero();
+};
+
+/// The records of a task, in its order.
+std::vector<SideBySide> in_lanes(const DynamicTask& task) {
+  std::vector<SideBySide> out;
+  std::span<const ElasticMoment> left = task.elastic;
+  while (!left.empty()) {
+    const PreparedRecord& first = *left.front().record;
+    const auto other = std::find_if(left.begin(), left.end(), [&](const ElasticMoment& e) {
+      return e.record->sampling_rate_hz != first.sampling_rate_hz ||
+             e.record->readout != first.readout;
+    });
+    const std::size_t n =
+        std::min(n_lanes, static_cast<std::size_t>(std::distance(left.begin(), other)));
+    out.emplace_back(task, left.first(n));
+    left = left.subspan(n);
+  }
+  return out;
+}
+
+void step_in_turn(std::span<SideBySide> runs) {
+  std::size_t n_steps = 0;
+  for (const SideBySide& run : runs) n_steps = std::max(n_steps, run.n_steps());
+  const auto for_each = [&](std::size_t i, const auto& work) {
+    for (SideBySide& run : runs)
+      if (i < run.n_steps()) work(run);
+  };
+  for (std::size_t i = 0; i < n_steps; ++i) {
+    for_each(i, [&](SideBySide& run) { run.begin(i); });
+    for (bool open = true; open;) {
+      open = false;
+      for_each(i, [&](SideBySide& run) { open = run.correct() || open; });
+    }
+    for_each(i, [&](SideBySide& run) { run.end(i); });
+  }
+}
+
+}  // namespace
+
+bool gives_velocity(const Complex s) {
+  return s.imag() > 2. * std::numbers::pi * signals::slowest_base_motion_hz;
+}
+
+bool is_dynamic(const Chain& chain, const PreparedRecord& record) {
+  return !chain.joint.empty() || (chain.relative_wind.on && !record.wind.empty());
+}
+
+std::vector<std::vector<std::vector<double>>> dynamic_parts(std::span<const DynamicTask> tasks) {
+  std::vector<SideBySide> runs;
+  std::vector<std::size_t> task_of_run;
+  for (std::size_t i = 0; i < tasks.size(); ++i)
+    for (SideBySide& run : in_lanes(tasks[i])) {
+      runs.push_back(std::move(run));
+      task_of_run.push_back(i);
+    }
+  step_in_turn(runs);
+  std::vector<std::vector<std::vector<double>>> out(tasks.size());
+  for (std::size_t j = 0; j < runs.size(); ++j)
+    for (std::vector<double>& samples : runs[j].samples())
+      out[task_of_run[j]].push_back(std::move(samples));
+  return out;
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,114 @@
+#include "diagnosis/records/asynchronous_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "diagnosis/records/spectrum.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+constexpr double source_rates_hz[] = {800., 1600., 3200.};  // of the ADXL345, above usual rates
+
+/// Ages of the samples, in samples, less their mean; they repeat.
+using Ages = std::vector<double>;
+
+/// All patterns of a source; none where the rates have no simple ratio, or where ages differ by so
+/// much that the fastest signals cannot be restored.
+std::vector<Ages> patterns(const double source_hz, const double rate_hz) {
+  constexpr int longest = 8;
+  constexpr double largest_rad = 1.;
+  for (int q = 2; q <= longest; ++q) {
+    const double p = source_hz / rate_hz * q;
+    const long step = std::lround(p);
+    if (std::abs(p - static_cast<double>(step)) > 1e-9 || std::gcd(step, long{q}) != 1) continue;
+    const double unit = rate_hz / source_hz / q;
+    if (std::numbers::pi * 0.5 * (q - 1) * unit > largest_rad) return {};
+    std::vector<Ages> out;
+    for (long shift = 0; shift < q; ++shift) {
+      Ages ages;
+      for (long k = 0; k < q; ++k)
+        ages.push_back(unit * (static_cast<double>((k * step + shift) % q) - 0.5 * (q - 1)));
+      out.push_back(std::move(ages));
+    }
+    return out;
+  }
+  return {};
+}
+
+/// The samples that a signal of the given spectrum has at these ages.
+std::vector<double> aged(const std::vector<Complex>& spectrum, const std::size_t n,
+                         const Ages& ages) {
+  std::vector<double> out(n);
+  std::vector<Complex> late(spectrum.size());
+  for (std::size_t phase = 0; phase < ages.size(); ++phase) {
+    const double per_line = -2. * std::numbers::pi * ages[phase] / static_cast<double>(n);
+    for (std::size_t k = 0; k < late.size(); ++k)
+      late[k] = spectrum[k] * std::polar(1., per_line * static_cast<double>(k));
+    const std::vector<double> samples = samples_of(late, n);
+    for (std::size_t i = phase; i < n; i += ages.size()) out[i] = samples[i];
+  }
+  return out;
+}
+
+/// The signal whose aged samples are x: each pass takes what the ages of the last one missed.
+std::vector<double> evened(const std::span<const double> x, const Ages& ages, const int n_passes) {
+  std::vector<double> y(x.begin(), x.end());
+  for (int pass = 0; pass < n_passes; ++pass) {
+    const std::vector<double> read = aged(spectrum_of(y), x.size(), ages);
+    for (std::size_t i = 0; i < x.size(); ++i) y[i] += x[i] - read[i];
+  }
+  return y;
+}
+
+/// Least mean power a line of any eighth of the spectrum, without what the record's ends leak.
+double quietest(std::vector<double> x) {
+  constexpr std::size_t n_parts = 8;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] *= std::pow(
+        std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(x.size())),
+        2);
+  const std::vector<double> power = powers(spectrum_of(x));
+  const auto n = static_cast<std::ptrdiff_t>(power.size() / n_parts);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t part = 0; part < n_parts; ++part) {
+    const auto first = power.begin() + static_cast<std::ptrdiff_t>(part) * n;
+    least = std::min(least, std::accumulate(first, first + n, 0.) / static_cast<double>(n));
+  }
+  return least;
+}
+
+}  // namespace
+
+std::optional<EvenedSeries> evened_series(const std::span<const double> x, const double rate_hz) {
+  constexpr std::size_t fewest = 256;
+  constexpr int n_trial_passes = 1, n_passes = 20;
+  constexpr double much = 2.;
+  const std::size_t n = x.size() - x.size() % 2;
+  if (n < fewest) return std::nullopt;
+  const std::span<const double> even_part = x.first(n);
+  const double as_read = quietest({even_part.begin(), even_part.end()});
+  double least = as_read / much;
+  Ages best;
+  for (const double source_hz : source_rates_hz)
+    for (const Ages& ages : patterns(source_hz, rate_hz)) {
+      const double left = quietest(evened(even_part, ages, n_trial_passes));
+      if (left >= least) continue;
+      least = left;
+      best = ages;
+    }
+  if (best.empty()) return std::nullopt;
+  EvenedSeries out{evened(even_part, best, n_passes)};
+  if (n < x.size()) out.samples.push_back(x.back());
+  // Ages are steps of this apart.
+  out.unknown_age =
+      (*std::max_element(best.begin(), best.end()) - *std::min_element(best.begin(), best.end())) /
+      static_cast<double>(best.size() - 1);
+  return out;
+}
+
+}  // namespace vibrissa::diagnosis

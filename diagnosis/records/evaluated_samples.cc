@@ -1,0 +1,22 @@
+#include "diagnosis/records/evaluated_samples.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "diagnosis/records/spectrum.h"
+
+namespace vibrissa::diagnosis {
+
+std::vector<double> judged_samples(const PreparedRecord& record, std::span<const Complex> bins) {
+  assert(bins.size() == record.n_bins());
+  std::vector<Complex> whole(record.n_judged / 2 + 1, 0.);
+  std::copy(bins.begin(), bins.end(), whole.begin() + 1);
+  return samples_of(whole, record.n_judged);
+}
+
+std::vector<Complex> judged_bins(const PreparedRecord& record, std::span<const double> samples) {
+  const std::vector<Complex> lines = spectrum_of(samples.subspan(record.first, record.n_judged));
+  return {lines.begin() + 1, lines.end() - 1};
+}
+
+}  // namespace vibrissa::diagnosis

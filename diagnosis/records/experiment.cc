@@ -1,0 +1,458 @@
+#include "diagnosis/records/experiment.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include "diagnosis/records/accelerometer_noise.h"
+#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/noise_at_bins.h"
+#include "diagnosis/records/spectrum.h"
+#include "signals/base/error.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using signals::DatasetRecord;
+namespace channel = signals::channel;
+
+/// Time constants of the first mode after which a start from the wrong state is forgotten.
+constexpr double n_time_constants = 7.;
+/// Samples at the end of an aperiodic record where its circular continuation rings.
+constexpr std::size_t end_margin = 24;
+constexpr std::size_t fewest_judged = 128;
+
+bool is_periodic(const DatasetRecord& entry) {
+  return entry.period_samples > 0 && entry.record.n_samples() % entry.period_samples == 0;
+}
+
+std::size_t transient_samples(const NominalModel& nominal, double rate_hz) {
+  return nominal.decay_samples(n_time_constants, rate_hz);
+}
+
+/// Averages whole periods: in place, lines that are no multiple of 1/period become zero.
+void average_periods(std::vector<Complex>& spectrum, std::size_t n_periods) {
+  for (std::size_t k = 0; k < spectrum.size(); ++k)
+    if (k % n_periods != 0) spectrum[k] = 0.;
+}
+
+/// Harmonics of a period that the drive excites, by the number of samples in the period: what
+/// stands out in one record is taken as excited in all, weak ones too.
+using ExcitedHarmonics = std::map<std::size_t, std::vector<bool>>;
+
+/// Without excitation a line does so once in a hundred thousand.
+bool stands_out(const Complex line, const double noise_power) {
+  constexpr double least_ratio = 12.;
+  return std::norm(line) > least_ratio * noise_power;
+}
+
+ExcitedHarmonics excited_harmonics(const signals::Dataset& dataset, signals::Split split,
+                                   double noise) {
+  ExcitedHarmonics excited;
+  for (const DatasetRecord& entry : dataset.records) {
+    const std::size_t period = entry.period_samples, n = entry.record.n_samples();
+    if (entry.split != split || !entry.excitation.base || period == 0 || n % period != 0) continue;
+    if (!entry.record.has(channel::base_acceleration)) continue;
+    const std::vector<Complex> spectrum =
+        spectrum_of(entry.record.channel(channel::base_acceleration));
+    std::vector<bool>& mask = excited.try_emplace(period, period / 2 + 1, false).first->second;
+    for (std::size_t h = 1; h < mask.size(); ++h)
+      if (stands_out(spectrum[h * (n / period)], static_cast<double>(n) * noise * noise))
+        mask[h] = true;
+  }
+  return excited;
+}
+
+/// Samples after which the drive of a record without a stated period repeats: the lines that stand
+/// out have a common divisor. Nothing: it does not.
+std::optional<std::size_t> period_of_drive(const DatasetRecord& entry, double noise) {
+  if (!entry.excitation.base || !entry.record.has(channel::base_acceleration)) return std::nullopt;
+  const std::vector<Complex> a = spectrum_of(entry.record.channel(channel::base_acceleration));
+  const std::size_t n = entry.record.n_samples();
+  std::size_t divisor = 0;
+  for (std::size_t k = 1; k < a.size(); ++k)
+    if (stands_out(a[k], static_cast<double>(n) * noise * noise)) divisor = std::gcd(divisor, k);
+  if (divisor < 2 || n % divisor != 0) return std::nullopt;
+  return n / divisor;
+}
+
+/// The longest part no longer than n: of whole periods of the drive, whose lines do not leak then,
+/// or else of a length that is quick to transform.
+std::size_t judged_length(std::size_t n, std::optional<std::size_t> period) {
+  if (!period) return fast_length(n);
+  const std::size_t even = *period % 2 == 0 ? *period : 2 * *period;
+  return n < even ? fast_length(n) : n - n % even;
+}
+
+/// Wiener's share P / (P + noise) of each of the chosen lines: P from the line itself where it
+/// stands out, else from the mean power of the chosen lines around it: of those that do not, or of
+/// all where most do, for a continuous spectrum has weak lines, too.
+std::vector<double> signal_share(const std::vector<Complex>& spectrum, double noise_power,
+                                 const std::vector<std::size_t>& lines) {
+  std::vector<double> share(spectrum.size(), 0.);
+  constexpr std::size_t reach = 10;
+  std::vector<bool> is_tone(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    is_tone[i] = stands_out(spectrum[lines[i]], noise_power);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t low = i < reach ? 0 : i - reach, high = std::min(lines.size(), i + reach + 1);
+    double tones = 0., others = 0., n_tones = 0., n_others = 0.;
+    for (std::size_t j = low; j < high; ++j) {
+      (is_tone[j] ? tones : others) += std::norm(spectrum[lines[j]]);
+      (is_tone[j] ? n_tones : n_others) += 1.;
+    }
+    const double power = is_tone[i]           ? std::norm(spectrum[lines[i]])
+                         : n_tones > n_others ? (tones + others) / (n_tones + n_others)
+                                              : others / n_others;
+    if (power > noise_power) share[lines[i]] = 1. - noise_power / power;
+  }
+  return share;
+}
+
+std::vector<std::size_t> driven_lines(const PreparedRecord& record, const DatasetRecord& entry,
+                                      const ExcitedHarmonics& excited) {
+  std::vector<std::size_t> lines;
+  const auto found = excited.find(entry.period_samples);
+  const std::size_t n_periods = record.periodic ? record.n_samples / entry.period_samples : 1;
+  for (std::size_t k = 1; k <= record.n_samples / 2; ++k)
+    if (!record.periodic ||
+        (k % n_periods == 0 && found != excited.end() && found->second[k / n_periods]))
+      lines.push_back(k);
+  return lines;
+}
+
+/// Accelerations in the frame of a sensor that is turned about its axis while the accelerometer
+/// stays: along the plane that is read, and across it.
+struct SensorFrame {
+  std::vector<double> axial, cross;  // empty: not measured
+};
+
+SensorFrame in_sensor_frame(const DatasetRecord& entry) {
+  const auto values = [&](const std::string& name) {
+    if (!entry.record.has(name)) return std::vector<double>{};
+    const auto x = entry.record.channel(name);
+    return std::vector<double>(x.begin(), x.end());
+  };
+  SensorFrame out{values(channel::base_acceleration), values(channel::cross_acceleration)};
+  if (entry.setup.rotation_deg == 0. || out.axial.empty()) return out;
+  const double angle = entry.setup.rotation_deg * std::numbers::pi / 180.;
+  const double c = std::cos(angle), s = std::sin(angle);
+  out.cross.resize(out.axial.size(), 0.);
+  for (std::size_t i = 0; i < out.axial.size(); ++i) {
+    const double a = out.axial[i], b = out.cross[i];
+    out.axial[i] = c * a + s * b;
+    out.cross[i] = c * b - s * a;
+  }
+  return out;
+}
+
+void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
+                          const std::span<const double> reading, const double noise,
+                          const ExcitedHarmonics& excited, const InputNoise treatment) {
+  out.acceleration = spectrum_of(reading);
+  const NoiseLines noise_of = noise_lines(reading, out.sampling_rate_hz, entry.excitation.base);
+  if (entry.excitation.base && noise_of.of_source) {
+    out.renewed = noise_of.spectrum;
+    out.unknown_age_s = noise_of.age_range / std::sqrt(12.) / out.sampling_rate_hz;
+  }
+  const double n = static_cast<double>(out.n_samples);
+  if (treatment == InputNoise::as_measured) {
+    out.noise_share.assign(out.acceleration.size(), 1.);
+    return;
+  }
+  if (!entry.excitation.base) {
+    for (std::size_t k = 1; k + 1 < noise_of.end; ++k)
+      out.acceleration_noise_power += std::norm(noise_of.spectrum[k]);
+    out.n_acceleration_noise = noise_of.end - 2;
+    out.acceleration.assign(out.acceleration.size(), 0.);
+    out.noise_share.assign(out.acceleration.size(), 0.);
+    return;
+  }
+  if (out.periodic) {
+    const std::size_t n_periods = out.n_samples / entry.period_samples;
+    for (std::size_t k = 1; k + 1 < noise_of.end; ++k)
+      if (k % n_periods != 0) {
+        out.acceleration_noise_power += std::norm(noise_of.spectrum[k]);
+        ++out.n_acceleration_noise;
+      }
+    average_periods(out.acceleration, n_periods);
+    average_periods(out.renewed, n_periods);
+  }
+  out.noise_share =
+      signal_share(out.acceleration, n * noise * noise, driven_lines(out, entry, excited));
+  const double noise_power = n * noise * noise;
+  for (std::size_t k = 0; k < out.acceleration.size(); ++k) {
+    const double share = out.noise_share[k];
+    // A line much stronger than its neighbours said (noise alone is so once in twenty) loses signal
+    // with the noise.
+    const double lost = std::max(0., std::norm(out.acceleration[k]) / noise_power - 3.);
+    out.noise_share[k] = std::max(share, share * share + (1. - share) * (1. - share) * lost);
+    out.acceleration[k] *= share;
+    if (!out.renewed.empty()) out.renewed[k] *= share;
+  }
+}
+
+PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& entry,
+                              std::size_t number, double acceleration_noise,
+                              const ExcitedHarmonics& excited, const InputNoise treatment) {
+  PreparedRecord out;
+  out.name = entry.name;
+  out.excitation = entry.excitation;
+  out.number = number;
+  out.readout = entry.readout;
+  out.clock_start_s = entry.clock_start_s;
+  out.magnet = entry.setup.magnet;
+  out.sampling_rate_hz = entry.record.sampling_rate_hz();
+  out.n_samples = entry.record.n_samples();
+  out.periodic = is_periodic(entry);
+  const bool moved = entry.excitation.base || entry.excitation.wind;
+  if (out.periodic || !moved) {
+    out.n_judged = out.n_samples - out.n_samples % 2;
+  } else {
+    const std::size_t skip = transient_samples(nominal, out.sampling_rate_hz) + end_margin;
+    assert(out.n_samples >= skip + fewest_judged);
+    out.first = skip - end_margin;
+    out.n_judged = judged_length(out.n_samples - skip, period_of_drive(entry, acceleration_noise));
+  }
+  const SensorFrame frame = in_sensor_frame(entry);
+  if (!frame.axial.empty())
+    prepare_acceleration(out, entry, frame.axial, acceleration_noise, excited, treatment);
+  if (!out.noise_share.empty())
+    out.bin_noise_share = share_at_bins(out.noise_share, out.n_samples, out.n_judged);
+  if (!frame.cross.empty()) out.cross_acceleration = spectrum_of(frame.cross);
+  if (entry.excitation.wind) {
+    const auto wind = entry.record.channel(channel::wind_speed);
+    out.wind.assign(wind.begin(), wind.end());
+    out.wind_share = std::cos(entry.setup.rotation_deg * std::numbers::pi / 180.);
+  }
+  const auto is_zero = [](Complex a) { return a == Complex(0.); };
+  out.has_zero_inputs = out.cross_acceleration.empty() &&
+                        std::all_of(out.acceleration.begin(), out.acceleration.end(), is_zero);
+  out.moment = judged_bins(out, entry.record.channel(channel::base_moment));
+  return out;
+}
+
+double band_rate_hz(const Experiment& experiment) {
+  double highest = 0.;
+  for (const PreparedRecord& record : experiment.records)
+    highest = std::max(highest, record.sampling_rate_hz);
+  return highest;
+}
+
+/// Does the effect change anything but the joint of the first mode?
+bool acts_without_modes(const Effect& effect) {
+  const Chain chain = probe(effect, NominalModel{});
+  return !(chain.reference.empty() && chain.mount.empty() && chain.parallel.empty() &&
+           chain.wind.empty() && chain.drag_factor == 1. && chain.feedthrough.empty() &&
+           chain.cross.empty() && chain.readout.empty() && chain.sensor.empty() &&
+           chain.clock_rate_error == 0. && chain.renewed_share == 0. &&
+           chain.reference_variance == 0. && chain.noise.empty() && chain.ramp_variance_rate == 0.);
+}
+
+double moved_seconds(const Experiment& experiment) {
+  double sum = 0.;
+  for (const PreparedRecord& record : experiment.records)
+    if (record.excitation.base || record.excitation.wind)
+      sum += static_cast<double>(record.n_samples) / record.sampling_rate_hz;
+  return sum;
+}
+
+Scales scales_of(const Experiment& experiment) {
+  Scales scales;
+  const NominalModel& nominal = experiment.nominal;
+  scales.static_gain = std::abs(nominal.base_response(0.));
+  // Without a mode the middle of the band, in decades, stands for it.
+  scales.first_mode_rad_s = !nominal.modes.empty()
+                                ? nominal.modes.front().frequency_rad_s
+                                : 0.1 * std::numbers::pi * band_rate_hz(experiment);
+  scales.joint_moment_n_m = 0.;
+  scales.duration_s = 0.;
+  scales.moment_rms_n_m = 0.;
+  for (const PreparedRecord& record : experiment.records) {
+    const double n = static_cast<double>(record.n_samples);
+    scales.duration_s = std::max(scales.duration_s, n / record.sampling_rate_hz);
+    double power = 0.;
+    for (const Complex& m : record.moment) power += 2. * std::norm(m);
+    const double level = std::sqrt(power) / static_cast<double>(record.n_judged);
+    scales.moment_rms_n_m = std::max(scales.moment_rms_n_m, level);
+    scales.joint_moment_n_m = std::max(scales.joint_moment_n_m, 3. * level);
+  }
+  return scales;
+}
+
+}  // namespace
+
+std::size_t fewest_samples(const NominalModel& nominal, const DatasetRecord& entry) {
+  const bool moved = entry.excitation.base || entry.excitation.wind;
+  if (!moved || is_periodic(entry)) return 0;
+  return transient_samples(nominal, entry.record.sampling_rate_hz()) + end_margin + fewest_judged;
+}
+
+bool is_simulated(const signals::BenchSetup& setup) {
+  return setup.added_mass_kg == 0. && setup.stage == signals::Stage::free;
+}
+
+bool is_comparable(const NominalModel& nominal, const DatasetRecord& entry) {
+  if (!is_simulated(entry.setup) || entry.record.n_samples() < fewest_samples(nominal, entry))
+    return false;
+  const bool base_known = nominal.has_base && entry.record.has(channel::base_acceleration);
+  const bool wind_known = nominal.has_wind && entry.record.has(channel::wind_speed);
+  return (!entry.excitation.base || base_known) && (!entry.excitation.wind || wind_known);
+}
+
+std::vector<Lack> lacks(const Experiment& experiment, const Effect& effect) {
+  const Needs& needs = effect.needs;
+  std::vector<Lack> out;
+  if (needs.base && !experiment.has_base) out.push_back(Lack::base);
+  if (needs.wind && !experiment.has_wind) out.push_back(Lack::wind);
+  if (needs.cross && !experiment.has_cross) out.push_back(Lack::cross);
+  if (needs.repeats && !experiment.has_repeats) out.push_back(Lack::repeats);
+  if (experiment.nominal.modes.empty() && !acts_without_modes(effect)) out.push_back(Lack::modes);
+  if (needs.moved_s > 0. && moved_seconds(experiment) <= needs.moved_s)
+    out.push_back(Lack::duration);
+  return out;
+}
+
+bool shows(const Experiment& experiment, const Effect& effect) {
+  return lacks(experiment, effect).empty();
+}
+
+std::size_t PreparedRecord::whole_line(const std::size_t b) const {
+  if (n_samples == n_judged) return b + 1;
+  const double ratio = static_cast<double>(n_samples) / static_cast<double>(n_judged);
+  return std::min(n_samples / 2,
+                  static_cast<std::size_t>(std::lround(static_cast<double>(b + 1) * ratio)));
+}
+
+Complex PreparedRecord::line_s(const std::size_t k) const {
+  return {0., 2. * std::numbers::pi * sampling_rate_hz * static_cast<double>(k) /
+                  static_cast<double>(n_samples)};
+}
+
+namespace {
+
+/// Least power a line of any eighth of the spectrum, by its median: noise, and what signal there
+/// is.
+double quietest_power(const std::vector<Complex>& spectrum) {
+  constexpr std::size_t n_parts = 8;
+  double least = std::numeric_limits<double>::infinity();
+  const std::size_t n = (spectrum.size() - 2) / n_parts;
+  for (std::size_t part = 0; part < n_parts; ++part) {
+    const auto first = spectrum.begin() + static_cast<std::ptrdiff_t>(1 + part * n);
+    std::vector<double> power = powers({first, first + static_cast<std::ptrdiff_t>(n)});
+    const auto middle = power.begin() + static_cast<std::ptrdiff_t>(n / 2);
+    std::nth_element(power.begin(), middle, power.end());
+    least = std::min(least, *middle / std::numbers::ln2);
+  }
+  return least;
+}
+
+/// Lines of a channel that tell its noise.
+NoiseLines lines_of(const DatasetRecord& entry, const std::string& name) {
+  const auto x = entry.record.channel(name);
+  if (name == channel::base_acceleration)
+    return noise_lines(x, entry.record.sampling_rate_hz(), entry.excitation.base);
+  return all_lines(x);
+}
+
+/// Of all fit records the least.
+double quietest_deviation(const signals::Dataset& dataset, const std::string& name) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const DatasetRecord& entry : dataset.records)
+    if (entry.split == signals::Split::fit && entry.record.has(name))
+      least = std::min(least, quietest_power(spectrum_of(entry.record.channel(name))) /
+                                  static_cast<double>(entry.record.n_samples()));
+  return std::isfinite(least) ? std::sqrt(least) : 0.;
+}
+
+/// A step of 13 bits, spread evenly. Less is a simulation's, which no model follows any closer.
+double least_noise(const signals::Dataset& dataset, const std::string& name) {
+  const double of_peak = 1. / (8192. * std::sqrt(12.));
+  double peak = 0.;
+  for (const DatasetRecord& entry : dataset.records)
+    if (entry.split == signals::Split::fit && entry.record.has(name))
+      for (const double value : entry.record.channel(name)) peak = std::max(peak, std::abs(value));
+  return of_peak * peak;
+}
+
+}  // namespace
+
+ChannelNoise channel_noise(const signals::Dataset& dataset) {
+  double moment = 0., acceleration = 0., n_moment = 0., n_acceleration = 0.;
+  for (const DatasetRecord& entry : dataset.records) {
+    const bool quiet = entry.excitation == signals::Excitation{};
+    if (entry.split != signals::Split::fit) continue;
+    const double n = static_cast<double>(entry.record.n_samples());
+    const auto add = [&](const std::string& name, double& sum, double& count, bool still) {
+      if (!entry.record.has(name)) return;
+      const NoiseLines lines = lines_of(entry, name);
+      const std::size_t period = entry.period_samples;
+      const std::size_t n_periods = period > 0 && entry.record.n_samples() % period == 0
+                                        ? entry.record.n_samples() / period
+                                        : 1;
+      // What no period repeats is noise, but of the moment where wind blows: gusts do not either.
+      const bool repeats =
+          n_periods > 1 && !(name == channel::base_moment && entry.excitation.wind);
+      // The upper half of the spectrum: slow drift is no noise of the samples.
+      for (std::size_t k = lines.end / 2; k + 1 < lines.end; ++k)
+        if (still || (repeats && k % n_periods != 0)) {
+          sum += std::norm(lines.spectrum[k]) / n;
+          count += 1.;
+        }
+    };
+    add(channel::base_moment, moment, n_moment, quiet);
+    add(channel::base_acceleration, acceleration, n_acceleration, !entry.excitation.base);
+  }
+  ChannelNoise noise;
+  noise.moment_n_m = n_moment > 0. ? std::sqrt(moment / n_moment)
+                                   : quietest_deviation(dataset, channel::base_moment);
+  noise.acceleration_m_s2 = n_acceleration > 0.
+                                ? std::sqrt(acceleration / n_acceleration)
+                                : std::min(usual_acceleration_noise,
+                                           quietest_deviation(dataset, channel::base_acceleration));
+  noise.moment_n_m = std::max(noise.moment_n_m, least_noise(dataset, channel::base_moment));
+  noise.acceleration_m_s2 =
+      std::max(noise.acceleration_m_s2, least_noise(dataset, channel::base_acceleration));
+  return noise;
+}
+
+Experiment prepare_experiment(const MendedModel& simulation, const signals::Dataset& dataset,
+                              const signals::Split split, const InputNoise treatment) {
+  Experiment experiment;
+  const NominalModel& nominal = simulation.nominal;
+  experiment.nominal = nominal;
+  experiment.known = simulation.effects;
+  const ChannelNoise noise = channel_noise(dataset);
+  experiment.moment_noise = noise.moment_n_m;
+  experiment.acceleration_noise = noise.acceleration_m_s2;
+  const ExcitedHarmonics excited = excited_harmonics(dataset, split, noise.acceleration_m_s2);
+  const ChannelColours colours = channel_colours(dataset, nominal.narrowest_mode_hz());
+  for (std::size_t i = 0; i < dataset.records.size(); ++i) {
+    const DatasetRecord& entry = dataset.records[i];
+    if (entry.split != split || !is_comparable(nominal, entry)) continue;
+    experiment.records.push_back(
+        prepare_record(nominal, entry, i, noise.acceleration_m_s2, excited, treatment));
+    PreparedRecord& record = experiment.records.back();
+    record.colours = colours;
+    experiment.has_base |= entry.excitation.base && record.magnet;
+    experiment.has_wind |= entry.excitation.wind && record.magnet;
+    experiment.has_cross |= !record.cross_acceleration.empty();
+    experiment.has_repeats |= !record.renewed.empty();
+  }
+  if (!experiment.has_base && !experiment.has_wind && split == signals::Split::fit)
+    throw signals::UserError(
+        "no record can be compared with the simulation: it needs a fit record that is long enough "
+        "and whose excitation is measured and simulated");
+  experiment.scales = scales_of(experiment);
+  if (experiment.moment_noise <= 0.)
+    experiment.moment_noise = 1e-3 * experiment.scales.moment_rms_n_m;
+  if (experiment.acceleration_noise <= 0.) experiment.acceleration_noise = 1e-3;
+  return experiment;
+}
+
+}  // namespace vibrissa::diagnosis

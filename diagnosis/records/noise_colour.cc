@@ -1,0 +1,187 @@
+#include "diagnosis/records/noise_colour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "diagnosis/records/accelerometer_noise.h"
+#include "signals/spectra/local_polynomial.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// A line more than this above its model is one of its own.
+constexpr double most_of_a_line = 12.;
+constexpr double least_gain = 8.;  // nats over white noise
+constexpr double least_lead = 2.;  // nats over a random walk
+
+/// Below it a mode that wanders leaves nothing between the lines of a drive.
+constexpr double below_modes_hz = 15.;
+
+/// Powers over that of the upper half of the spectrum; nothing where that is silent.
+std::vector<NoiseLine> related(const std::span<const NoiseLine> lines) {
+  double upper = 0., n_upper = 0.;
+  for (const NoiseLine& line : lines)
+    if (line.reference) {
+      upper += line.power;
+      n_upper += 1.;
+    }
+  if (upper <= 0.) return {};
+  std::vector<NoiseLine> out(lines.begin(), lines.end());
+  for (NoiseLine& line : out) line.power *= n_upper / upper;
+  return out;
+}
+
+template <class Density>
+double log_likelihood(const std::vector<NoiseLine>& lines, const Density& density) {
+  double sum = 0.;
+  for (const NoiseLine& line : lines) {
+    const double d = density(line.frequency_hz);
+    sum -= std::log(d) + std::min(line.power / d, most_of_a_line);
+  }
+  return sum;
+}
+
+std::vector<double> ladder(const double low, const double high, const int n) {
+  std::vector<double> out;
+  for (int i = 0; i <= n; ++i)
+    out.push_back(low * std::pow(high / low, static_cast<double>(i) / n));
+  return out;
+}
+
+double best_walk(const std::vector<NoiseLine>& lines) {
+  double best = -std::numeric_limits<double>::infinity();
+  for (const double at_one_hz : ladder(1e-3, 1e5, 80))
+    best =
+        std::max(best, log_likelihood(lines, [&](double f) { return 1. + at_one_hz / (f * f); }));
+  return best;
+}
+
+}  // namespace
+
+double NoiseColour::density(const double frequency_hz) const {
+  if (!bands.empty())
+    return bands[std::min(static_cast<std::size_t>(frequency_hz / band_hz), bands.size() - 1)];
+  const double ratio = frequency_hz / corner_hz;
+  return 1. + excess / (1. + ratio * ratio);
+}
+
+NoiseColour noise_colour(const std::span<const NoiseLine> measured) {
+  const std::vector<NoiseLine> lines = related(measured);
+  if (lines.empty()) return {};
+  NoiseColour best;
+  double best_likelihood = -std::numeric_limits<double>::infinity();
+  for (const double corner_hz : ladder(2., 20., 12))
+    for (const double excess : ladder(0.02, 20., 40)) {
+      const NoiseColour colour{excess, corner_hz};
+      const double value = log_likelihood(lines, [&](double f) { return colour.density(f); });
+      if (value > best_likelihood) {
+        best_likelihood = value;
+        best = colour;
+      }
+    }
+  const double white = log_likelihood(lines, [](double) { return 1.; });
+  const bool coloured =
+      best_likelihood > white + least_gain && best_likelihood > best_walk(lines) + least_lead;
+  return coloured ? best : NoiseColour{};
+}
+
+namespace {
+
+/// Lines k of which n_periods is no divisor; all of them where there is one period.
+void add_lines(std::vector<NoiseLine>& out, const signals::Record& record, const NoiseLines& lines,
+               const std::size_t n_periods) {
+  const double n = static_cast<double>(record.n_samples());
+  for (std::size_t k = 1; k + 1 < lines.end; ++k) {
+    const double f = static_cast<double>(k) * record.sampling_rate_hz() / n;
+    const bool upper = k >= lines.end / 2;
+    if (n_periods > 1 && (k % n_periods == 0 || (f > below_modes_hz && !upper))) continue;
+    out.push_back({f, std::norm(lines.spectrum[k]) / n, upper});
+  }
+}
+
+void add_moment(std::vector<NoiseLine>& out, const signals::Record& record,
+                const std::size_t n_periods) {
+  if (!record.has(signals::channel::base_moment)) return;
+  add_lines(out, record, all_lines(record.channel(signals::channel::base_moment)), n_periods);
+}
+
+void add_still_acceleration(std::vector<NoiseLine>& out, const signals::Record& record) {
+  if (!record.has(signals::channel::base_acceleration)) return;
+  const auto x = record.channel(signals::channel::base_acceleration);
+  add_lines(out, record, noise_lines(x, record.sampling_rate_hz(), false), 1);
+}
+
+/// Mean power of what the response leaves, by band; empty where the record cannot tell.
+std::vector<double> powers_beside_response(const signals::Record& record,
+                                           const double narrowest_mode_hz) {
+  // Lines that the response must be smooth over, and enough of them for each band.
+  constexpr double n_smooth = 20.;
+  constexpr std::size_t n_bands = 128, fewest_lines = 400;
+  if (narrowest_mode_hz * record.duration_s() < n_smooth) return {};
+  const auto local = signals::local_polynomial_response(
+      record.channel(signals::channel::base_acceleration),
+      record.channel(signals::channel::base_moment), record.sampling_rate_hz());
+  const std::size_t n_lines = local.noise_variance.size();
+  const std::size_t n = std::min(n_bands, n_lines / fewest_lines);
+  if (n == 0) return {};
+  std::vector<double> sums(n, 0.), counts(n, 0.);
+  for (std::size_t k = 0; k < n_lines; ++k) {
+    if (!std::isfinite(local.noise_variance[k])) continue;
+    sums[k * n / n_lines] += local.noise_variance[k];
+    counts[k * n / n_lines] += 1.;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (counts[i] == 0. || sums[i] <= 0.) return {};
+    sums[i] /= counts[i];
+  }
+  return sums;
+}
+
+}  // namespace
+
+NoiseColour colour_beside_response(const signals::Dataset& dataset,
+                                   const double narrowest_mode_hz) {
+  NoiseColour colour;
+  double longest_s = 0.;
+  for (const signals::DatasetRecord& entry : dataset.records) {
+    const signals::Record& record = entry.record;
+    if (entry.split != signals::Split::fit || !entry.excitation.base || entry.excitation.wind ||
+        !record.has(signals::channel::base_acceleration) || record.duration_s() <= longest_s)
+      continue;
+    std::vector<double> powers = powers_beside_response(record, narrowest_mode_hz);
+    if (powers.empty()) continue;
+    longest_s = record.duration_s();
+    colour.band_hz = 0.5 * record.sampling_rate_hz() / static_cast<double>(powers.size());
+    colour.bands = std::move(powers);
+  }
+  if (colour.bands.empty()) return colour;
+  const double least = *std::ranges::min_element(colour.bands);
+  for (double& density : colour.bands) density /= least;
+  return colour;
+}
+
+ChannelColours channel_colours(const signals::Dataset& dataset, const double narrowest_mode_hz) {
+  std::vector<NoiseLine> moment, acceleration;
+  double rate_hz = 0.;
+  for (const signals::DatasetRecord& entry : dataset.records) {
+    const signals::Record& record = entry.record;
+    if (entry.split != signals::Split::fit) continue;
+    // Records of another rate than the first would need a level of their own.
+    if (rate_hz == 0.) rate_hz = record.sampling_rate_hz();
+    if (record.sampling_rate_hz() != rate_hz) continue;
+    const std::size_t period = entry.period_samples;
+    const std::size_t n_periods =
+        period > 0 && record.n_samples() % period == 0 ? record.n_samples() / period : 1;
+    const bool still = entry.excitation == signals::Excitation{};
+    if (still || (n_periods > 1 && !entry.excitation.wind))
+      add_moment(moment, record, still ? 1 : n_periods);
+    if (!entry.excitation.base) add_still_acceleration(acceleration, record);
+  }
+  return {
+      moment.empty() ? colour_beside_response(dataset, narrowest_mode_hz) : noise_colour(moment),
+      noise_colour(acceleration)};
+}
+
+}  // namespace vibrissa::diagnosis

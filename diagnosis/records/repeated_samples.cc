@@ -1,0 +1,72 @@
+#include "diagnosis/records/repeated_samples.h"
+
+#include <cmath>
+#include <set>
+
+#include "diagnosis/records/spectrum.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// Places where runs of equal samples begin.
+std::vector<std::size_t> renewals(const std::span<const double> x) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (i == 0 || x[i] != x[i - 1]) out.push_back(i);
+  return out;
+}
+
+struct Line {
+  double intercept = 0., slope = 1.;
+};
+
+/// Least squares of the places over their numbers.
+Line line_through(const std::vector<std::size_t>& places) {
+  const double n = static_cast<double>(places.size()), middle = 0.5 * (n - 1.);
+  double sum = 0., moment = 0., square = 0.;
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    const double d = static_cast<double>(j) - middle;
+    sum += static_cast<double>(places[j]);
+    moment += d * static_cast<double>(places[j]);
+    square += d * d;
+  }
+  const double slope = square > 0. ? moment / square : 1.;
+  return {sum / n - slope * middle, slope};
+}
+
+}  // namespace
+
+double repeat_share(const std::span<const double> x) {
+  if (x.empty()) return 0.;
+  return 1. - static_cast<double>(renewals(x).size()) / static_cast<double>(x.size());
+}
+
+bool is_polled(const std::span<const double> x) {
+  constexpr double many = 0.08;
+  return repeat_share(x) > many && std::set<double>(x.begin(), x.end()).size() > x.size() / 4;
+}
+
+std::vector<double> renewed_series(const std::span<const double> x) {
+  std::vector<std::size_t> places = renewals(x);
+  if (places.size() % 2 != 0) places.pop_back();
+  if (places.empty()) return {x.begin(), x.end()};
+  std::vector<double> source;
+  for (const std::size_t place : places) source.push_back(x[place]);
+  const Line line = line_through(places);
+  return resampled(spectrum_of(source), source.size(), x.size(), -line.intercept / line.slope,
+                   1. / line.slope);
+}
+
+double unknown_age(const std::span<const double> x) {
+  constexpr int longest = 16;
+  const double period = line_through(renewals(x)).slope;
+  for (int q = 1; q <= longest; ++q) {
+    const double renewed = q / period;
+    // The place in the period slips by less than a step over the whole record.
+    if (std::abs(renewed - std::round(renewed)) * static_cast<double>(x.size()) < 1.)
+      return period / q;
+  }
+  return 0.;
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,112 @@
+#include "diagnosis/records/spectrum.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numbers>
+#include <numeric>
+#include <unordered_map>
+
+#include "signals/spectra/fft.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+signals::RealFft& plan(const std::size_t n) {
+  thread_local std::unordered_map<std::size_t, signals::RealFft> plans;
+  const auto found = plans.find(n);
+  if (found != plans.end()) return found->second;
+  return plans.emplace(n, signals::RealFft(n)).first->second;
+}
+
+}  // namespace
+
+std::vector<Complex> spectrum_of(std::span<const double> x) {
+  signals::RealFft& fft = plan(x.size());
+  std::copy(x.begin(), x.end(), fft.time().begin());
+  fft.forward();
+  return {fft.spectrum().begin(), fft.spectrum().end()};
+}
+
+std::vector<double> samples_of(std::span<const Complex> spectrum, const std::size_t n) {
+  signals::RealFft& fft = plan(n);
+  assert(spectrum.size() == fft.n_bins());
+  std::copy(spectrum.begin(), spectrum.end(), fft.spectrum().begin());
+  fft.inverse();
+  return {fft.time().begin(), fft.time().end()};
+}
+
+std::vector<double> upsampled(std::span<const Complex> spectrum, const std::size_t n,
+                              const std::size_t factor) {
+  if (factor == 1) return samples_of(spectrum, n);
+  signals::RealFft& fft = plan(n * factor);
+  const auto out = fft.spectrum();
+  const double scale = static_cast<double>(factor);
+  for (std::size_t k = 0; k < spectrum.size(); ++k) out[k] = scale * spectrum[k];
+  if (n % 2 == 0) out[spectrum.size() - 1] *= 0.5;
+  std::fill(out.begin() + static_cast<std::ptrdiff_t>(spectrum.size()), out.end(), Complex(0.));
+  fft.inverse();
+  return {fft.time().begin(), fft.time().end()};
+}
+
+std::vector<double> resampled(const std::span<const Complex> spectrum, const std::size_t n,
+                              const std::size_t n_out, const double start, const double step) {
+  constexpr std::size_t factor = 4;
+  const std::vector<double> fine = upsampled(spectrum, n, factor);
+  std::vector<double> out(n_out);
+  const auto size = static_cast<std::ptrdiff_t>(fine.size());
+  for (std::size_t i = 0; i < n_out; ++i) {
+    const double place = factor * (start + static_cast<double>(i) * step);
+    const double floor = std::floor(place), x = place - floor;
+    const auto at = [&](std::ptrdiff_t d) {
+      return fine[static_cast<std::size_t>(
+          ((static_cast<std::ptrdiff_t>(floor) + d) % size + size) % size)];
+    };
+    const double a = at(-1), b = at(0), c = at(1), e = at(2);
+    out[i] = b + x * (c - a / 3. - b / 2. - e / 6. +
+                      x * ((a + c) / 2. - b + x * ((e - a) / 6. + (b - c) / 2.)));
+  }
+  return out;
+}
+
+std::vector<Complex> difference(std::span<const Complex> a, std::span<const Complex> b) {
+  std::vector<Complex> out(a.begin(), a.end());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] -= b[i];
+  return out;
+}
+
+std::vector<double> powers(std::span<const Complex> x) {
+  std::vector<double> out(x.size());
+  std::transform(x.begin(), x.end(), out.begin(), [](Complex v) { return std::norm(v); });
+  return out;
+}
+
+std::vector<double> neighbour_mean(std::span<const double> x, const std::size_t reach) {
+  std::vector<double> running(x.size() + 1, 0.), out(x.size());
+  std::partial_sum(x.begin(), x.end(), running.begin() + 1);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const std::size_t low = k < reach ? 0 : k - reach, high = std::min(x.size(), k + reach + 1);
+    out[k] = (running[high] - running[low]) / static_cast<double>(high - low);
+  }
+  return out;
+}
+
+double colour(std::vector<double> power) {
+  if (power.empty()) return 1.;
+  const double mean =
+      std::accumulate(power.begin(), power.end(), 0.) / static_cast<double>(power.size());
+  const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
+  std::nth_element(power.begin(), middle, power.end());
+  return *middle > 0. ? mean * std::numbers::ln2 / *middle : 1.;
+}
+
+std::size_t fast_length(std::size_t n) {
+  for (n -= n % 2; n > 2; n -= 2) {
+    std::size_t rest = n;
+    for (const std::size_t factor : {2, 3, 5, 7})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) break;
+  }
+  return n;
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "diagnosis/model/nominal_model.h"
+
+namespace vibrissa::diagnosis {
+
+/// DFT lines 0 .. n/2 of real samples, unscaled, and back to n samples. Plans are kept, one set a
+/// thread.
+std::vector<Complex> spectrum_of(std::span<const double> x);
+std::vector<double> samples_of(std::span<const Complex> spectrum, std::size_t n);
+
+/// The samples of a spectrum at factor times its rate (band-limited interpolation), factor n of
+/// them.
+std::vector<double> upsampled(std::span<const Complex> spectrum, std::size_t n, std::size_t factor);
+
+/// n_out samples of the circular series of a spectrum, at places start + i step of its n samples:
+/// by cubic interpolation on a four times finer grid.
+std::vector<double> resampled(std::span<const Complex> spectrum, std::size_t n, std::size_t n_out,
+                              double start, double step);
+
+/// a - b, entry by entry.
+std::vector<Complex> difference(std::span<const Complex> a, std::span<const Complex> b);
+
+/// |x|^2 of each entry.
+std::vector<double> powers(std::span<const Complex> x);
+
+/// Mean of each value and its neighbours up to reach places away, as far as there are.
+std::vector<double> neighbour_mean(std::span<const double> x, std::size_t reach);
+
+/// Largest even length up to n whose transform is fast (factors 2, 3, 5, 7).
+std::size_t fast_length(std::size_t n);
+
+/// Mean over median power, scaled to 1 for white noise; tones and bands stand far above.
+double colour(std::vector<double> power);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,230 @@
+#include "diagnosis/resonances/resonance_effects.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace vibrissa::diagnosis {
+namespace {
+
+constexpr double share_beyond = 0.1;
+constexpr double gent_modulus_pa = 0.73e6, yeoh_modulus_pa = 2.04e6;
+
+double density_within(const Prior& prior, const double x) {
+  return x < prior.low || x > prior.high ? 0. : std::exp(prior.log_density(x));
+}
+
+/// k / k0 without and with the spring below.
+struct Stiffness {
+  double own, total;
+};
+Stiffness stiffness(const ModeChange& change, const double joint_share) {
+  const double compliance = joint_share / change.joint + 1. - joint_share;
+  return {1. / compliance, 1. / (compliance + change.series_compliance)};
+}
+
+/// Squared frequency ratio that the mode must have by itself so that it has x on its mount.
+std::optional<double> without_mount(const ModeChange& change, const double x) {
+  if (!change.mount_frequency) return x;
+  const double b2 = *change.mount_frequency * *change.mount_frequency;
+  const double rest = b2 - x * (1. + change.mount_mass);
+  if (rest <= 0.) return std::nullopt;
+  return x * (b2 - x) / rest;
+}
+
+const Parameter& catalogue_parameter(const Effect& effect, const std::string& name) {
+  const auto found = std::find_if(effect.parameters.begin(), effect.parameters.end(),
+                                  [&](const Parameter& p) { return p.name == name; });
+  assert(found != effect.parameters.end());
+  return *found;
+}
+
+/// A figure of the catalogue, uniform over its usual range.
+ResonanceEffect catalogue_effect(const std::string& id, const std::string& parameter,
+                                 const double usual_low, const double usual_high) {
+  const Effect& effect = find_effect(id);
+  ResonanceEffect out{.effect = &effect,
+                      .parameter = catalogue_parameter(effect, parameter),
+                      .usual_low = usual_low,
+                      .usual_high = usual_high};
+  out.prior = {.usual = {.kind = Prior::Kind::uniform,
+                         .low = out.parameter.coordinate(usual_low),
+                         .high = out.parameter.coordinate(usual_high)},
+               .beyond = out.parameter.prior};
+  return out;
+}
+
+/// The catalogue's effect with a figure and a prior of its own.
+ResonanceEffect own_prior(const std::string& id, const Parameter& parameter, const double usual_low,
+                          const double usual_high) {
+  return {.effect = &find_effect(id),
+          .parameter = parameter,
+          .prior = {.usual = parameter.prior},
+          .usual_low = usual_low,
+          .usual_high = usual_high};
+}
+
+ResonanceEffect silicone(const std::optional<double> modulus_pa) {
+  constexpr double rounding = 1.01;
+  const double spread = yeoh_modulus_pa / gent_modulus_pa;
+  double low = 1. / spread, high = spread;
+  if (modulus_pa && *modulus_pa * rounding >= gent_modulus_pa &&
+      *modulus_pa <= yeoh_modulus_pa * rounding) {
+    low = gent_modulus_pa / *modulus_pa;
+    high = yeoh_modulus_pa / *modulus_pa;
+  }
+  ResonanceEffect out = own_prior(
+      "stiffness", log_usual("silicone_modulus_ratio", "1", low, high, 1e-3, 1e3, 1.), low, high);
+  out.to_factor = out.to_value = [](double ratio) { return ratio; };
+  out.remark = "another modulus of the silicone";
+  return out;
+}
+
+ResonanceEffect inertia() {
+  ResonanceEffect out = own_prior("mass", log_usual("ratio", "1", 0.9, 1.1, 0.3, 3., 1.), 0.7, 1.4);
+  out.part = ResonanceEffect::Part::inertia;
+  out.to_factor = out.to_value = [](double ratio) { return ratio; };
+  out.remark = "infill, glue, magnet";
+  return out;
+}
+
+ResonanceEffect series_spring() {
+  ResonanceEffect out = catalogue_effect("base_compliance", "stiffness_ratio", 1., 20.);
+  out.part = ResonanceEffect::Part::series;
+  out.to_factor = out.to_value = [](double ratio) { return 1. / ratio; };
+  out.remark = "spring k_s / k0 below the silicone";
+  return out;
+}
+
+ResonanceEffect mount(const double simulated_hz) {
+  ResonanceEffect out = catalogue_effect("mount_compliance", "frequency", 60., 200.);
+  out.part = ResonanceEffect::Part::mount;
+  out.to_factor = [simulated_hz](double hz) { return hz / simulated_hz; };
+  out.to_value = [simulated_hz](double ratio) { return ratio * simulated_hz; };
+  out.mass_ratio = catalogue_parameter(*out.effect, "mass_ratio");
+  out.remark = "would show a second resonance nearby";
+  return out;
+}
+
+ResonanceEffect temperature() {
+  Parameter shift{.name = "shift",
+                  .unit = "1",
+                  .prior = {.kind = Prior::Kind::student, .scale = 0.1, .low = -0.4, .high = 0.4}};
+  ResonanceEffect out = own_prior("temperature_drift", shift, -0.3, 0.3);
+  out.to_factor = [](double shift) { return 1. + shift; };
+  out.to_value = [](double factor) { return factor - 1.; };
+  out.remark = "at 0.5 %/K a shift of 0.1 takes 20 K";
+  return out;
+}
+
+ResonanceEffect softening() {
+  ResonanceEffect out = catalogue_effect("softening_history", "softening", 0.02, 0.4);
+  out.to_factor = [](double depth) { return 1. - depth; };
+  out.to_value = [](double factor) { return 1. - factor; };
+  out.remark = "of the silicone at the level of the test";
+  return out;
+}
+
+/// By the describing function of a cubic spring at the peak amplitude.
+ResonanceEffect cubic() {
+  ResonanceEffect out = catalogue_effect("hardening", "cubic_ratio", -0.3, 0.5);
+  out.to_factor = [](double ratio) { return 1. + 0.75 * ratio; };
+  out.to_value = [](double factor) { return (factor - 1.) / 0.75; };
+  out.remark = "k3 A^2 / k at the peak of the test";
+  return out;
+}
+
+/// What stands beside the joint's spring and, at most, stiffens it by its own stiffness.
+ResonanceEffect beside_the_spring(const std::string& id, const std::string& parameter,
+                                  const double usual_low, const double usual_high) {
+  ResonanceEffect out = catalogue_effect(id, parameter, usual_low, usual_high);
+  out.to_factor = [](double strength) { return 1. + strength; };
+  out.to_value = [](double factor) { return factor - 1.; };
+  out.remark = "can only raise the resonance";
+  return out;
+}
+
+}  // namespace
+
+double squared_frequency_ratio(const ModeChange& change, const double joint_share) {
+  const double own = stiffness(change, joint_share).total / change.inertia;
+  if (!change.mount_frequency) return own;
+  const double b2 = *change.mount_frequency * *change.mount_frequency;
+  const double sum = b2 + own * (1. + change.mount_mass);
+  return 2. * own * b2 / (sum + std::sqrt(sum * sum - 4. * own * b2));
+}
+
+double damping_ratio_factor(const ModeChange& change, const double joint_share,
+                            const double nominal_damping_ratio) {
+  const auto [own, total] = stiffness(change, joint_share);
+  const double alone = total / change.inertia;
+  const double factor = std::sqrt(alone) * total / (own * own);
+  if (!change.mount_frequency || change.mount_mass == 0.) return factor;
+  const double squared = squared_frequency_ratio(change, joint_share);
+  const double x = squared / alone, gap = 1. - x;
+  if (gap <= 0.) return factor;
+  // Share of the strain energy in the mount: d ln(squared) / d ln(b^2).
+  const double part = 1. + change.mount_mass / gap;
+  const double in_mount = part / (part + x * change.mount_mass / (gap * gap));
+  return (1. - in_mount) * factor * std::sqrt(x) + in_mount * mount_damping_ratio /
+                                                       nominal_damping_ratio * std::sqrt(squared) /
+                                                       *change.mount_frequency;
+}
+
+double UsualPrior::density(const double x) const {
+  if (!beyond) return density_within(usual, x);
+  return (1. - share_beyond) * density_within(usual, x) + share_beyond * density_within(*beyond, x);
+}
+
+void ResonanceEffect::apply(const double value, ModeChange& change) const {
+  const double factor = to_factor(value);
+  switch (part) {
+    case Part::joint:
+      change.joint *= factor;
+      break;
+    case Part::inertia:
+      change.inertia *= factor;
+      break;
+    case Part::series:
+      change.series_compliance += factor;
+      break;
+    case Part::mount:
+      change.mount_frequency = factor;
+      break;
+  }
+}
+
+std::optional<double> ResonanceEffect::solve(const ModeChange& others, const double squared_ratio,
+                                             const double joint_share) const {
+  const Stiffness k = stiffness(others, joint_share);
+  if (part == Part::mount) {
+    const double alone = k.total / others.inertia;
+    if (alone <= squared_ratio) return std::nullopt;
+    const double b2 = squared_ratio * (1. + others.mount_mass * alone / (alone - squared_ratio));
+    return to_value(std::sqrt(b2));
+  }
+  const std::optional<double> alone = without_mount(others, squared_ratio);
+  if (!alone) return std::nullopt;
+  if (part == Part::inertia) return to_value(k.total / *alone / others.inertia);
+  const double compliance = 1. / (*alone * others.inertia);
+  const double rest =
+      compliance - (part == Part::joint ? 1. - joint_share + others.series_compliance
+                                        : 1. / k.own + others.series_compliance);
+  if (rest <= 0.) return std::nullopt;
+  return to_value(part == Part::joint ? joint_share / rest / others.joint : rest);
+}
+
+std::vector<ResonanceEffect> resonance_effects(const double simulated_hz,
+                                               const std::optional<double> silicone_modulus_pa) {
+  return {silicone(silicone_modulus_pa),
+          inertia(),
+          series_spring(),
+          mount(simulated_hz),
+          temperature(),
+          softening(),
+          cubic(),
+          beside_the_spring("viscoelastic", "strength", 0.02, 1.),
+          beside_the_spring("joint_friction", "stiffness_ratio", 0.1, 0.8)};
+}
+
+}  // namespace vibrissa::diagnosis

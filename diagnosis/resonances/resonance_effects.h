@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/model/effect.h"
+
+namespace vibrissa::diagnosis {
+
+/// What effects make of the first mode, as factors on the simulated one.
+struct ModeChange {
+  double joint = 1.;              // spring of the joint (the silicone)
+  double inertia = 1.;            // modal mass
+  double series_compliance = 0.;  // of a spring below the joint, over the mode's own
+  /// Of a mount between accelerometer and base, by itself, over the simulated first mode's.
+  std::optional<double> mount_frequency{};
+  double mount_mass = 0.;  // apparent mass ratio of the first mode at the mount
+};
+
+/// (f / f0)^2 of the lower resonance, k0 and f0 being the simulated mode's and p the joint's share
+/// in its compliance:
+///   k / k0 = 1 / (p / joint + 1 - p + series),  n = (k / k0) / inertia;
+/// on a mount of frequency b f0 the lower root of x^2 - (b^2 + (1 + m) n) x + b^2 n = 0 in place of
+/// n (catalogue, mount_compliance). The springs in series agree with the finite-element model:
+/// tests/diagnosis/resonances/resonance_gap_test.cc.
+double squared_frequency_ratio(const ModeChange& change, double joint_share);
+
+/// zeta / zeta0 of that resonance with the modal damper unchanged: sqrt(t / inertia) t / r^2, r =
+/// k / k0 without the series spring and t with it, as a lossless series spring shares in the motion
+/// but not in the loss. On a mount the losses are weighted by strain energy; the mount's own ratio
+/// is mount_damping_ratio.
+double damping_ratio_factor(const ModeChange& change, double joint_share,
+                            double nominal_damping_ratio);
+
+constexpr double mount_damping_ratio = 0.022;  // between 0.01 and 0.05 (effects.md)
+
+/// A prior that is mostly within a usual range, and seldom in a wider one.
+struct UsualPrior {
+  Prior usual{};
+  std::optional<Prior> beyond{};  // with a tenth of the probability
+
+  double density(double x) const;
+  double lowest() const { return beyond ? std::min(usual.low, beyond->low) : usual.low; }
+  double highest() const { return beyond ? std::max(usual.high, beyond->high) : usual.high; }
+};
+
+/// An effect as far as it moves a resonance: one figure that acts on one part of the mode.
+struct ResonanceEffect {
+  enum class Part { joint, inertia, series, mount };
+
+  const Effect* effect = nullptr;  // of the catalogue
+  Part part = Part::joint;
+  Parameter parameter{};                                  // its name, unit and fitted coordinate
+  UsualPrior prior{};                                     // of the coordinate
+  double usual_low = 0., usual_high = 0.;                 // of the value (effects.md)
+  std::function<double(double)> to_factor{}, to_value{};  // on the part, and back
+  std::optional<Parameter> mass_ratio{};                  // of a mount
+  std::string remark{};                                   // what the value means
+
+  void apply(double value, ModeChange& change) const;
+  /// The value that brings the changed mode to a squared frequency ratio; nothing when none does.
+  std::optional<double> solve(const ModeChange& others, double squared_ratio,
+                              double joint_share) const;
+};
+
+/// The effects of the catalogue that can move a first resonance by more than its uncertainty.
+/// Priors:
+///  * stiffness: the silicone's modulus. Two ways to know it differ: Gent's relation for Shore 20A
+///    gives 0.73 MPa, the reference study's Yeoh fit 6 c1 = 2.04 MPa (paper.md). A simulation with
+///    a modulus between them is usually wrong by 0.73 MPa to 2.04 MPa over its own; for any other,
+///    also an unknown one, the same factor of 2.8 either way.
+///  * mass: 0.9 to 1.1 usual (infill of a printed fin, glue, magnet), heavy tails.
+///  * temperature_drift: 0.5 %/K over 20 K are a scale of 10 %; usual up to 30 % (effects.md).
+///  * base_compliance, mount_compliance, softening_history, hardening, joint_friction,
+///    viscoelastic: uniform (in the logarithm, as the catalogue) over the usual range of
+///    effects.md, a tenth over the catalogue's own bounds.
+/// simulated_hz makes mount frequencies relative. Left out are effects that leave poles where they
+/// are (links wind, sensor, reference; damping: f sqrt(1 - 2 zeta^2) moves by 0.4 % at zeta 0.05),
+/// extra_mode, clock_drift (at most 0.1 %) and backlash, whose gap has no scale without amplitude.
+std::vector<ResonanceEffect> resonance_effects(double simulated_hz,
+                                               std::optional<double> silicone_modulus_pa);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,276 @@
+#include "diagnosis/resonances/resonance_gap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/model/hypothesis.h"
+#include "diagnosis/model/words.h"
+#include "diagnosis/resonances/solution_line.h"
+#include "diagnosis/search/confidence_set.h"
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
+#include "signals/base/student.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+void require(const bool good, const std::string& what, const double value,
+             const std::string& rule) {
+  if (!good) throw signals::UserError(what + " is " + signals::to_text(value) + ": " + rule);
+}
+
+void check(const ResonanceFigures& figures, const std::string& whose) {
+  const double f = figures.frequency_hz, s = figures.relative_deviation;
+  require(std::isfinite(f) && f > 0., whose + " frequency [Hz]", f, "give a positive number");
+  require(s > 0. && s < 0.5, whose + " frequency's relative deviation", s,
+          "give a share between 0 and 0.5");
+  const double d = figures.damping_relative_deviation;
+  require(d > 0. && d < 0.5, whose + " damping ratio's relative deviation", d,
+          "give a share between 0 and 0.5");
+  if (const auto& zeta = figures.damping_ratio)
+    require(*zeta > 0. && *zeta < 1., whose + " damping ratio", *zeta,
+            "give a number between 0 and 1, a share of critical damping");
+}
+
+ResonanceGap gap_of(const ResonanceFigures& simulated, const ResonanceFigures& measured,
+                    const ResonanceModel& model) {
+  ResonanceGap gap{
+      .log_ratio = 2. * std::log(measured.frequency_hz / simulated.frequency_hz),
+      .deviation = 2. * std::hypot(measured.relative_deviation, simulated.relative_deviation),
+      .joint_share = model.joint_share};
+  if (simulated.damping_ratio && measured.damping_ratio) {
+    gap.simulated_damping = simulated.damping_ratio;
+    gap.damping_change = *measured.damping_ratio / *simulated.damping_ratio;
+    gap.damping_deviation =
+        std::hypot(measured.damping_relative_deviation, simulated.damping_relative_deviation);
+  }
+  return gap;
+}
+
+NeededValue needed(const ResonanceEffect& effect, const double value) {
+  return {.effect = effect.effect->id,
+          .name = effect.parameter.name,
+          .unit = effect.parameter.unit,
+          .value = value,
+          .usual_low = effect.usual_low,
+          .usual_high = effect.usual_high,
+          .inside = value >= effect.usual_low && value <= effect.usual_high};
+}
+
+/// Values that one effect takes at the ends of what the figures may be.
+std::optional<std::array<double, 2>> interval(const ResonanceEffect& effect,
+                                              const ResonanceGap& gap) {
+  const auto at = [&](double z) {
+    return effect.solve({}, std::exp(gap.log_ratio + z * gap.deviation), gap.joint_share);
+  };
+  const auto low = at(-signals::normal_quantile_975), high = at(signals::normal_quantile_975);
+  if (!low || !high) return std::nullopt;
+  return std::array<double, 2>{std::min(*low, *high), std::max(*low, *high)};
+}
+
+/// The modal ratio goes with that of the silicone, which only holds a part of the compliance.
+NeededValue modal_stiffness(const double silicone_ratio, const double share) {
+  const double ratio = 1. / (share / silicone_ratio + 1. - share);
+  return {.effect = "stiffness",
+          .name = "ratio",
+          .unit = "1",
+          .value = ratio,
+          .usual_low = 0.3,
+          .usual_high = 1.5,
+          .inside = ratio >= 0.3 && ratio <= 1.5};
+}
+
+/// What the modulus would be if the share of the silicone were a deviation less or more.
+std::string share_note(const ResonanceModel& model, const double modal_ratio) {
+  std::string text = "modulus x ";
+  for (const double side : {-1., 1.}) {
+    const double share =
+        std::clamp(model.joint_share + side * model.joint_share_deviation, 0.05, 1.);
+    const double rest = 1. / modal_ratio - 1. + share;
+    text += (rest > 0. ? three_digits(share / rest) : std::string("never")) +
+            (side < 0. ? " for a silicone share " : " for ") + three_digits(share) +
+            (side < 0. ? ", " : "");
+  }
+  if (model.silicone_modulus_pa)
+    text += ", simulated with " + three_digits(1e-6 * *model.silicone_modulus_pa) + " MPa";
+  return text;
+}
+
+std::string note_of(const ResonanceEffects& effects, const ResonanceExplanation& explanation) {
+  std::vector<std::string> notes;
+  for (const NeededValue& value : explanation.parameters)
+    if (!value.inside)
+      notes.push_back(value.name + " outside its usual " + three_digits(value.usual_low) + " .. " +
+                      three_digits(value.usual_high));
+  for (const ResonanceEffect* effect : effects) notes.push_back(effect->remark);
+  return joined(notes, "; ");
+}
+
+double log_prior(const ResonanceEffects& effects, const std::size_t n_known) {
+  double sum = log_prior_of_number(effects.size(), n_known);
+  for (const ResonanceEffect* effect : effects) sum += effect->effect->log_prior;
+  return sum;
+}
+
+/// Value of a single effect by its equation alone, though its prior may exclude it; of a mount
+/// under the heaviest first mode.
+std::optional<Solution> by_equation(const ResonanceEffect& effect, const ResonanceGap& gap) {
+  Solution point;
+  if (effect.mass_ratio) point.change.mount_mass = effect.mass_ratio->prior.high;
+  const auto value = effect.solve(point.change, gap.squared_ratio(), gap.joint_share);
+  if (!value || !std::isfinite(*value)) return std::nullopt;
+  if (effect.parameter.logarithmic && *value <= 0.) return std::nullopt;
+  point.values.front() = *value;
+  effect.apply(*value, point.change);
+  return point;
+}
+
+/// Of a combination and of a mount the most probable; but a mount outside its usual range as near
+/// to it as any.
+std::optional<Solution> told_point(const ResonanceEffects& effects, const ResonanceGap& gap) {
+  if (effects.size() > 1) return most_probable(effects, gap);
+  const ResonanceEffect& effect = *effects.front();
+  const std::optional<Solution> heaviest = by_equation(effect, gap);
+  if (!effect.mass_ratio || !heaviest || heaviest->values.front() < effect.usual_low)
+    return heaviest;
+  return most_probable(effects, gap);
+}
+
+std::vector<NeededValue> needed_values(const ResonanceEffects& effects, const ResonanceGap& gap,
+                                       const Solution& point) {
+  std::vector<NeededValue> out;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    NeededValue value = needed(*effects[i], point.values[i]);
+    if (effects.size() == 1 && !effects[i]->mass_ratio) value.ci95 = interval(*effects[i], gap);
+    if (value.effect == "stiffness") out.push_back(modal_stiffness(value.value, gap.joint_share));
+    out.push_back(std::move(value));
+    if (const auto& mass = effects[i]->mass_ratio)
+      out.push_back({.effect = effects[i]->effect->id,
+                     .name = mass->name,
+                     .unit = mass->unit,
+                     .value = point.change.mount_mass,
+                     .usual_low = mass->prior.low,
+                     .usual_high = mass->prior.high,
+                     .inside = true});
+  }
+  return out;
+}
+
+ResonanceExplanation explain(const ResonanceEffects& effects, const ResonanceGap& gap,
+                             const ResonanceModel& model, const std::size_t n_known) {
+  ResonanceExplanation out;
+  for (const ResonanceEffect* effect : effects) out.effects.push_back(effect->effect->id);
+  out.odds = evidence(effects, gap) * std::exp(log_prior(effects, n_known));
+  const std::optional<Solution> point = told_point(effects, gap);
+  out.possible = point.has_value();
+  if (!point) {
+    out.note = "no value brings the resonance there; " + effects.front()->remark;
+    return out;
+  }
+  out.parameters = needed_values(effects, gap, *point);
+  out.inside_usual_range = std::all_of(out.parameters.begin(), out.parameters.end(),
+                                       [](const NeededValue& value) { return value.inside; });
+  out.damping_left = gap.damping_left(point->change);
+  out.note = note_of(effects, out);
+  if (effects.size() == 1 && out.effects.front() == "stiffness")
+    out.note = share_note(model, gap.squared_ratio()) + "; " + out.note;
+  return out;
+}
+
+/// No effect at all, or only another damper.
+ResonanceExplanation without_effects(const ResonanceGap& gap, const std::size_t n_known) {
+  ResonanceExplanation out{.inside_usual_range = true, .note = "the frequencies agree"};
+  out.odds = normal_density(gap.log_ratio, gap.deviation) * gap.damping_density({}) *
+             std::exp(log_prior_of_number(0, n_known));
+  out.damping_left = gap.damping_change;
+  if (!gap.dampings_agree()) {
+    out.effects = {"damping"};
+    out.parameters = {{.effect = "damping",
+                       .name = "ratio",
+                       .unit = "1",
+                       .value = *gap.damping_change,
+                       .usual_low = 0.3,
+                       .usual_high = 3.}};
+    NeededValue& ratio = out.parameters.front();
+    ratio.inside = ratio.value >= ratio.usual_low && ratio.value <= ratio.usual_high;
+    out.inside_usual_range = ratio.inside;
+  }
+  if (!gap.frequencies_agree()) out.note = "the frequencies differ by more than their deviation";
+  return out;
+}
+
+/// Something unknown: a factor of two in the frequency as soon as a per cent.
+ResonanceExplanation unknown(const ResonanceGap& gap) {
+  const Prior prior{.kind = Prior::Kind::student, .scale = std::log(2.)};
+  return {.effects = {outside_catalogue},
+          .odds = std::exp(log_prior_of_outside_catalogue + prior.log_density(gap.log_ratio)) *
+                  gap.damping_density({}),
+          .note = "nothing that the catalogue knows"};
+}
+
+void normalise(std::vector<ResonanceExplanation>& explanations) {
+  double sum = 0.;
+  for (const ResonanceExplanation& e : explanations) sum += e.odds;
+  for (ResonanceExplanation& e : explanations) e.odds /= sum;
+  std::stable_sort(explanations.begin(), explanations.end(),
+                   [](const auto& a, const auto& b) { return a.odds > b.odds; });
+}
+
+std::vector<ResonanceExplanation> all_explanations(const ResonanceGap& gap,
+                                                   const ResonanceFigures& simulated,
+                                                   const ResonanceModel& model) {
+  const std::vector<ResonanceEffect> known =
+      resonance_effects(simulated.frequency_hz, model.silicone_modulus_pa);
+  std::vector<ResonanceExplanation> out{without_effects(gap, known.size()), unknown(gap)};
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    out.push_back(explain({&known[i]}, gap, model, known.size()));
+    for (std::size_t j = 0; j < i; ++j) {
+      // A mount is not solved for: its mass and its frequency both run.
+      const bool mount_last = known[i].part == ResonanceEffect::Part::mount;
+      const ResonanceEffects pair = mount_last ? ResonanceEffects{&known[i], &known[j]}
+                                               : ResonanceEffects{&known[j], &known[i]};
+      ResonanceExplanation both = explain(pair, gap, model, known.size());
+      if (both.possible) out.push_back(std::move(both));
+    }
+  }
+  normalise(out);
+  return out;
+}
+
+}  // namespace
+
+std::string ResonanceExplanation::name() const {
+  return joined_name(effects);
+}
+
+ResonanceDiagnosis explain_resonance_gap(const ResonanceFigures& simulated,
+                                         const ResonanceFigures& measured,
+                                         const ResonanceModel& model) {
+  check(simulated, "the simulated");
+  check(measured, "the measured");
+  require(model.joint_share > 0. && model.joint_share <= 1.,
+          "the silicone's share of the compliance", model.joint_share,
+          "give a share above 0, at most 1");
+  const ResonanceGap gap = gap_of(simulated, measured, model);
+  ResonanceDiagnosis out{.simulated = simulated,
+                         .measured = measured,
+                         .model = model,
+                         .modal_ratio = gap.squared_ratio(),
+                         .explanations = all_explanations(gap, simulated, model)};
+  out.verdict = out.explanations.front().name();
+  std::vector<Candidate> candidates;
+  for (const ResonanceExplanation& e : out.explanations)
+    candidates.push_back({.name = e.name(), .retunes = {}, .probability = e.odds});
+  out.confidence_set = confidence_set(candidates, 0.95);
+  out.next = next_experiment(candidates, out.confidence_set, {});
+  return out;
+}
+
+ResonanceExample paper_gap() {
+  return {
+      .simulated = {.frequency_hz = 37.32, .damping_ratio = 0.05},
+      .measured = {.frequency_hz = 31.47, .damping_ratio = 0.027},
+      .model = {.joint_share = 0.71, .joint_share_deviation = 0.15, .silicone_modulus_pa = 2.04e6}};
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "diagnosis/resonances/resonance_gap.h"
+
+namespace vibrissa::diagnosis {
+
+/// Schema "vibrissa-resonance-gap-1": figures, every explanation with its values, odds, damping
+/// left and note, confidence set and next experiment. Proven by
+/// tests/diagnosis/resonances/resonance_gap_text_test.cc.
+nlohmann::ordered_json resonance_gap_json(const ResonanceDiagnosis& diagnosis);
+
+/// At most 15 lines of at most 100 characters for a terminal: every single effect with the value
+/// that it takes, the likeliest combinations, what cannot be, what to measure next.
+std::string resonance_gap_text(const ResonanceDiagnosis& diagnosis);
+
+}  // namespace vibrissa::diagnosis

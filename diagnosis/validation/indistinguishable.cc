@@ -1,0 +1,242 @@
+#include "diagnosis/validation/indistinguishable.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/fit/calibration_choices.h"
+#include "diagnosis/localisation/location.h"
+#include "diagnosis/search/effect_size.h"
+#include "diagnosis/search/fisher_changes.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+constexpr double enough_nats = 2.;
+
+/// Against a fit.
+FisherChanges changes_against(const Experiment& experiment, const HypothesisFit& fit) {
+  std::vector<double> deviation;
+  for (const WhitenedRecord& record : whitened_residual(experiment, fit))
+    deviation.insert(deviation.end(), record.deviation.begin(), record.deviation.end());
+  return {experiment, std::move(deviation), noisy_chain(experiment, fit.figures, fit.x)};
+}
+
+/// One direction in which a prediction can be moved.
+struct Direction {
+  const Effect* effect = nullptr;  // nothing: noise levels, joint share
+  bool rival = false;              // an effect that the fit does not hold
+  double half_prior = 0.;          // nats of a unit of it
+};
+
+/// The question is what the data say: nuisances stay within this many spreads of their priors.
+constexpr double n_spreads = 2.;
+
+class Directions {
+ public:
+  Directions(const Experiment& experiment, const HypothesisFit& fit)
+      : changes_(changes_against(experiment, fit)) {
+    std::vector<Eigen::VectorXd> columns;
+    add_figures(experiment, fit, columns);
+    add_rivals(experiment, fit, columns);
+    std::vector<double> half_priors;
+    for (const Direction& direction : list_) half_priors.push_back(direction.half_prior);
+    directions_ = FisherDirections(columns, half_priors);
+  }
+
+  const std::vector<Direction>& list() const { return list_; }
+
+  /// What a named effect does: along its tangents from where it is to neutral, or as a whole where
+  /// neutral is infinitely far.
+  Eigen::VectorXd change_of(const Effect& effect, const Experiment& experiment,
+                            const HypothesisFit& fit) const {
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(directions_.columns().rows());
+    Eigen::Index column = 0;
+    for (std::size_t i = 0; i < fit.figures.size(); ++i) {
+      const FreeFigure& figure = fit.figures[i];
+      if (figure.description.name == "form_error_share") continue;
+      if (figure.effect == &effect) {
+        const Parameter& parameter = figure.description;
+        const double neutral = parameter.coordinate(parameter.neutral);
+        if (!(neutral >= parameter.prior.low && neutral <= parameter.prior.high))
+          return changes_.of(noisy_chain(experiment, fit.figures, fit.x, &effect));
+        along +=
+            (neutral - fit.x(static_cast<Eigen::Index>(i))) * directions_.columns().col(column);
+      }
+      ++column;
+    }
+    return along;
+  }
+
+  /// Nats of a change that are left when the chosen directions follow it.
+  double left(const Eigen::VectorXd& change, const std::vector<bool>& chosen) const {
+    return directions_.left(change, chosen);
+  }
+
+ private:
+  void add_figures(const Experiment& experiment, const HypothesisFit& fit,
+                   std::vector<Eigen::VectorXd>& columns) {
+    for (std::size_t i = 0; i < fit.figures.size(); ++i) {
+      const FreeFigure& figure = fit.figures[i];
+      if (figure.description.name == "form_error_share") continue;
+      const auto place = static_cast<Eigen::Index>(i);
+      Eigen::VectorXd x = fit.x;
+      double h = figure.description.step;
+      if (x(place) + h > figure.description.prior.high) h = -h;
+      x(place) += h;
+      columns.push_back(changes_.of(noisy_chain(experiment, fit.figures, x)) / h);
+      list_.push_back({figure.effect, false, half_prior(figure, x(place), n_spreads)});
+    }
+  }
+
+  void add_rivals(const Experiment& experiment, const HypothesisFit& fit,
+                  std::vector<Eigen::VectorXd>& columns) {
+    const NoisyChain state = noisy_chain(experiment, fit.figures, fit.x);
+    for (const Effect& effect : effect_catalogue()) {
+      const bool held = std::any_of(fit.figures.begin(), fit.figures.end(),
+                                    [&](const FreeFigure& f) { return f.effect == &effect; });
+      if (held || !shows(experiment, effect)) continue;
+      const std::vector<std::size_t> sized = size_parameters(effect);
+      for (const std::vector<double>& start : effect.starts) {
+        NoisyChain moved = state;
+        effect.extend(moved.chain, EffectFamily(effect, sized, start).values(faint_share),
+                      experiment.scales);
+        columns.push_back(changes_.of(moved));
+        list_.push_back({&effect, true, 0.});
+      }
+    }
+  }
+
+  FisherChanges changes_;
+  std::vector<Direction> list_;
+  FisherDirections directions_;
+};
+
+/// Sets in which one named effect stands.
+class Sets {
+ public:
+  Sets(const Directions& directions, const Effect& named, Eigen::VectorXd change)
+      : directions_(directions), named_(named), change_(std::move(change)) {
+    for (const Direction& direction : directions.list())
+      free_.push_back(!direction.rival && direction.effect != &named);
+  }
+
+  std::vector<std::vector<std::string>> run() const {
+    if (directions_.left(change_, free_) < enough_nats) return {with_nuisances()};
+    std::vector<std::vector<std::string>> sets;
+    std::set<const Effect*> rivals;
+    for (const Direction& direction : directions_.list())
+      if (direction.rival) rivals.insert(direction.effect);
+    for (const Effect* rival : rivals)
+      if (left_with(*rival, true) < enough_nats) sets.push_back({named_.id, rival->id});
+    return sets;
+  }
+
+ private:
+  std::set<const Effect*> held_effects() const {
+    std::set<const Effect*> out;
+    for (const Direction& direction : directions_.list())
+      if (!direction.rival && direction.effect != nullptr && direction.effect != &named_)
+        out.insert(direction.effect);
+    return out;
+  }
+  double left_with(const Effect& effect, bool on) const {
+    std::vector<bool> chosen = free_;
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      if (directions_.list()[i].effect == &effect) chosen[i] = on;
+    return directions_.left(change_, chosen);
+  }
+  /// The effects of the fit that together do what this one does.
+  std::vector<std::string> with_nuisances() const {
+    const double left = directions_.left(change_, free_);
+    std::vector<std::string> ids{named_.id};
+    for (const Effect* held : held_effects())
+      if (left_with(*held, false) > left + 1.) ids.push_back(held->id);
+    std::sort(ids.begin() + 1, ids.end());
+    return ids;
+  }
+
+  const Directions& directions_;
+  const Effect& named_;
+  Eigen::VectorXd change_;
+  std::vector<bool> free_;
+};
+
+/// Hypothesis with one effect in another's place.
+std::string exchanged(const Hypothesis& hypothesis, const Effect& effect, const Effect& rival) {
+  return hypothesis.without(effect).with(rival).name();
+}
+
+/// Effects that do in a fit of their own what the named one does in the best fit.
+void add_refitted(const SearchResult& result, const HypothesisFit& best, const Effect& effect,
+                  std::vector<std::vector<std::string>>& sets) {
+  for (const Effect& rival : effect_catalogue()) {
+    if (best.hypothesis.contains(rival.id)) continue;
+    const std::string name = exchanged(best.hypothesis, effect, rival);
+    for (const HypothesisFit& fit : result.fits)
+      if (fit.hypothesis.name() == name && best.log_likelihood - fit.log_likelihood < enough_nats)
+        sets.push_back({effect.id, rival.id});
+  }
+}
+
+/// Log likelihood of a fit whose retunes but for the given ones are exactly nominal: in Gaussian
+/// approximation, tolerances taken out.
+double likelihood_at_nominal_but(const HypothesisFit& fit, const std::vector<std::string>& ids) {
+  const std::vector<Eigen::Index> all = retunes_but(fit, {});
+  const RetunedPosterior free = retuned_posterior(fit, all);
+  const auto nats_to = [&](const Eigen::VectorXd& x, const std::vector<Eigen::Index>& places) {
+    if (places.empty()) return 0.;
+    const Eigen::VectorXd way = free.x(places) - x(places);
+    const Eigen::MatrixXd covariance = free.covariance(places, places);
+    return 0.5 * way.dot(covariance.ldlt().solve(way));
+  };
+  return fit.log_likelihood + nats_to(fit.x, all) -
+         nats_to(Eigen::VectorXd::Zero(fit.x.size()), retunes_but(fit, ids));
+}
+
+/// Effects that do in a fit of their own what a named retune does in the best fit.
+void add_refitted_for_retune(const SearchResult& result, const HypothesisFit& best,
+                             const std::vector<std::string>& retunes, const std::string& named,
+                             std::vector<std::vector<std::string>>& sets) {
+  std::vector<std::string> others = retunes;
+  std::erase(others, named);
+  const double of_best = likelihood_at_nominal_but(best, retunes);
+  for (const Effect& rival : effect_catalogue()) {
+    if (rival.id == named || best.hypothesis.contains(rival.id)) continue;
+    const std::string name = best.hypothesis.with(rival).name();
+    for (const HypothesisFit& fit : result.fits)
+      if (fit.hypothesis.name() == name && fit.place(named, 0) &&
+          of_best - likelihood_at_nominal_but(fit, others) < enough_nats)
+        sets.push_back({named, rival.id});
+  }
+}
+
+/// Each once, whatever way it was found.
+void add_new(std::vector<std::vector<std::string>>& sets, std::vector<std::string> set) {
+  if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
+}
+
+}  // namespace
+
+std::vector<std::vector<std::string>> indistinguishable_sets(const Experiment& experiment,
+                                                             const SearchResult& result) {
+  std::vector<std::vector<std::string>> sets;
+  if (result.candidates.empty()) return sets;
+  const Candidate& candidate = result.candidates.front();
+  const HypothesisFit& best = result.fits[candidate.fit];
+  for (const Effect* effect : best.hypothesis.effects()) add_refitted(result, best, *effect, sets);
+  if (candidate.retunes.empty()) return sets;
+  const Directions directions(experiment, best);
+  for (const std::string& id : candidate.retunes)
+    add_refitted_for_retune(result, best, candidate.retunes, id, sets);
+  for (const std::string& id : candidate.retunes) {
+    const Effect& effect = find_effect(id);
+    Eigen::VectorXd change = directions.change_of(effect, experiment, best);
+    for (std::vector<std::string>& set : Sets(directions, effect, std::move(change)).run())
+      if (set.size() > 1) add_new(sets, std::move(set));
+  }
+  return sets;
+}
+
+}  // namespace vibrissa::diagnosis

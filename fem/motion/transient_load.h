@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fem/sensor/base_moment.h"
+#include "fem/sensor/sensor.h"
+#include "fem/sensor/wind_state_load.h"
+
+namespace vibrissa::fem {
+
+/// Inputs on one uniform clock, linear between samples; empty spans are zero.
+struct TransientInput {
+  double sampling_rate_hz = 0.;
+  std::size_t n_samples = 0;
+  std::span<const double> base_acceleration;   // axial [m/s^2]
+  std::span<const double> cross_acceleration;  // along e_z x axial [m/s^2]
+  std::span<const double> wind_speed;          // along the axial direction [m/s]
+  /// Of the base in the laboratory, axial [m/s]; drag of relative velocity alone asks for it.
+  std::span<const double> base_velocity{};
+};
+
+/// What the wind of these parameters asks of a transient.
+WindStateLoad::Options wind_options(const flow::WindParameters& wind, bool finite_strain);
+
+/// What acts on the sensor at any instant of the record: forces are linear between samples. The
+/// sensor must outlive it, and what the input's spans show.
+class TransientLoad {
+ public:
+  /// Wind that depends on the body's state is no part of the nodal forces that set() gives, but a
+  /// load of its own.
+  TransientLoad(const Sensor& sensor, const TransientInput& input,
+                const WindStateLoad::Options& wind);
+
+  /// Takes up the interval that begins at a sample.
+  void enter_sample(std::size_t i);
+  /// At a fraction of the interval: base acceleration and wind, and all of it as nodal force.
+  void set(double fraction, SolidLoad& load, Vector& force);
+  /// The wind at the instant that was set last, where it depends on the state; else null.
+  const StateLoad* state_load() const { return state_wind_ ? &*state_wind_ : nullptr; }
+
+ private:
+  WindInstant wind_at(std::size_t sample) const;
+
+  const Sensor& sensor_;
+  TransientInput input_;
+  std::array<double, 3> axis_;
+  std::size_t before_ = 0, after_ = 0;
+  std::optional<WindStateLoad> state_wind_;
+  Vector wind_before_, wind_after_;  // N, at the samples around
+  std::vector<Vector> inertia_;      // M r_d
+};
+
+}  // namespace vibrissa::fem

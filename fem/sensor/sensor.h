@@ -1,0 +1,63 @@
+#pragma once
+
+#include <deal.II/grid/tria.h>
+#include <mpi.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem/sensor/damping.h"
+#include "fem/sensor/model_parameters.h"
+#include "fem/sensor/modes.h"
+#include "fem/sensor/wind_surface.h"
+#include "fem/solid/solid_operators.h"
+#include "fem/solid/solid_space.h"
+#include "flow/wind.h"
+#include "materials/sensor_materials.h"
+#include "meshes/sensor_geometry.h"
+
+namespace vibrissa::fem {
+
+struct SensorParameters {
+  meshes::SensorGeometry geometry;
+  materials::SensorMaterials materials;
+  ModelParameters model;
+  flow::WindParameters wind;
+};
+
+/// The meshed sensor with its operators at rest and its damped modes: everything that the reduced
+/// and the full-order model are made of.
+class Sensor {
+ public:
+  /// Meshes (or reads), assembles and solves. Throws UserError for parameters that make no sensor.
+  /// The processes of the communicator share the mesh and all work: its making, and all of this
+  /// room that a Sensor is given to, are collective.
+  explicit Sensor(const SensorParameters& parameters, MPI_Comm communicator = MPI_COMM_WORLD);
+
+  const SensorParameters& parameters() const { return parameters_; }
+  /// With several processes the part of this one.
+  const dealii::Triangulation<3>& mesh() const { return *mesh_; }
+  /// mesh_sha256 of the whole mesh, however many processes share it.
+  std::string mesh_sha256() const;
+  const SolidSpace& space() const { return *space_; }
+  const SolidOperators& operators() const { return operators_; }
+  const std::vector<Mode>& modes() const { return modes_; }
+  const std::vector<double>& damping_ratios() const { return damping_ratios_; }
+  const WindSurface& wind_surface() const { return *wind_surface_; }
+  double mass_kg() const;
+
+ private:
+  SensorParameters parameters_;
+  std::unique_ptr<dealii::Triangulation<3>> mesh_;
+  std::unique_ptr<SolidSpace> space_;
+  SolidOperators operators_;
+  std::vector<Mode> modes_;
+  std::vector<double> damping_ratios_;
+  std::unique_ptr<WindSurface> wind_surface_;
+};
+
+/// Throws UserError when geometry, materials, model or wind contradict themselves.
+void check(const SensorParameters& parameters);
+
+}  // namespace vibrissa::fem

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fem/linalg/linear_algebra.h"
+
+namespace vibrissa::fem {
+
+/// Forces that must balance in a displacement, with a symmetric tangent.
+class BalanceProblem {
+ public:
+  virtual ~BalanceProblem() = default;
+  /// out_of_balance = driving minus resisting forces, zero at held unknowns. Returns a force to
+  /// measure it by [N], not finite where u is no state of the body.
+  virtual double forces(const Vector& u, Vector& out_of_balance) = 0;
+  /// Assembles and factorises -d(out_of_balance)/du at u with the stresses of another state;
+  /// throws IndefiniteMatrix.
+  virtual void factorise(const Vector& u, const Vector& stressed) = 0;
+  virtual bool is_factorised() const = 0;
+  virtual void solve(const Vector& out_of_balance, Vector& step) = 0;
+};
+
+struct NewtonOptions {
+  double tolerance = 1e-11;  // out-of-balance force over the force to measure it by
+  unsigned int max_iterations = 40;
+  std::size_t n_secants = 20;             // steps that a kept tangent is mended by
+  double tangent_worth_iterations = 15.;  // a new one costs about as much
+};
+
+struct NewtonReport {
+  bool converged = false;
+  std::string failure;            // empty when converged
+  std::vector<double> residuals;  // relative, before each iteration and at the end
+  unsigned int n_factorisations = 0;
+
+  /// "1e-2, 3e-5, ..." for messages.
+  std::string history() const;
+};
+
+/// Newton's iteration from u, which it changes. A tangent, that of an earlier call too, is kept and
+/// mended by secants (secant_memory.h) until a new one pays; a new one is made at u with the
+/// stresses of in_balance (T13.2), the last state in balance. Steps are shortened until the force
+/// along them has fallen (T13.1), and out of states that have no energy; u is left at the last
+/// state that has one. Proven by tests/fem/solvers/newton_test.cc and static_solution_test.cc.
+NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Vector& u,
+                           const NewtonOptions& options = {});
+
+}  // namespace vibrissa::fem

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vtkLookupTable.h>
+#include <vtkSmartPointer.h>
+
+#include "report/figures/range.h"
+
+namespace vibrissa::report {
+
+/// Colours for values in the range: from dark to bright with even steps for the eye (viridis), or,
+/// where the range has values of both signs, from blue over white at 0 to red.
+vtkSmartPointer<vtkLookupTable> colour_map(const Range& values);
+
+/// What colour_map() spans: the range, made symmetric where it has both signs and longer than 0.
+Range colour_range(const Range& values);
+
+}  // namespace vibrissa::report

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace vibrissa::report {
+
+/// The value rounded to n_digits significant digits with trailing zeros kept ("27.0"), plain
+/// between 1e-4 and 1e6 and in the form 1.23e-05 outside. Whole digits before the point are never
+/// replaced by zeros: 12345 with three digits stays 12345. NaN gives "-". Proven, as what follows,
+/// by tests/report/text/text_test.cc.
+std::string significant(double value, int n_digits);
+
+/// A CSV field after RFC 4180: quoted when it holds a comma or a quote. Line breaks become blanks,
+/// since many programs, ours too, read a row as a line.
+std::string csv_field(const std::string& text);
+
+/// Number of characters (code points) of a UTF-8 text, for aligned columns.
+std::size_t n_characters(const std::string& text);
+
+}  // namespace vibrissa::report

@@ -1,0 +1,94 @@
+#include "separation/filters/bvrm_separator.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
+
+namespace vibrissa::separation {
+
+namespace {
+
+double checked_rate(double sampling_rate_hz) {
+  if (!(sampling_rate_hz > 0.) || !std::isfinite(sampling_rate_hz))
+    throw signals::UserError("BVRM separator: the sampling rate " +
+                             signals::to_text(sampling_rate_hz) + " Hz is not positive and finite");
+  return sampling_rate_hz;
+}
+
+std::size_t positive_part(std::ptrdiff_t n) {
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, n));
+}
+
+}  // namespace
+
+BvrmSeparator::BvrmSeparator(const Bvrm& model, double sampling_rate_hz, Hold hold)
+    : bank_(model, checked_rate(sampling_rate_hz), hold),
+      shaper_(hold, sampled_delay(model.delay_s, sampling_rate_hz).fraction),
+      latency_(shaper_.reach() + positive_part(-bank_.shift())),
+      moment_line_(latency_),
+      vibration_line_(positive_part(bank_.shift())),
+      window_(2 * shaper_.reach() + block) {
+  reset();
+}
+
+void BvrmSeparator::reset() {
+  bank_.reset();
+  moment_line_.start(0.);
+  n_skipped_ = n_early_ = 0;
+  started_ = vibrates_ = false;
+}
+
+void BvrmSeparator::process(std::span<const double> base_acceleration,
+                            std::span<const double> base_moment, std::span<double> wind_moment) {
+  assert(base_acceleration.size() == wind_moment.size());
+  assert(base_moment.size() == wind_moment.size());
+  if (wind_moment.size() == 1 && vibrates_ && passes_straight_through()) {
+    process_sample(base_acceleration[0], base_moment[0], wind_moment[0]);
+    return;
+  }
+  for (std::size_t first = 0; first < wind_moment.size(); first += block)
+    process_block(base_acceleration.data() + first, base_moment.data() + first,
+                  wind_moment.data() + first, std::min(block, wind_moment.size() - first));
+}
+
+bool BvrmSeparator::passes_straight_through() const {
+  return shaper_.reach() == 0 && !shaper_.has_midpoints() && latency_ == 0 && bank_.shift() <= 0;
+}
+
+// What process_block comes to where nothing is shaped and nothing waits.
+void BvrmSeparator::process_sample(double acceleration, double moment, double& wind) {
+  double vibration = 0.;
+  bank_.process(&acceleration, nullptr, &acceleration, &vibration, 1);
+  wind = moment - vibration;
+}
+
+void BvrmSeparator::process_block(const double* acceleration, const double* moment, double* wind,
+                                  std::size_t n) {
+  const std::size_t reach = shaper_.reach();
+  if (!started_) std::fill_n(window_.begin(), 2 * reach, acceleration[0]);
+  started_ = true;
+  std::copy_n(acceleration, n, window_.begin() + static_cast<std::ptrdiff_t>(2 * reach));
+
+  const std::size_t skip = std::min(n, reach - n_skipped_), m = n - skip;
+  n_skipped_ += skip;
+  if (m > 0) {
+    double* midpoint = shaper_.has_midpoints() ? midpoint_.data() : nullptr;
+    shaper_.shape(window_.data() + reach + skip, m, node_.data(), midpoint, direct_.data());
+    bank_.process(node_.data(), midpoint, direct_.data(), vibration_.data(), m);
+    if (!vibrates_) vibration_line_.start(vibration_[0]);
+    vibrates_ = true;
+  }
+  std::copy_n(window_.begin() + static_cast<std::ptrdiff_t>(n), 2 * reach, window_.begin());
+
+  for (std::size_t i = 0; i < n; ++i) {
+    const double measured = moment_line_.pass(moment[i]);
+    const double vibration = i < skip ? 0. : vibration_line_.pass(vibration_[i - skip]);
+    wind[i] = measured - vibration;
+  }
+  for (std::size_t i = 0; i < n && n_early_ < latency_; ++i, ++n_early_) wind[i] = 0.;
+}
+
+}  // namespace vibrissa::separation

@@ -1,0 +1,117 @@
+#include "separation/identification/identification_json.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "separation/model/simulation.h"
+
+namespace vibrissa::separation {
+
+namespace {
+
+using signals::channel::base_acceleration;
+using signals::channel::base_moment;
+
+nlohmann::json plane_json(const std::vector<PlaneEstimate>& points) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& point : points) {
+    list.push_back({{"real_rad_s", point.value.real()},
+                    {"imaginary_rad_s", point.value.imag()},
+                    {"real_sd_rad_s", point.real_deviation},
+                    {"imaginary_sd_rad_s", point.imaginary_deviation}});
+  }
+  return list;
+}
+
+}  // namespace
+
+nlohmann::json fitted_json(const FittedBvrm& fit) {
+  nlohmann::json modes = nlohmann::json::array();
+  for (const auto& mode : fit.modes) {
+    modes.push_back({{"frequency_hz", mode.frequency_hz.value},
+                     {"frequency_sd_hz", mode.frequency_hz.standard_deviation},
+                     {"damping_ratio", mode.damping_ratio.value},
+                     {"damping_sd", mode.damping_ratio.standard_deviation},
+                     {"static_gain_kg_m", mode.static_gain_kg_m.value},
+                     {"static_gain_sd_kg_m", mode.static_gain_kg_m.standard_deviation}});
+  }
+  return {{"modes", modes},
+          {"direct_term", fit.direct_term_kg_m.value},
+          {"direct_term_sd", fit.direct_term_kg_m.standard_deviation},
+          {"order", fit.model.order()},
+          {"end", to_string(fit.end)}};
+}
+
+nlohmann::json identification_json(const Identification& identification) {
+  nlohmann::json document = fitted_json(identification.fit);
+  document["fit_percent"] = identification.held_out_fit_percent;
+  document["vaf_percent"] = identification.held_out_vaf_percent;
+  document["hold"] = to_string(identification.hold);
+  return document;
+}
+
+nlohmann::json identified_response_json(const IdentifiedResponse& identified) {
+  nlohmann::json document = fitted_json(identified.fit);
+  document["fit_percent"] = identified.held_out_fit_percent;
+  return document;
+}
+
+nlohmann::json output_only_json(const OutputOnlyIdentification& found) {
+  nlohmann::json modes = nlohmann::json::array(), undamped = nlohmann::json::array();
+  for (const auto& mode : found.modes) {
+    modes.push_back({{"frequency_hz", mode.frequency_hz.value},
+                     {"frequency_sd_hz", mode.frequency_hz.standard_deviation},
+                     {"damping_ratio", mode.damping_ratio.value},
+                     {"damping_sd", mode.damping_ratio.standard_deviation},
+                     {"n_orders", mode.n_orders}});
+  }
+  for (const auto& line : found.undamped_hz) {
+    undamped.push_back(
+        {{"frequency_hz", line.value}, {"frequency_sd_hz", line.standard_deviation}});
+  }
+  return {{"modes", modes},
+          {"undamped", undamped},
+          {"n_orders", found.n_orders},
+          {"words", found.words}};
+}
+
+ModelEvidence examine(const Identification& identification, const signals::Record& fitted,
+                      const signals::Record& held_out) {
+  const auto& model = identification.fit.model;
+  const auto input = held_out.channel(base_acceleration);
+  const auto moment = held_out.channel(base_moment);
+  std::vector<double> residual =
+      simulate_like(model, input, moment, held_out.sampling_rate_hz(), identification.hold);
+  std::transform(moment.begin(), moment.end(), residual.begin(), residual.begin(), std::minus<>());
+  const std::array<Segment, 1> segments = {
+      {{fitted.channel(base_acceleration), fitted.channel(base_moment)}}};
+  SrivcOptions told;
+  told.hold = identification.hold;
+  told.direct_term = model.direct_term_kg_m != 0.;
+  ResidualTestOptions lags;
+  lags.max_lag = std::min(lags.max_lag, residual.size() / samples_per_lag);
+  return {poles_and_zeros(identification.fit), test_residual(residual, input, lags),
+          check_hold(model, segments, fitted.sampling_rate_hz(), told)};
+}
+
+nlohmann::json evidence_json(const ModelEvidence& evidence) {
+  return {{"poles", plane_json(evidence.poles_zeros.poles)},
+          {"zeros", plane_json(evidence.poles_zeros.zeros)},
+          {"residual_white", evidence.residual.whiteness.passed()},
+          {"residual_independent_of_input", evidence.residual.independence.passed()},
+          {"residual_words", evidence.residual.words},
+          {"hold_words", evidence.hold.words}};
+}
+
+nlohmann::json identification_report(const Identification& identification,
+                                     const ModelEvidence& evidence, const std::string& method) {
+  nlohmann::json document = identification_json(identification);
+  document.update(evidence_json(evidence));
+  document["order_words"] = identification.order_words;
+  document["method"] = method;
+  return document;
+}
+
+}  // namespace vibrissa::separation

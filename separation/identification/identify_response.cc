@@ -1,0 +1,105 @@
+#include "separation/identification/identify_response.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "separation/identification/frequency_problem.h"
+#include "separation/identification/identify_frequency.h"
+#include "separation/model/rational_model.h"
+
+namespace vibrissa::separation {
+namespace {
+
+using signals::FrequencyResponse;
+
+constexpr std::size_t held_out_every = 3;
+
+/// Every third line, or the others; those without a finite value are in neither.
+FrequencyResponse lines_of(const FrequencyResponse& response, const bool held_out) {
+  FrequencyResponse part;
+  for (std::size_t i = 0; i < response.value.size(); ++i) {
+    const bool is_finite =
+        std::isfinite(response.value[i].real()) && std::isfinite(response.value[i].imag());
+    if ((i % held_out_every == 1) != held_out || !is_finite) continue;
+    part.frequency_hz.push_back(response.frequency_hz[i]);
+    part.value.push_back(response.value[i]);
+    if (!response.coherence.empty()) part.coherence.push_back(response.coherence[i]);
+    if (!response.standard_deviation.empty())
+      part.standard_deviation.push_back(response.standard_deviation[i]);
+  }
+  return part;
+}
+
+/// Where only the coherence g2 is known, the deviation is in proportion to |H| sqrt((1 - g2) / g2).
+FrequencyResponse with_deviation(FrequencyResponse response) {
+  constexpr double least = 1e-6;
+  if (!response.standard_deviation.empty() || response.coherence.empty()) return response;
+  for (std::size_t i = 0; i < response.value.size(); ++i) {
+    const double g2 = std::clamp(response.coherence[i], least, 1.);
+    response.standard_deviation.push_back(std::abs(response.value[i]) * std::sqrt((1. - g2) / g2));
+  }
+  return response;
+}
+
+double information_criterion(const FittedBvrm& fit, const std::size_t n_lines,
+                             const bool direct_term) {
+  const auto n = static_cast<double>(2 * n_lines);
+  const auto k = static_cast<double>(n_parameters(fit.model.modes.size(), direct_term));
+  return n * std::log(fit.residual_variance * (n - k) / n) + k * std::log(n);
+}
+
+Eigen::ArrayXd weights(const FrequencyResponse& measured) {
+  constexpr std::size_t fewest_lines = 3;
+  if (measured.value.size() < fewest_lines)
+    return Eigen::ArrayXd::Ones(static_cast<Eigen::Index>(measured.value.size()));
+  return FrequencyProblem(measured, {}, true, 0.).root_weight().square();
+}
+
+/// |H - G| / |H - mean H| over the lines, in their weighted norm.
+double relative_error(const FrequencyResponse& measured, const Bvrm& model) {
+  const std::vector<std::complex<double>> modelled = response(model, measured.frequency_hz);
+  const auto n = static_cast<Eigen::Index>(modelled.size());
+  const Eigen::Map<const Eigen::ArrayXcd> h(measured.value.data(), n), g(modelled.data(), n);
+  const Eigen::ArrayXd weight = weights(measured);
+  const std::complex<double> mean = (weight * h).sum() / weight.sum();
+  return std::sqrt((weight * (h - g).abs2()).sum() / (weight * (h - mean).abs2()).sum());
+}
+
+std::size_t best_order(const FrequencyResponse& known, const FrequencyResponse& held_out,
+                       const IdentifyResponseOptions& options) {
+  constexpr double exact = 1e-9;  // a response that was computed, not measured
+  // Twice the logarithm of the likelihood that a mode, four parameters, must bring to lines that
+  // it did not see.
+  constexpr double least_gain = 4.;
+  const double share = std::exp(-0.5 * least_gain / static_cast<double>(2 * held_out.value.size()));
+  std::size_t best = 2;
+  double least = std::numeric_limits<double>::infinity(), least_error = least;
+  for (const FittedBvrm& fit : identify_frequency_orders(
+           known, {.order = options.max_order, .direct_term = options.direct_term})) {
+    const double error = relative_error(held_out, fit.model);
+    if (least_error < exact || !(error < share * least_error)) continue;
+    least_error = error;
+    const double criterion = information_criterion(fit, known.value.size(), options.direct_term);
+    if (!(criterion < least)) continue;
+    least = criterion;
+    best = fit.model.order();
+  }
+  return best;
+}
+
+}  // namespace
+
+IdentifiedResponse identify_response(const FrequencyResponse& response,
+                                     const IdentifyResponseOptions& options) {
+  const FrequencyResponse measured = with_deviation(response);
+  const FrequencyResponse known = lines_of(measured, false), held_out = lines_of(measured, true);
+  FrequencyFitOptions fit{.direct_term = options.direct_term};
+  fit.order = options.order ? *options.order : best_order(known, held_out, options);
+  return {identify_frequency(measured, fit), fit.order,
+          100. * (1. - relative_error(held_out, identify_frequency(known, fit).model))};
+}
+
+}  // namespace vibrissa::separation

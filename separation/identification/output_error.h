@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "separation/model/fitted_bvrm.h"
+#include "separation/model/input_hold.h"
+#include "separation/model/rational_model.h"
+#include "separation/model/simulation.h"
+#include "separation/segments/aligned_segment.h"
+
+namespace vibrissa::separation {
+
+struct OutputErrorOptions {
+  Hold hold = Hold::first_order;
+  bool direct_term = true;
+  /// Estimated for each segment beside the model; otherwise at rest at the first sample, no offset.
+  Nuisance nuisance = {};
+  int max_iterations = 100;
+};
+
+/// Output-error fit in the time domain (maximum likelihood for white noise on the moment):
+///   M[n] = (G a)[n] + free response of each mode + offset + e[n],  sum e^2 least
+/// over (b1, b0, a1, a0) of every mode and D, from the given start, whose gains are first fitted
+/// linearly. The delay is the start's. Sensitivities are exact derivatives of the difference
+/// equation, by filtering. Covariance: residual variance times (J^T J)^-1. Several segments are
+/// fitted as one; the noise is taken as equally large in all. Throws UserError for an unstable
+/// start or one beyond half the sampling rate, segments of unequal lengths, values that are not
+/// finite, or fewer samples than unknowns. Proven by output_error_test.cc (gradient, Cramer-Rao
+/// bound) and time_domain_fit_test.cc in tests/separation.
+FittedBvrm refine_output_error(const Bvrm& start, std::span<const Segment> segments,
+                               double sampling_rate_hz, const OutputErrorOptions& options = {});
+
+}  // namespace vibrissa::separation

@@ -1,0 +1,103 @@
+#include "signals/base/unit.h"
+
+#include <udunits2.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+
+#include "signals/base/decimal_point.h"
+#include "signals/base/error.h"
+
+namespace vibrissa::signals {
+namespace {
+
+struct Free {
+  void operator()(ut_system* system) const { ut_free_system(system); }
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+  void operator()(cv_converter* converter) const { cv_free(converter); }
+};
+using Unit = std::unique_ptr<ut_unit, Free>;
+using Words = std::map<std::string, std::string>;
+
+ut_system* unit_system() {
+  static const std::unique_ptr<ut_system, Free> system = [] {
+    ut_set_error_message_handler(ut_ignore);
+    std::unique_ptr<ut_system, Free> read(ut_read_xml(nullptr));
+    if (!read) throw std::runtime_error("the units of UDUNITS-2 (libudunits2-data) are not there");
+    return read;
+  }();
+  return system.get();
+}
+
+// What sensor people write that UDUNITS reads otherwise or not at all.
+const Words& usual_words() {
+  static const Words words{{"Nm", "(N.m)"},     {"mNm", "(mN.m)"},     {"uNm", "(uN.m)"},
+                           {"Nmm", "(N.mm)"},   {"mNmm", "(mN.mm)"},   {"uNmm", "(uN.mm)"},
+                           {"mps", "(m/s)"},    {"mmps", "(mm/s)"},    {"radps", "(rad/s)"},
+                           {"mph", "(mile/h)"}, {"dps", "(degree/s)"}, {"deg", "degree"}};
+  return words;
+}
+
+const Words& gravity_words() {
+  static const Words words = [] {
+    Words all = usual_words();
+    all["g"] = all["gn"] = "(9.80665 m.s-2)";
+    all["mg"] = "(9.80665e-3 m.s-2)";
+    all["ug"] = "(9.80665e-6 m.s-2)";
+    return all;
+  }();
+  return words;
+}
+
+bool is_letter(const char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c & 0x80) != 0;
+}
+
+std::string replaced(const std::string& text, const Words& words) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at;
+    while (end < text.size() && is_letter(text[end])) ++end;
+    if (end == at) {
+      result += text[at++];
+      continue;
+    }
+    const std::string word = text.substr(at, end - at);
+    const auto found = words.find(word);
+    result += found == words.end() ? word : found->second;
+    at = end;
+  }
+  return result;
+}
+
+Unit parse(const std::string& text) {
+  return Unit(ut_parse(unit_system(), text.c_str(), UT_UTF8));
+}
+
+std::unique_ptr<cv_converter, Free> converter(const Unit& from, const Unit& to) {
+  if (!from || !to || !ut_are_convertible(from.get(), to.get())) return nullptr;
+  return std::unique_ptr<cv_converter, Free>(ut_get_converter(from.get(), to.get()));
+}
+
+}  // namespace
+
+UnitConversion convert_unit(const std::string& from, const std::string& to) {
+  // UDUNITS keeps its state in globals.
+  static std::mutex alone;
+  const std::lock_guard lock(alone);
+  const DecimalPoint in_its_tables;
+  const Unit target = parse(replaced(to, usual_words()));
+  const Unit plain = parse(replaced(from, usual_words()));
+  if (!target || !plain)
+    throw UnitError("unit '" + (target ? from : to) +
+                    "' is not known; write it as in m/s2, g, mN mm, uT, V, km/h or N m/T");
+  auto found = converter(plain, target);
+  if (!found) found = converter(parse(replaced(from, gravity_words())), target);
+  if (!found) throw UnitError("'" + from + "' does not measure what '" + to + "' measures");
+  const double offset = cv_convert_double(found.get(), 0.);
+  return {cv_convert_double(found.get(), 1.) - offset, offset};
+}
+
+}  // namespace vibrissa::signals

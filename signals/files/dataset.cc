@@ -1,0 +1,264 @@
+#include "signals/files/dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "signals/base/error.h"
+#include "signals/base/json_input.h"
+#include "signals/files/file_format.h"
+#include "signals/spectra/resample.h"
+
+namespace vibrissa::signals {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+const std::vector<std::string> record_keys{
+    "file",    "excitation",    "period_samples", "split",      "setup", "sampling_rate_hz",
+    "readout", "clock_start_s", "columns",        "remove_mean"};
+
+/// Of the whole; those that records share as well.
+const std::vector<std::string> file_keys{
+    "schema", "records", "sampling_rate_hz", "columns", "remove_mean", "readout", "setup"};
+
+bool holds(const std::vector<std::string>& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Where an entry of dataset.json stands, and what is wrong with it.
+[[noreturn]] void refuse_dataset(const std::string& where, const std::string& reason) {
+  throw UserError(where + ": " + reason);
+}
+
+std::string text_of(const json& object, const std::string& key, const std::string& where,
+                    const std::string& fallback) {
+  if (!object.contains(key)) return fallback;
+  if (!object[key].is_string()) refuse_dataset(where + "/" + key, "is no text");
+  return object[key];
+}
+
+Excitation excitation_of(const std::string& word, const std::string& where) {
+  if (word == "none") return {};
+  if (word == "base") return {.base = true, .wind = false};
+  if (word == "wind") return {.base = false, .wind = true};
+  if (word == "base+wind") return {.base = true, .wind = true};
+  refuse_dataset(where, unknown_name("excitation", word, {"none", "base", "wind", "base+wind"}));
+}
+
+Readout readout_of(const std::string& word, const std::string& where) {
+  if (word == "moment") return Readout::moment;
+  if (word == "rotation") return Readout::rotation;
+  refuse_dataset(where, unknown_name("readout", word, {"moment", "rotation"}));
+}
+
+Split split_of(const std::string& word, const std::string& where) {
+  if (word == "fit") return Split::fit;
+  if (word == "held_out") return Split::held_out;
+  refuse_dataset(where, unknown_name("split", word, {"fit", "held_out"}));
+}
+
+std::size_t period_of(const json& entry, const std::string& where) {
+  if (!entry.contains("period_samples")) return 0;
+  const json& period = entry["period_samples"];
+  if (!period.is_number_unsigned())
+    refuse_dataset(where + "/period_samples", "is no count of samples");
+  return period.get<std::size_t>();
+}
+
+double clock_start_of(const json& entry, const std::string& where) {
+  if (!entry.contains("clock_start_s")) return 0.;
+  const json& start = entry["clock_start_s"];
+  if (!start.is_number() || start.get<double>() < 0.)
+    refuse_dataset(where + "/clock_start_s", "is no time in seconds from 0 on");
+  return start.get<double>();
+}
+
+BenchSetup setup_of(const json& document, const json& entry, const std::string& where) {
+  if (entry.contains("setup")) return read_bench_setup(entry["setup"], where + "/setup");
+  return document.contains("setup") ? read_bench_setup(document["setup"], where + " of /setup")
+                                    : BenchSetup{};
+}
+
+/// An entry of the record, or else of the whole dataset; nothing where neither has it.
+const json* either(const json& document, const json& entry, const std::string& key) {
+  if (entry.contains(key)) return &entry[key];
+  return document.contains(key) ? &document[key] : nullptr;
+}
+
+std::vector<ColumnChoice> columns_of(const json& chosen, const std::string& where) {
+  if (!chosen.is_object()) refuse_dataset(where, "is no object of channels and their columns");
+  std::vector<ColumnChoice> choices;
+  for (const auto& [channel, column] : chosen.items()) {
+    if (!column.is_string()) refuse_dataset(where + "/" + channel, "names no column");
+    try {
+      choices.push_back(parse_column_choice(channel + "=" + column.get<std::string>()));
+    } catch (const UserError& error) {
+      refuse_dataset(where, error.what());
+    }
+  }
+  return choices;
+}
+
+std::vector<std::string> names_of(const json& list, const std::string& where) {
+  if (!list.is_array()) refuse_dataset(where, "is no list of channels");
+  std::vector<std::string> names;
+  for (const json& name : list) {
+    if (!name.is_string()) refuse_dataset(where, "is no list of channels");
+    names.push_back(name);
+  }
+  return names;
+}
+
+ReadOptions options_of(const json& document, const json& entry, const std::string& where,
+                       const ReadOptions& given) {
+  ReadOptions options = given;
+  if (const json* const rate = either(document, entry, "sampling_rate_hz")) {
+    if (!rate->is_number()) refuse_dataset(where + "/sampling_rate_hz", "is no number");
+    options.sampling_rate_hz = rate->get<double>();
+  }
+  if (const json* const columns = either(document, entry, "columns"))
+    options.columns = columns_of(*columns, where + "/columns");
+  if (const json* const names = either(document, entry, "remove_mean"))
+    options.remove_mean = names_of(*names, where + "/remove_mean");
+  return options;
+}
+
+/// Entries that mean nothing may stand beside those of the whole, but for those that would have
+/// meant something: of a record alone, or misspelt.
+void refuse_misplaced(const json& document, const std::string& name) {
+  for (const auto& item : document.items()) {
+    if (holds(file_keys, item.key())) continue;
+    if (holds(record_keys, item.key()))
+      refuse_dataset(name + ": /" + item.key(), "is told of each record, not of the whole dataset");
+    if (!nearest_name(item.key(), file_keys).empty())
+      refuse_dataset(name, unknown_name("entry", item.key(), file_keys));
+  }
+}
+
+DatasetRecord read_entry(const fs::path& folder, const json& document, const json& entry,
+                         const std::string& where, const ReadOptions& given) {
+  if (!entry.is_object()) refuse_dataset(where, "is no object");
+  for (const auto& item : entry.items())
+    if (!holds(record_keys, item.key()))
+      refuse_dataset(where, unknown_name("entry", item.key(), record_keys));
+  const std::string file = text_of(entry, "file", where, "");
+  if (file.empty()) refuse_dataset(where, "names no file");
+  const std::string readout = text_of(document, "readout", where, "moment");
+  DatasetRecord result{
+      .name = fs::path(file).stem().string(),
+      .record = read_record(folder / file, options_of(document, entry, where, given)),
+      .excitation = excitation_of(text_of(entry, "excitation", where, ""), where + "/excitation"),
+      .period_samples = period_of(entry, where),
+      .split = split_of(text_of(entry, "split", where, "fit"), where + "/split"),
+      .readout = readout_of(text_of(entry, "readout", where, readout), where + "/readout"),
+      .setup = setup_of(document, entry, where),
+      .clock_start_s = clock_start_of(entry, where)};
+  if (result.period_samples > result.record.n_samples())
+    refuse_dataset(
+        where + "/period_samples",
+        "is longer than the record of " + std::to_string(result.record.n_samples()) + " samples");
+  return result;
+}
+
+Dataset read_described(const fs::path& folder, const fs::path& file, const ReadOptions& given) {
+  const json document = read_json(file);
+  const std::string name = file.string();
+  if (!document.is_object() || text_of(document, "schema", name, "") != "vibrissa-dataset-1")
+    refuse_dataset(name + ": /schema", "must be \"vibrissa-dataset-1\"");
+  if (!document.contains("records") || !document["records"].is_array() ||
+      document["records"].empty())
+    refuse_dataset(name + ": /records", "must list at least one record");
+  refuse_misplaced(document, name);
+  Dataset dataset;
+  for (std::size_t i = 0; i < document["records"].size(); ++i)
+    dataset.records.push_back(read_entry(folder, document, document["records"][i],
+                                         name + ": /records/" + std::to_string(i), given));
+  return dataset;
+}
+
+/// No larger than the noise of a small accelerometer, and white as noise is: no lag up to ten is
+/// correlated (Box and Pierce, 1970).
+bool is_accelerometer_noise(const std::span<const double> values) {
+  constexpr double most_m_s2 = 0.1, chance_of_a_thousandth = 29.6;  // chi-squared of 10
+  constexpr std::size_t n_lags = 10;
+  const std::vector<double> x = remove_mean(values);
+  const auto product = [&](const std::size_t lag) {
+    return std::inner_product(x.begin() + static_cast<std::ptrdiff_t>(lag), x.end(), x.begin(), 0.);
+  };
+  const double power = product(0), n = static_cast<double>(x.size());
+  if (power > n * most_m_s2 * most_m_s2) return false;
+  double correlated = 0.;
+  for (std::size_t lag = 1; lag <= n_lags; ++lag) correlated += std::pow(product(lag) / power, 2);
+  return n * correlated < chance_of_a_thousandth;
+}
+
+bool moves(const Record& record, const std::string& channel) {
+  if (!record.has(channel)) return false;
+  const auto values = record.channel(channel);
+  if (std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); }))
+    return false;
+  return channel != channel::base_acceleration || !is_accelerometer_noise(values);
+}
+
+// Sound files are drives: what a sensor measured is in the other formats.
+bool may_be_a_record(const fs::path& file) {
+  const std::string extension = formats::extension_of(file);
+  const auto& known = formats::file_formats();
+  return std::any_of(known.begin(), known.end(), [&](const formats::FileFormat& format) {
+    return format.write && format.has(extension);
+  });
+}
+
+std::vector<fs::path> record_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (may_be_a_record(entry.path())) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  if (files.empty()) throw UserError(folder.string() + ": holds neither dataset.json nor a record");
+  return files;
+}
+
+Dataset guess(const std::vector<fs::path>& files, const ReadOptions& options) {
+  Dataset dataset;
+  for (const fs::path& file : files) {
+    const Record record = read_record(file, options);
+    const Excitation excitation{.base = moves(record, channel::base_acceleration),
+                                .wind = moves(record, channel::wind_speed)};
+    const std::size_t n_fit = record.n_samples() * 2 / 3;
+    const std::string name = file.stem().string();
+    dataset.records.push_back({name, record.slice(0, n_fit), excitation, 0, Split::fit});
+    dataset.records.push_back({.name = name + "_last_third",
+                               .record = record.slice(n_fit, record.n_samples() - n_fit),
+                               .excitation = excitation,
+                               .split = Split::held_out,
+                               .clock_start_s = record.time_s(n_fit) - record.time_s(0)});
+    dataset.guesses.push_back(name + ": excitation " + to_string(excitation) +
+                              ", not periodic, last third held out");
+  }
+  return dataset;
+}
+
+}  // namespace
+
+std::string to_string(const Excitation& excitation) {
+  if (excitation.base && excitation.wind) return "base+wind";
+  if (excitation.base) return "base";
+  return excitation.wind ? "wind" : "none";
+}
+
+Dataset read_dataset(const fs::path& source, const ReadOptions& options) {
+  if (!fs::exists(source)) throw UserError(source.string() + ": is not there");
+  const fs::path description = source / "dataset.json";
+  Dataset dataset = !fs::is_directory(source) ? guess({source}, options)
+                    : fs::exists(description) ? read_described(source, description, options)
+                                              : guess(record_files(source), options);
+  for (const DatasetRecord& entry : dataset.records)
+    if (!entry.record.has(channel::base_moment))
+      throw UserError((source / entry.name).string() + ": has no channel " + channel::base_moment);
+  return dataset;
+}
+
+}  // namespace vibrissa::signals

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "signals/files/record_io.h"
+#include "signals/files/record_sources.h"
+#include "signals/formats/record_table.h"
+#include "signals/record/record.h"
+
+namespace vibrissa::signals {
+
+inline constexpr std::size_t least_samples = 64;
+
+/// Throws UserError for a rate that is no positive number.
+void check(const ReadOptions& options);
+
+/// How many rows the options ask for. Throws UserError when there are fewer, or too few for a
+/// record.
+std::size_t number_of_rows(const formats::RecordTable& file, const ReadOptions& options);
+
+/// So many rows from options.first_row on as a record, converted and checked as read_record says;
+/// path is the file in messages.
+Record read_rows(const formats::RecordTable& file, const std::string& path, const Sources& sources,
+                 const ReadOptions& options, std::size_t n_rows);
+
+}  // namespace vibrissa::signals

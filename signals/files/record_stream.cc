@@ -1,0 +1,70 @@
+#include "signals/files/record_stream.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
+#include "signals/files/file_format.h"
+#include "signals/files/record_rows.h"
+
+namespace vibrissa::signals {
+namespace {
+
+constexpr std::size_t block_samples = std::size_t{1} << 14;
+
+}  // namespace
+
+RecordStream::RecordStream(const std::filesystem::path& file, const ReadOptions& options)
+    : file_(file), options_(options), table_(formats::open_table(file)) {
+  if (!options.remove_mean.empty())
+    throw UserError("--remove-mean needs the whole record, which a stream never holds");
+  check(options);
+  sources_ = find_sources(*table_, options_);
+  n_rows_ = number_of_rows(*table_, options_);
+  axis_ = axis_of_all();
+}
+
+Record RecordStream::read(const std::size_t first, const std::size_t count) const {
+  ReadOptions part = options_;
+  part.first_row = options_.first_row + first;
+  return read_rows(*table_, file_.string(), sources_, part, count);
+}
+
+// The rate that the first block tells, unless the last sample says otherwise by a sample or more.
+TimeAxis RecordStream::axis_of_all() const {
+  const std::size_t few = std::min(block_samples, n_rows_);
+  const Record first = read(0, few);
+  const TimeAxis told{first.time_s(0), first.sampling_rate_hz()};
+  if (!sources_.time || few == n_rows_) return told;
+  const std::size_t n_last = std::min<std::size_t>(n_rows_, 64);
+  const Record last = read(n_rows_ - n_last, n_last);
+  const double span_s = last.time_s(n_last - 1) - first.time_s(0);
+  const double whole_hz = static_cast<double>(n_rows_ - 1) / span_s;
+  const double off_samples = std::abs(span_s * told.sampling_rate_hz - double(n_rows_ - 1));
+  constexpr double allowed_samples = 0.1;
+  return {told.start_s, off_samples < allowed_samples ? told.sampling_rate_hz : whole_hz};
+}
+
+void RecordStream::check_joins(const Record& block, const std::size_t first) const {
+  if (!sources_.time) return;
+  const double expected_s = axis_.start_s + static_cast<double>(first) / axis_.sampling_rate_hz;
+  constexpr double allowed_samples = 0.45;
+  if (std::abs(block.time_s(0) - expected_s) * axis_.sampling_rate_hz <= allowed_samples) return;
+  throw UserError(table_->place(options_.first_row + first) + "time jumps to " +
+                  to_text(block.time_s(0)) + " s where " + to_text(expected_s) +
+                  " s follows; samples are never filled in or left out");
+}
+
+std::optional<Record> RecordStream::next() {
+  if (n_read_ == n_rows_) return std::nullopt;
+  std::size_t count = std::min(block_samples, n_rows_ - n_read_);
+  // A last block too short to tell its rate goes with the one before.
+  if (n_rows_ - n_read_ - count < least_samples) count = n_rows_ - n_read_;
+  Record block = read(n_read_, count);
+  check_joins(block, n_read_);
+  n_read_ += count;
+  return block;
+}
+
+}  // namespace vibrissa::signals

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "signals/files/record_io.h"
+#include "signals/files/record_sources.h"
+#include "signals/formats/record_table.h"
+
+namespace vibrissa::signals {
+
+/// A record file as one block after the other: of a CSV file no more than a block is held, of other
+/// formats the whole. Each block is checked as read_record checks a record, and must begin where
+/// the one before ended. Proven by tests/apps/stream_test.cc.
+class RecordStream {
+ public:
+  /// Throws UserError as read_record does, and for a mean that is to be removed, which takes the
+  /// whole record.
+  explicit RecordStream(const std::filesystem::path& file, const ReadOptions& options = {});
+
+  double sampling_rate_hz() const { return axis_.sampling_rate_hz; }
+  double start_s() const { return axis_.start_s; }
+  std::size_t n_samples() const { return n_rows_; }
+
+  /// Nothing behind the last block. Throws UserError for samples that read_record would refuse.
+  std::optional<Record> next();
+
+ private:
+  Record read(std::size_t first, std::size_t count) const;
+  TimeAxis axis_of_all() const;
+  void check_joins(const Record& block, std::size_t first) const;
+
+  std::filesystem::path file_;
+  ReadOptions options_;
+  std::unique_ptr<formats::RecordTable> table_;
+  Sources sources_;
+  std::size_t n_rows_ = 0, n_read_ = 0;
+  TimeAxis axis_{0., 0.};
+};
+
+}  // namespace vibrissa::signals

@@ -1,0 +1,247 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
+#include "signals/base/trimmed.h"
+#include "signals/formats/number_bytes.h"
+#include "signals/formats/numeric_table.h"
+#include "signals/formats/uff58_file.h"
+#include "signals/system/file_bytes.h"
+
+namespace vibrissa::signals::formats {
+namespace {
+
+constexpr std::string_view delimiter = "    -1";
+
+/// Walks over the lines of a file that may hold stretches of raw bytes.
+class Lines {
+ public:
+  Lines(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  bool at_end() const { return at_ >= bytes_.size(); }
+  std::string_view next() {
+    if (at_end()) refuse("the file ends within a function");
+    const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+    const std::string_view line(bytes_.data() + at_, end - at_);
+    at_ = end + 1;
+    ++line_;
+    return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
+  }
+  std::string_view raw(const std::size_t n_bytes) {
+    if (n_bytes > bytes_.size() - std::min(at_, bytes_.size()))
+      refuse("the file ends within the values of a function");
+    at_ += n_bytes;
+    return {bytes_.data() + at_ - n_bytes, n_bytes};
+  }
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw UserError(name_ + ":" + std::to_string(line_) + ": " + reason);
+  }
+
+ private:
+  const std::string& bytes_;
+  const std::string& name_;
+  std::size_t at_ = 0, line_ = 0;
+};
+
+/// One line's fields at their places.
+class Fields {
+ public:
+  Fields(const std::string_view line, const Lines& lines) : line_(line), lines_(lines) {}
+
+  std::string_view text(const std::size_t width) {
+    const std::size_t from = std::min(at_, line_.size());
+    at_ += width;
+    return trimmed(line_.substr(from, width));
+  }
+  int whole(const std::size_t width) {
+    const std::string_view field = text(width);
+    if (field.empty()) return 0;
+    const std::optional<double> value = to_number(field);
+    constexpr double most = 2147483647.;
+    if (!value || *value != std::floor(*value) || std::abs(*value) > most)
+      lines_.refuse("'" + std::string(field) + "' is no whole number");
+    return static_cast<int>(*value);
+  }
+  // Fortran writes 1.0D-03 and, where the exponent needs three digits, 1.0-103.
+  double real(const std::size_t width) {
+    std::string field(text(width));
+    std::replace_if(
+        field.begin(), field.end(), [](const char c) { return c == 'D' || c == 'd'; }, 'E');
+    const auto sign = field.find_last_of("+-");
+    if (sign != std::string::npos && sign > 0 && field[sign - 1] != 'E' && field[sign - 1] != 'e') {
+      const std::string exponent = field.substr(sign);
+      field.resize(sign);
+      field.append(1, 'E').append(exponent);
+    }
+    const std::optional<double> value = field.empty() ? 0. : to_number(field);
+    if (!value) lines_.refuse("'" + field.substr(0, 40) + "' is no number");
+    return *value;
+  }
+  void skip(const std::size_t width) { at_ += width; }
+  bool has_more() const { return !trimmed(line_.substr(std::min(at_, line_.size()))).empty(); }
+
+ private:
+  std::string_view line_;
+  const Lines& lines_;
+  std::size_t at_ = 0;
+};
+
+Uff58Axis read_axis(Lines& lines) {
+  Fields fields(lines.next(), lines);
+  Uff58Axis axis;
+  axis.quantity = fields.whole(10);
+  axis.length_exponent = fields.whole(5);
+  axis.force_exponent = fields.whole(5);
+  axis.temperature_exponent = fields.whole(5);
+  fields.skip(1);
+  axis.label = fields.text(20);
+  fields.skip(1);
+  axis.unit = fields.text(20);
+  return axis;
+}
+
+/// How the values of a function lie in the file.
+struct Layout {
+  int type = real_double;
+  std::size_t n_points = 0;
+  bool is_even = true;
+
+  std::size_t numbers_a_point() const {
+    const bool is_complex = type == complex_single || type == complex_double;
+    return (is_even ? 0 : 1) + (is_complex ? 2 : 1);
+  }
+  bool is_single() const { return type == real_single || type == complex_single; }
+};
+
+Layout read_head(Lines& lines, Uff58Function& function) {
+  for (std::string& line : function.id_lines) line = trimmed(lines.next());
+  Fields sixth(lines.next(), lines);
+  function.function_type = sixth.whole(5);
+  sixth.skip(10 + 5 + 10 + 1 + 10);
+  function.response_node = sixth.whole(10);
+  function.response_direction = sixth.whole(4);
+  sixth.skip(1 + 10);
+  function.reference_node = sixth.whole(10);
+  function.reference_direction = sixth.whole(4);
+  Fields seventh(lines.next(), lines);
+  Layout layout;
+  layout.type = seventh.whole(10);
+  const int n_points = seventh.whole(10);
+  layout.is_even = seventh.whole(10) != 0;
+  function.abscissa_start = seventh.real(13);
+  function.abscissa_step = seventh.real(13);
+  if (layout.type != real_single && layout.type != real_double && layout.type != complex_single &&
+      layout.type != complex_double)
+    lines.refuse("ordinate data type " + std::to_string(layout.type) +
+                 " is none of 2, 4, 5 and 6 (real or complex, single or double precision)");
+  if (n_points < 0 || std::size_t(n_points) > most_numbers / 3)
+    lines.refuse("claims " + std::to_string(n_points) + " points");
+  layout.n_points = static_cast<std::size_t>(n_points);
+  function.is_complex = layout.type == complex_single || layout.type == complex_double;
+  function.single_precision = layout.is_single();
+  function.abscissa_axis = read_axis(lines);
+  function.ordinate_axis = read_axis(lines);
+  function.denominator_axis = read_axis(lines);
+  lines.next();  // z axis
+  return layout;
+}
+
+// Values are E13.5 in single precision and E20.12 in double; an abscissa is always E13.5.
+std::vector<double> read_text_values(Lines& lines, const Layout& layout) {
+  const std::size_t count = layout.n_points * layout.numbers_a_point();
+  constexpr std::size_t narrow = 13;
+  const std::size_t width = layout.is_single() ? narrow : 20;
+  std::vector<double> values;
+  values.reserve(std::min<std::size_t>(count, 1 << 20));
+  while (values.size() < count) {
+    Fields fields(lines.next(), lines);
+    if (!fields.has_more()) lines.refuse("a line of values is empty");
+    while (values.size() < count && fields.has_more()) {
+      const bool is_abscissa = !layout.is_even && values.size() % layout.numbers_a_point() == 0;
+      values.push_back(fields.real(is_abscissa ? narrow : width));
+    }
+  }
+  return values;
+}
+
+// The format has an abscissa of single precision; some programs write it as they write values.
+std::vector<double> read_binary_values(Lines& lines, const Layout& layout, const std::endian order,
+                                       const std::size_t n_bytes) {
+  const std::size_t size = layout.is_single() ? sizeof(float) : sizeof(double);
+  const std::size_t a_point = layout.numbers_a_point();
+  const std::size_t narrow_bytes = layout.n_points * (sizeof(float) + (a_point - 1) * size);
+  const bool has_narrow_abscissa = !layout.is_even && n_bytes == narrow_bytes;
+  if (!has_narrow_abscissa && layout.n_points * a_point * size != n_bytes)
+    lines.refuse("its " + std::to_string(layout.n_points) + " points do not take the " +
+                 std::to_string(n_bytes) + " bytes that its first line says");
+  const std::string_view raw = lines.raw(n_bytes);
+  std::vector<double> values;
+  for (std::size_t at = 0; at < n_bytes;) {
+    const bool is_single =
+        layout.is_single() || (has_narrow_abscissa && values.size() % a_point == 0);
+    const char* const from = raw.data() + at;
+    values.push_back(is_single ? double(number_at<float>(from, order))
+                               : number_at<double>(from, order));
+    at += is_single ? sizeof(float) : sizeof(double);
+  }
+  return values;
+}
+
+void set_values(const std::vector<double>& numbers, const Layout& layout, Uff58Function& function) {
+  const std::size_t stride = layout.numbers_a_point();
+  for (std::size_t i = 0; i < layout.n_points; ++i) {
+    const double* const point = numbers.data() + i * stride + (layout.is_even ? 0 : 1);
+    if (!layout.is_even) function.abscissa.push_back(numbers[i * stride]);
+    function.values.emplace_back(point[0], function.is_complex ? point[1] : 0.);
+  }
+}
+
+Uff58Function read_function(Lines& lines, const std::string_view kind_line) {
+  Uff58Function function;
+  Fields kind(kind_line, lines);
+  kind.skip(6);
+  const bool is_binary = kind.text(1) == "b";
+  const int byte_order = is_binary ? kind.whole(6) : 0;
+  const int floating_format = is_binary ? kind.whole(6) : 0;
+  if (is_binary) kind.skip(12);
+  const int n_bytes = is_binary ? kind.whole(12) : 0;
+  if (is_binary && (floating_format != 2 || byte_order < 1 || byte_order > 2 || n_bytes < 0))
+    lines.refuse("its binary numbers are not those of IEEE 754");
+  const std::endian order = byte_order == 2 ? std::endian::big : std::endian::little;
+  const Layout layout = read_head(lines, function);
+  set_values(is_binary ? read_binary_values(lines, layout, order, std::size_t(n_bytes))
+                       : read_text_values(lines, layout),
+             layout, function);
+  return function;
+}
+
+void skip_data_set(Lines& lines) {
+  while (!lines.at_end())
+    if (lines.next().starts_with(delimiter)) return;
+}
+
+}  // namespace
+
+std::vector<Uff58Function> parse_uff58(const std::string& bytes, const std::string& name) {
+  Lines lines(bytes, name);
+  std::vector<Uff58Function> functions;
+  while (!lines.at_end()) {
+    if (!lines.next().starts_with(delimiter) || lines.at_end()) continue;
+    const std::string_view kind = lines.next();
+    if (kind.starts_with("    58")) functions.push_back(read_function(lines, kind));
+    skip_data_set(lines);
+  }
+  if (functions.empty())
+    throw UserError(name + ": holds no function of type 58 of the Universal File Format");
+  return functions;
+}
+
+std::vector<Uff58Function> read_uff58(const std::filesystem::path& file) {
+  return parse_uff58(read_bytes(file), file.string());
+}
+
+}  // namespace vibrissa::signals::formats

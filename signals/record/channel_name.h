@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace vibrissa::signals {
+
+/// Channels of records.md in the order in which a record is written; time_s last.
+const std::vector<std::string>& known_channels();
+
+inline const std::string time_channel = "time_s";
+
+/// "base_acceleration" or "base_acceleration_m_s2" -> "base_acceleration_m_s2"; empty when no
+/// channel has this name, with or without its unit. Proven by
+/// tests/signals/files/column_choice_test.cc.
+std::string full_channel_name(const std::string& name);
+
+/// The same for a name that a user gave. Throws UserError that lists the known channels.
+std::string known_channel(const std::string& name);
+
+/// Unit of a known channel as UDUNITS reads it: "base_moment_N_m" -> "N m".
+std::string unit_of_channel(const std::string& channel);
+
+/// Whether the name ends in a unit ("hall_mT"), as those of measured quantities do and the text or
+/// counter of a logger does not.
+bool ends_with_unit(const std::string& name);
+
+}  // namespace vibrissa::signals

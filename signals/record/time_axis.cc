@@ -1,0 +1,198 @@
+#include "signals/record/time_axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "signals/base/error.h"
+#include "signals/base/number_text.h"
+
+namespace vibrissa::signals {
+namespace {
+
+constexpr double jitter_periods = 1e-3;
+// A lost sample puts some time at least half a period off every even grid; less must be allowed.
+constexpr double largest_tolerance_periods = 0.45;
+
+double rounding_s(const PrintedTimes& times, const std::size_t i) {
+  return std::abs(times.unit_s) * times.digits.rounding(times.times_s[i] / times.unit_s);
+}
+
+std::string moment(const PrintedTimes& times, const std::size_t i) {
+  return times.row_word + " " + std::to_string(times.first_line + i) + " (" +
+         to_text(times.times_s[i]) + " s)";
+}
+
+std::string between(const PrintedTimes& times, const std::size_t i) {
+  return " between " + moment(times, i - 1) + " and " + moment(times, i);
+}
+
+// Of lost or doubled samples: what stands in their place is for the user to say.
+std::string never_filled(const PrintedTimes& times) {
+  return "; column '" + times.column +
+         "': samples are never filled in or left out, use the rows before or those after";
+}
+
+void check_runs_forward(const PrintedTimes& times) {
+  for (std::size_t i = 1; i < times.times_s.size(); ++i) {
+    const double step = times.times_s[i] - times.times_s[i - 1];
+    if (step > 0.) continue;
+    throw UserError(times.file + ": time " + (step < 0. ? "runs backward" : "stands still") +
+                    between(times, i) + never_filled(times));
+  }
+}
+
+double median_step(const std::span<const double> times_s) {
+  std::vector<double> steps(times_s.size() - 1);
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = times_s[i + 1] - times_s[i];
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+// The sample that lies furthest off the even grid through the first and the last, if any lies
+// further off than jitter and rounding explain; else zero.
+std::size_t worst_off_grid(const PrintedTimes& times, const double period) {
+  const auto t = times.times_s;
+  const double end_rounding = std::max(rounding_s(times, 0), rounding_s(times, t.size() - 1));
+  std::size_t worst = 0;
+  double worst_distance = jitter_periods * period;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const double distance = std::abs(t[i] - t[0] - static_cast<double>(i) * period);
+    if (distance <= worst_distance) continue;
+    const double tolerance = std::min(jitter_periods * period + rounding_s(times, i) + end_rounding,
+                                      largest_tolerance_periods * period);
+    if (distance <= tolerance) continue;
+    worst = i;
+    worst_distance = distance;
+  }
+  return worst;
+}
+
+double with_significant_digits(const double value, const int n_digits) {
+  std::array<char, 40> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::scientific, n_digits - 1)
+                       .ptr;
+  double rounded = value;
+  std::from_chars(text.data(), end, rounded);
+  return rounded;
+}
+
+// A difference of times carries rounding that would only confuse in a message.
+std::string difference_text(const double difference_s) {
+  return to_text(with_significant_digits(difference_s, 6));
+}
+
+// Where a period is about a unit of the last digit, rounding looks like a lost sample.
+std::string digits_advice(const PrintedTimes& times, const std::size_t i, const double error_s) {
+  const double last_digit_s = 2. * rounding_s(times, i);
+  const double most_by_rounding_s = 1.01 * last_digit_s;
+  if (std::abs(error_s) > most_by_rounding_s) return {};
+  return "; its last digit stands for " + difference_text(last_digit_s) +
+         " s, too coarse to tell: print time with more digits";
+}
+
+void refuse_gap(const PrintedTimes& times, const double usual_step) {
+  const auto t = times.times_s;
+  std::size_t first = 0, n_gaps = 0;
+  for (std::size_t i = 1; i < t.size(); ++i)
+    if (t[i] - t[i - 1] > 1.5 * usual_step && ++n_gaps == 1) first = i;
+  if (n_gaps == 0) return;
+  const double step = t[first] - t[first - 1];
+  const std::string more =
+      n_gaps == 1 ? "" : " (" + std::to_string(n_gaps - 1) + " more further on)";
+  throw UserError(times.file + ": gap in time" + between(times, first) + ": " +
+                  to_text(std::round(step / usual_step)) + " samples where 1 was expected" + more +
+                  digits_advice(times, first, step - usual_step) + never_filled(times));
+}
+
+void refuse_crowding(const PrintedTimes& times, const double usual_step) {
+  const auto t = times.times_s;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const double step = t[i] - t[i - 1];
+    if (step < 0.5 * usual_step)
+      throw UserError(times.file + ": only " + difference_text(step) + " s" + between(times, i) +
+                      " where " + difference_text(usual_step) + " s were expected" +
+                      digits_advice(times, i, step - usual_step));
+  }
+}
+
+[[noreturn]] void refuse_uneven(const PrintedTimes& times, const std::size_t worst,
+                                const double period) {
+  const double offset =
+      times.times_s[worst] - times.times_s[0] - static_cast<double>(worst) * period;
+  const double percent = with_significant_digits(100. * std::abs(offset) / period, 2);
+  throw UserError(times.file + ": time is not uniform: " + moment(times, worst) + " lies " +
+                  to_text(percent) + " % of a period off the even grid from first to last line" +
+                  digits_advice(times, worst, offset) +
+                  "; if the samples were taken evenly and only their stamps are not, take the time "
+                  "column out and give --rate; else resample the recording");
+}
+
+double simplest_rate(const double period, const double relative_uncertainty) {
+  const double rate = 1. / period;
+  const auto agrees = [&](const double candidate) {
+    return std::abs(candidate - rate) <= relative_uncertainty * rate;
+  };
+  for (int n_digits = 1; n_digits <= 15; ++n_digits) {
+    const double by_rate = with_significant_digits(rate, n_digits);
+    if (agrees(by_rate)) return by_rate;
+    const double by_period = 1. / with_significant_digits(period, n_digits);
+    if (agrees(by_period)) return by_period;
+  }
+  return rate;
+}
+
+}  // namespace
+
+void TimeDigits::see(const std::string_view text) {
+  const auto exponent_at = std::min(text.find_first_of("eE"), text.size());
+  int exponent = 0, decimals = 0, significant = 0;
+  if (exponent_at < text.size()) {
+    std::string_view digits = text.substr(exponent_at + 1);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+  }
+  bool after_point = false;
+  for (const char c : text.substr(0, exponent_at)) {
+    if (c == '.') after_point = true;
+    if (c < '0' || c > '9') continue;
+    if (significant > 0 || c != '0') ++significant;
+    if (after_point) ++decimals;
+  }
+  decimals_ = std::max(decimals_, decimals - std::clamp(exponent, -400, 400));
+  significant_ = std::max(significant_, significant);
+}
+
+double TimeDigits::rounding(const double time) const {
+  double last_place = -decimals_;
+  if (time != 0.)
+    last_place = std::max(last_place, std::floor(std::log10(std::abs(time))) + 1. - significant_);
+  return 0.5 * std::pow(10., last_place);
+}
+
+TimeAxis find_time_axis(const PrintedTimes& times) {
+  const auto t = times.times_s;
+  assert(t.size() >= 2 && times.unit_s != 0.);
+  check_runs_forward(times);
+  const double duration = t.back() - t.front();
+  const double period = duration / static_cast<double>(t.size() - 1);
+  if (const std::size_t worst = worst_off_grid(times, period); worst != 0) {
+    const double usual_step = median_step(t);
+    refuse_gap(times, usual_step);
+    refuse_crowding(times, usual_step);
+    refuse_uneven(times, worst, period);
+  }
+  const double rounding = rounding_s(times, 0) + rounding_s(times, t.size() - 1);
+  const double unit_in_last_place =
+      std::numeric_limits<double>::epsilon() * std::max(std::abs(t.front()), std::abs(t.back()));
+  const double uncertainty = (rounding + 2. * unit_in_last_place) / duration;
+  return {t.front(), simplest_rate(period, uncertainty)};
+}
+
+}  // namespace vibrissa::signals

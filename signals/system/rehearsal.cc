@@ -1,0 +1,104 @@
+#include "signals/system/rehearsal.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+
+#include "signals/base/error.h"
+
+namespace vibrissa::signals {
+
+namespace {
+
+constexpr int swollen = 71;  // exit status
+
+std::size_t enough_mb(const std::size_t n_bytes) {
+  return 512 + n_bytes / 10'000;
+}
+
+long peak_resident_kb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+volatile long most_resident_kb = 0;  // of the child
+
+void end_if_swollen(int) {
+  if (peak_resident_kb() > most_resident_kb) _exit(swollen);
+}
+
+/// Looks at the memory that is held at every hundredth of a second of work. A limit of the system's
+/// would make the library fail in a way that it does not when it reads in earnest.
+void bound_memory(const std::size_t n_bytes) {
+  most_resident_kb = peak_resident_kb() + static_cast<long>(1024 * enough_mb(n_bytes));
+  struct sigaction action {};
+  action.sa_handler = end_if_swollen;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGPROF, &action, nullptr);
+  const itimerval often{{0, 10'000}, {0, 10'000}};
+  setitimer(ITIMER_PROF, &often, nullptr);
+}
+
+/// Dies of a crash as if nobody had asked to be told, without a core file or a word.
+void make_mortal(const std::size_t n_bytes) {
+  for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
+    std::signal(crash, SIG_DFL);
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  const rlim_t enough_s = 2 + n_bytes / 100'000;
+  const rlimit cpu_time{enough_s, enough_s + 1};  // at the latter nothing is told any more
+  setrlimit(RLIMIT_CPU, &cpu_time);
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return;
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+}
+
+[[noreturn]] void be_the_child(const std::size_t n_bytes, const std::function<void()>& reading) {
+  make_mortal(n_bytes);
+  bound_memory(n_bytes);
+  try {
+    reading();
+  } catch (...) {
+  }
+  end_if_swollen(0);
+  // Not exit: what this process inherited is not its to flush or to tidy away.
+  _exit(0);
+}
+
+}  // namespace
+
+void rehearse(const std::string& file, const std::size_t n_bytes,
+              const std::function<void()>& reading) {
+  const pid_t child = fork();
+  if (child == 0) be_the_child(n_bytes, reading);
+  if (child < 0) {
+    const int reason = errno;
+    throw UserError(
+        file + ": no process could be made to read it: " + std::generic_category().message(reason));
+  }
+  int status = 0;
+  pid_t ended = 0;
+  do {
+    ended = waitpid(child, &status, 0);
+  } while (ended < 0 && errno == EINTR);
+  // Where somebody else has waited for all children, or ignores them, nothing is known.
+  if (ended != child || status == 0) return;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == swollen)
+    throw UserError(file + ": takes more than " + std::to_string(enough_mb(n_bytes)) +
+                    " MB of memory to read its " + std::to_string(n_bytes) +
+                    " bytes, as damaged files do; write it anew, or give its columns as CSV");
+  const std::string end = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "an early exit";
+  throw UserError(file + ": is damaged: the library that reads such files breaks down on it (" +
+                  end + "); write it anew, or give its columns as CSV");
+}
+
+}  // namespace vibrissa::signals

@@ -1,0 +1,108 @@
+#include "diagnosis/prediction/record_nuisances.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace vibrissa::diagnosis {
+namespace {
+
+struct Drawn {
+  std::vector<OwnUnknown> unknowns;
+  std::vector<Complex> error;
+  std::vector<double> variance;
+};
+
+Drawn drawn(std::size_t n_unknowns) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  constexpr std::size_t n = 12;
+  Drawn out;
+  for (std::size_t b = 0; b < n; ++b) {
+    out.error.emplace_back(normal(random), normal(random));
+    out.variance.push_back(0.5 + std::abs(normal(random)));
+  }
+  for (std::size_t i = 0; i < n_unknowns; ++i) {
+    OwnUnknown unknown{0.3 + static_cast<double>(i), {}};
+    for (std::size_t b = 0; b < n; ++b) unknown.shape.emplace_back(normal(random), normal(random));
+    out.unknowns.push_back(std::move(unknown));
+  }
+  return out;
+}
+
+/// Of real and imaginary parts, each of half a bin's variance.
+Eigen::MatrixXd dense_covariance(const Drawn& d, bool with_unknowns) {
+  const auto n = static_cast<Eigen::Index>(2 * d.variance.size());
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    out(i, i) = 0.5 * d.variance[static_cast<std::size_t>(i / 2)];
+  for (const OwnUnknown& unknown : d.unknowns) {
+    if (!with_unknowns) break;
+    Eigen::VectorXd shape(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Complex g = unknown.shape[static_cast<std::size_t>(i / 2)];
+      shape(i) = i % 2 == 0 ? g.real() : g.imag();
+    }
+    out += unknown.variance * shape * shape.transpose();
+  }
+  return out;
+}
+
+double log_normal(const Drawn& d, bool with_unknowns) {
+  const Eigen::MatrixXd covariance = dense_covariance(d, with_unknowns);
+  Eigen::VectorXd e(covariance.rows());
+  for (Eigen::Index i = 0; i < e.size(); ++i) {
+    const Complex error = d.error[static_cast<std::size_t>(i / 2)];
+    e(i) = i % 2 == 0 ? error.real() : error.imag();
+  }
+  return -0.5 * (e.dot(covariance.ldlt().solve(e)) + std::log(covariance.determinant()));
+}
+
+TEST(IntegratedUnknowns, GainWhatTheWholeCovarianceDoes) {
+  for (const std::size_t n_unknowns : {1u, 2u}) {
+    const Drawn d = drawn(n_unknowns);
+    const IntegratedUnknowns unknowns(d.unknowns, d.error, d.variance);
+    EXPECT_NEAR(unknowns.log_likelihood_gain(), log_normal(d, true) - log_normal(d, false), 1e-10)
+        << n_unknowns;
+  }
+}
+
+TEST(IntegratedUnknowns, AreFoundWhereTheyAreLoud) {
+  Drawn d = drawn(2);
+  for (OwnUnknown& unknown : d.unknowns) unknown.variance = 1e8;
+  for (std::size_t b = 0; b < d.error.size(); ++b)
+    d.error[b] = 70. * d.unknowns[0].shape[b] - 30. * d.unknowns[1].shape[b];
+  const IntegratedUnknowns unknowns(d.unknowns, d.error, d.variance);
+  EXPECT_NEAR(unknowns.mean()(0), 70., 1e-5);
+  EXPECT_NEAR(unknowns.mean()(1), -30., 1e-5);
+  unknowns.remove_from(d.error);
+  for (const Complex& left : d.error) EXPECT_LT(std::abs(left), 1e-4);
+}
+
+TEST(IntegratedUnknowns, OfNoVarianceAreNothing) {
+  Drawn d = drawn(1);
+  d.unknowns.front().variance = 0.;
+  const std::vector<Complex> before = d.error;
+  const IntegratedUnknowns unknowns(d.unknowns, d.error, d.variance);
+  EXPECT_EQ(unknowns.log_likelihood_gain(), 0.);
+  unknowns.remove_from(d.error);
+  EXPECT_EQ(d.error, before);
+}
+
+TEST(UnknownRamp, IsTheSpectrumOfALine) {
+  constexpr std::size_t n = 64;
+  const OwnUnknown ramp = unknown_ramp(2., n, n / 2 - 1);
+  for (std::size_t b = 0; b < ramp.shape.size(); ++b) {
+    Complex sum = 0.;
+    for (std::size_t k = 0; k < n; ++k)
+      sum += static_cast<double>(k) / n *
+             std::polar(1., -2. * std::numbers::pi * static_cast<double>((b + 1) * k) / n);
+    EXPECT_LT(std::abs(ramp.shape[b] - sum), 1e-9) << b;
+  }
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,69 @@
+#include "diagnosis/search/resemblance.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/diagnosis/one_mode_rig.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+class ResemblanceTest : public testing::Test {
+ protected:
+  void measure(const test::OneModeRig& rig) {
+    experiment_ = prepare_experiment(test::nominal_of(rig, false), test::rig_dataset(rig, {}),
+                                     signals::Split::fit, InputNoise::reduced);
+    fit_ = fit_hypothesis(experiment_, Hypothesis{});
+  }
+  Resemblance of(const std::string& effect, const std::vector<std::vector<double>>& tried) const {
+    return resemblance(experiment_, fit_, whitened_residual(experiment_, fit_), find_effect(effect),
+                       tried);
+  }
+
+  Experiment experiment_;
+  HypothesisFit fit_;
+};
+
+TEST_F(ResemblanceTest, TellsPlaceAndSizeOfAModeThatIsThirtyTimesWeakerThanWhatIsTried) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.extra_hz = 70.;
+  rig.extra_residue = 1.5e-3;
+  measure(rig);
+  const Resemblance found =
+      of("extra_mode", {{60., 0.02, 0.05}, {70., 0.02, 0.05}, {80., 0.02, 0.05}});
+  EXPECT_GT(found.gain, 50.);
+  ASSERT_FALSE(found.values.empty());
+  EXPECT_EQ(found.values[0], 70.);
+  EXPECT_NEAR(std::abs(found.values[2]), 1.5e-3, 3e-4);
+}
+
+TEST_F(ResemblanceTest, OfNoiseAloneIsThatOfChance) {
+  measure(test::noisy_rig());
+  // Chi-square of one degree: beyond 16 once in 16 000.
+  for (const double hz : {50., 60., 70., 80., 90., 120.})
+    EXPECT_LT(of("extra_mode", {{hz, 0.02, 0.05}}).gain, 16.) << hz;
+}
+
+TEST_F(ResemblanceTest, TellsPlaceAndSizeOfATone) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.hum = 2e-5;
+  rig.hum_hz = 50.1;
+  measure(rig);
+  const Resemblance found = of("hum", {{1e-6, 49.7}, {1e-6, 50.1}, {1e-6, 60.}});
+  EXPECT_GT(found.gain, 50.);
+  ASSERT_FALSE(found.values.empty());
+  EXPECT_EQ(found.values[1], 50.1);
+  EXPECT_NEAR(found.values[0], rig.hum, 0.3 * rig.hum);
+}
+
+TEST_F(ResemblanceTest, HasNoSizeBeyondTheRangeOfTheEffect) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.extra_hz = 70.;
+  rig.extra_residue = 0.5;
+  measure(rig);
+  const Resemblance found = of("extra_mode", {{70., 0.02, 0.05}});
+  EXPECT_GT(found.gain, 50.);
+  EXPECT_TRUE(found.values.empty());
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis

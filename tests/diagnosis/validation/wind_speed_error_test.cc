@@ -1,0 +1,44 @@
+#include "diagnosis/validation/wind_speed_error.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/diagnosis/one_mode_rig.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+MendedModel with(const KnownEffect& effect) {
+  return {test::nominal_of(test::OneModeRig{}, true), {effect}};
+}
+
+TEST(WindSpeedErrorTest, FallsWhenTheDragIsMended) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.drag *= 1.44;
+  const MendedModel nominal = test::nominal_of(test::OneModeRig{}, true);
+  const auto error = wind_speed_error(nominal, with({.id = "drag_error", .values = {1.44}}),
+                                      test::rig_dataset(rig, {.wind = true}));
+  ASSERT_TRUE(error);
+  // The wind of about 2 m/s seems a fifth faster than it is.
+  EXPECT_NEAR(error->before_m_s, 0.2 * 2., 0.06);
+  // Gusts at the resonance are ten times too strong; the average leaves some of that.
+  EXPECT_LT(error->after_m_s, 0.25 * error->before_m_s);
+}
+
+TEST(WindSpeedErrorTest, CountsTheVibrationThatIsLeft) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.stiffness = 0.8;
+  const MendedModel nominal = test::nominal_of(test::OneModeRig{}, true);
+  const signals::Dataset real = test::rig_dataset(rig, {.wind = true, .high_level = 20.});
+  const auto error =
+      wind_speed_error(nominal, with({.id = "stiffness", .values = {0.8, 0., 0.5}}), real);
+  ASSERT_TRUE(error);
+  EXPECT_LT(error->after_m_s, error->before_m_s);
+}
+
+TEST(WindSpeedErrorTest, IsNothingWithoutWind) {
+  const MendedModel nominal = test::nominal_of(test::OneModeRig{}, false);
+  EXPECT_FALSE(wind_speed_error(nominal, nominal, test::rig_dataset(test::noisy_rig())));
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "diagnosis/model/hypothesis.h"
+#include "signals/base/json_input.h"
+#include "signals/system/kept_memory.h"
+
+/// A folder with sim/, caseNNN/real/ and labels.json.
+namespace vibrissa::benchmarks {
+
+/// labels.json of the set; read after the answer is given.
+inline nlohmann::json label_of(const std::filesystem::path& set, const std::string& name) {
+  return signals::read_json(set / "labels.json")[name];
+}
+
+inline std::string sorted_name(const std::string& name) {
+  return diagnosis::joined_name(diagnosis::effect_ids(name));
+}
+
+/// The name without retune effects, as sensors that are a little off everywhere are scored.
+inline std::string without_retunes(const std::string& name) {
+  const std::vector<std::string>& retunes = diagnosis::nuisance_ids();
+  std::vector<std::string> ids;
+  for (const std::string& id : diagnosis::effect_ids(name))
+    if (std::find(retunes.begin(), retunes.end(), id) == retunes.end()) ids.push_back(id);
+  return diagnosis::joined_name(ids);
+}
+
+/// Names of the cases, in order.
+inline std::vector<std::string> cases_of(const std::filesystem::path& set) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(set))
+    if (std::filesystem::exists(entry.path() / "real"))
+      names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// main of a scoring program: user's mistakes become a message and exit code 2.
+inline int guarded(const std::function<int()>& run) {
+  signals::keep_freed_memory();  // as the program does
+  try {
+    return run();
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 2;
+  }
+}
+
+}  // namespace vibrissa::benchmarks

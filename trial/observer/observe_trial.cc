@@ -1,0 +1,211 @@
+// How often could anyone be right? The ideal observer asked about sensors like those of a trial.
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "fem/linalg/solver_session.h"
+#include "signals/system/kept_memory.h"
+#include "signals/system/progress.h"
+#include "trial/generator/trial_case.h"
+#include "trial/observer/ideal_observer.h"
+
+namespace {
+
+using namespace vibrissa;
+using trial::IdealObserver, trial::ObservedSensor, trial::ObserverAnswer;
+
+constexpr std::size_t sensors_of_a_bench[] = {2, 10, 6, 4};  // by number of effects
+constexpr double well_above_limit = 3.;
+
+struct Tally {
+  std::size_t of = 0, right = 0, among_three = 0, set_holds = 0, set_size = 0;
+  double said = 0.;
+  void add(const ObserverAnswer& answer) {
+    ++of;
+    right += answer.right;
+    among_three += answer.among_three;
+    set_holds += answer.set_holds;
+    set_size += answer.set_size;
+    said += answer.probability;
+  }
+  double share(double hits) const { return hits / static_cast<double>(of); }
+  nlohmann::json to_json() const {
+    return {{"of", of},
+            {"right", share(static_cast<double>(right))},
+            {"right_said", share(said)},
+            {"right_among_three", share(static_cast<double>(among_three))},
+            {"set_holds", share(static_cast<double>(set_holds))},
+            {"mean_set_size", share(static_cast<double>(set_size))}};
+  }
+};
+
+using Tallies = std::map<std::string, Tally>;
+
+/// Sensors of which more than one answer is left, and how many of them further experiments resolve:
+/// one answer is left then, the right one.
+struct FurtherTally {
+  std::size_t undecided = 0;
+  double by_any = 0.;     // by at least one of the experiments
+  double by_chance = 0.;  // mean over them
+  void add(const IdealObserver& observer, const ObservedSensor& sensor, std::size_t n_experiments) {
+    std::size_t n_resolve = 0;
+    for (std::size_t i = 1; i <= n_experiments; ++i) {
+      const ObserverAnswer after = observer.answer(sensor, i);
+      n_resolve += after.right && after.set_size == 1 ? 1 : 0;
+    }
+    ++undecided;
+    by_any += n_resolve > 0 ? 1. : 0.;
+    by_chance += static_cast<double>(n_resolve) / static_cast<double>(n_experiments);
+  }
+};
+
+struct Options {
+  std::size_t n_benches = 25;
+  std::uint64_t seed = 1;
+  bool as_built = false, further = false, json = false, quiet = false;
+  std::array<double, 4> asked = trial::ObservedBench{}.asked;
+  bool is_talkative() const { return !json && !quiet; }
+};
+
+struct Result {
+  Tallies tallies{};
+  FurtherTally further{};
+};
+
+/// Takes of the usual session, and of each further experiment after it.
+struct Takes {
+  std::vector<trial::Take> all{};
+  std::vector<std::size_t> block_ends{};  // in lines
+  std::size_t n_further() const { return block_ends.size() - 1; }
+};
+
+Takes takes_of(const Options& options) {
+  Takes out;
+  std::size_t n_lines = 0;
+  const auto add = [&](const std::vector<trial::Take>& takes) {
+    for (const trial::Take& take : takes) {
+      if (take.split != signals::Split::fit) continue;
+      out.all.push_back(take);
+      n_lines += take.n_samples / 2 - 1;
+    }
+    out.block_ends.push_back(n_lines);
+  };
+  add(trial::usual_takes());
+  if (options.further)
+    for (const trial::FurtherExperiment& experiment : trial::further_experiments())
+      add(experiment.takes);
+  return out;
+}
+
+void ask(const IdealObserver& observer, const Options& options, const Takes& takes,
+         std::mt19937_64& random, Result& result) {
+  const char* names[] = {"none", "single", "pair", "triple"};
+  for (std::size_t n_effects = 0; n_effects < 4; ++n_effects) {
+    if (options.asked[n_effects] == 0.) continue;
+    for (std::size_t i = 0; i < sensors_of_a_bench[n_effects]; ++i) {
+      const ObservedSensor sensor = observer.draw(n_effects, random);
+      const ObserverAnswer answer = observer.answer(sensor);
+      result.tallies[names[n_effects]].add(answer);
+      if (n_effects == 1 && sensor.in_limits.front() >= well_above_limit)
+        result.tallies["single at 3 limits and more"].add(answer);
+      if (options.further && answer.set_size > 1)
+        result.further.add(observer, sensor, takes.n_further());
+    }
+  }
+}
+
+Result observe(const Options& options) {
+  const Takes takes = takes_of(options);
+  trial::World plain;
+  plain.joint.scale = trial::usual_turn;
+  const trial::UnexplainedChange change(plain, {.takes = takes.all, .seed = options.seed});
+  std::vector<trial::EffectLadder> ladders;
+  {
+    signals::Progress progress("effects", trial::named_unknowns().size(), options.is_talkative());
+    ladders = trial::climb_ladders(change, [&] { progress.advance(); });
+  }
+  signals::Progress progress("benches", options.n_benches, options.is_talkative());
+  std::mt19937_64 random(options.seed);
+  Result out;
+  for (std::size_t i = 0; i < options.n_benches; ++i, progress.advance()) {
+    const trial::World bench = trial::plain_world(random);
+    const IdealObserver observer(ladders,
+                                 change.noise(bench.moment_noise, bench.acceleration_noise),
+                                 {.acceleration_noise = bench.acceleration_noise,
+                                  .as_built = options.as_built,
+                                  .asked = options.asked},
+                                 takes.block_ends);
+    ask(observer, options, takes, random, out);
+  }
+  return out;
+}
+
+void print(const Result& result) {
+  std::printf("%-28s %5s %6s %6s %6s %6s %5s\n", "", "of", "right", "said", "first3", "set95",
+              "size");
+  for (const auto& [name, tally] : result.tallies)
+    std::printf("%-28s %5zu %6.3f %6.3f %6.3f %6.3f %5.2f\n", name.c_str(), tally.of,
+                tally.share(static_cast<double>(tally.right)), tally.share(tally.said),
+                tally.share(static_cast<double>(tally.among_three)),
+                tally.share(static_cast<double>(tally.set_holds)),
+                tally.share(static_cast<double>(tally.set_size)));
+  if (const FurtherTally& further = result.further; further.undecided > 0)
+    std::printf("of %zu undecided resolved by the best further experiment: %.3f, by chance: %.3f\n",
+                further.undecided, further.by_any / static_cast<double>(further.undecided),
+                further.by_chance / static_cast<double>(further.undecided));
+}
+
+void print_json(const Result& result, const Options& options) {
+  nlohmann::json out{{"schema", "vibrissa-ideal-observer-1"},
+                     {"seed", options.seed},
+                     {"as_built", options.as_built},
+                     {"asked", options.asked}};
+  for (const auto& [name, tally] : result.tallies) out["answers"][name] = tally.to_json();
+  if (const FurtherTally& further = result.further; further.undecided > 0) {
+    const double n = static_cast<double>(further.undecided);
+    out["further"] = {{"undecided", further.undecided},
+                      {"best_resolves", further.by_any / n},
+                      {"by_chance_resolves", further.by_chance / n}};
+  }
+  std::cout << out.dump(1) << "\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  CLI::App app(
+      "How often could anyone be right? Asks an observer who knows the form of every effect, the "
+      "noise of the bench and how often what is asked, about sensors like those of a blind trial.");
+  Options options;
+  app.add_option("--benches", options.n_benches, "How many, of 22 sensors each")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "All sensors follow from it")->capture_default_str();
+  auto* as_built = app.add_flag("--as-built", options.as_built,
+                                "Every sensor is a little off in modulus, damping, gain and drag");
+  app.add_flag("--further", options.further,
+               "Where answers are left, do each further experiment; not with --as-built")
+      ->excludes(as_built);
+  app.add_option("--asked", options.asked,
+                 "How often none, one, two and three effects are asked, to each other; 0: never")
+      ->check(CLI::Range(0., 1e6))
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "Machine-readable result on standard output");
+  app.add_flag("-q,--quiet", options.quiet, "No progress bar");
+  CLI11_PARSE(app, argc, argv);
+  signals::keep_freed_memory();
+  const fem::SolverSession session;
+  const Result result = observe(options);
+  if (options.json)
+    print_json(result, options);
+  else
+    print(result);
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << "observe_trial: " << error.what() << "\n";
+  return 2;
+}

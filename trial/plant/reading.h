@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "signals/record/record.h"
+#include "trial/plant/world.h"
+
+namespace vibrissa::trial {
+
+/// What happens on the bench, on the fine clock; the record begins at time 0.
+struct FineRecord {
+  const std::vector<double>&acceleration, &across, &wind, &moment;
+  double rate_hz = 0., first_s = 0.;
+};
+
+/// What accelerometer, probe and moment sensor make of it, each by its own electronics and clock.
+signals::Record read_out(const World& world, const Structure& structure, const FineRecord& fine,
+                         std::size_t n, double rate_hz, std::uint64_t seed, bool noise);
+
+}  // namespace vibrissa::trial

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace vibrissa::trial {
+
+/// How a case was answered, as the program's exit status tells; 0 an answer.
+inline constexpr int bad_input = 2, too_poor_data = 3, fault = 70;
+
+/// One sensor of a trial: caseNNNNN/real holds its records, further/EXPERIMENT what the bench can
+/// do besides, answer.json what was said of them.
+struct TrialEntry {
+  std::string name;
+  std::vector<std::string> left_out;  // effects that the catalogue is to lack
+};
+
+/// trial.json: what may be known before the labels are opened.
+struct TrialIndex {
+  std::filesystem::path folder;
+  std::uint64_t seed = 0;
+  std::vector<TrialEntry> cases;
+  std::vector<std::string> further_experiments;
+  std::string commitment, sealed_labels;
+
+  std::filesystem::path answer_file(const TrialEntry& entry) const {
+    return folder / entry.name / "answer.json";
+  }
+};
+
+/// Throws UserError with the file and the entry that is missing or of the wrong kind.
+TrialIndex read_trial(const std::filesystem::path& folder);
+
+/// The labels by name of case. key_file is FOLDER.key unless another is given. Throws UserError
+/// when the key is missing, or does not open what the trial was bound to.
+nlohmann::json open_labels(const TrialIndex& trial, const std::filesystem::path& key_file);
+
+}  // namespace vibrissa::trial

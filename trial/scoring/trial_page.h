@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "report/page/page.h"
+#include "trial/scoring/trial_score.h"
+
+namespace vibrissa::trial {
+
+/// How often diagnoses were right; commitment: what the labels were bound to. Proven by
+/// tests/apps/trial_test.cc.
+report::Page trial_page(const TrialScore& score, const std::string& commitment);
+
+}  // namespace vibrissa::trial

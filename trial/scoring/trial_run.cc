@@ -1,0 +1,139 @@
+#include "trial/scoring/trial_run.h"
+
+#include <exception>
+#include <random>
+
+#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/nominal/nominal_identification.h"
+#include "diagnosis/search/confidence_set.h"
+#include "fem/linalg/solver_session.h"
+#include "signals/base/error.h"
+#include "signals/system/output_file.h"
+#include "signals/system/progress.h"
+#include "signals/system/stopwatch.h"
+#include "trial/scoring/trial_files.h"
+#include "trial/scoring/trial_queue.h"
+
+namespace vibrissa::trial {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// What is said once the records of a further experiment are there, too.
+json answer_after(const std::string& experiment, const fs::path& folder, signals::Dataset real,
+                  const diagnosis::NominalModel& nominal,
+                  const diagnosis::DiagnoseOptions& settings) {
+  for (signals::DatasetRecord& entry :
+       signals::read_dataset(folder / "further" / experiment).records)
+    real.records.push_back(std::move(entry));
+  const diagnosis::Diagnosis said = diagnosis::diagnose(nominal, real, settings);
+  return {{"experiment", experiment},
+          {"verdict", said.verdict},
+          {"probability", said.ranking.front().probability},
+          {"confidence_set", said.confidence_set}};
+}
+
+/// Another one than the recommended; the same for the same name, on all machines.
+std::string by_chance(std::vector<std::string> experiments, const std::string& recommended,
+                      const std::string& name) {
+  std::erase(experiments, recommended);
+  std::seed_seq seed(name.begin(), name.end());
+  std::mt19937 random(seed);
+  return experiments.empty() ? "" : experiments[random() % experiments.size()];
+}
+
+/// After the recommended experiment and after another one.
+json answers_after(const TrialIndex& trial, const TrialEntry& entry, const signals::Dataset& real,
+                   const diagnosis::NominalModel& nominal,
+                   const diagnosis::DiagnoseOptions& settings, const std::string& recommended) {
+  const auto after = [&](const std::string& experiment) -> json {
+    try {
+      return answer_after(experiment, trial.folder / entry.name, real, nominal, settings);
+    } catch (const std::exception& error) {
+      return {{"experiment", experiment}, {"message", error.what()}};
+    }
+  };
+  json out{{"recommended", after(recommended)}};
+  const std::string other = by_chance(trial.further_experiments, recommended, entry.name);
+  if (!other.empty()) out["by_chance"] = after(other);
+  return out;
+}
+
+json answer(const TrialIndex& trial, const TrialEntry& entry,
+            const diagnosis::NominalModel& nominal, const TrialRunOptions& options) {
+  diagnosis::DiagnoseOptions settings;
+  settings.search = {.max_effects = options.max_effects,
+                     .n_threads = options.n_threads,
+                     .left_out = entry.left_out};
+  settings.possible_experiments = trial.further_experiments;
+  json out{{"schema", "vibrissa-trial-answer-1"}};
+  const auto failed = [&](int status, const std::string& message) {
+    out["exit_status"] = status;
+    out["message"] = message;
+    return out;
+  };
+  signals::Stopwatch watch;
+  try {
+    const fs::path folder = trial.folder / entry.name;
+    const auto real = signals::read_dataset(folder / "real");
+    const diagnosis::Diagnosis said = diagnosis::diagnose(nominal, real, settings);
+    out["diagnosis"] = json::parse(diagnosis::diagnosis_json(said));
+    out["exit_status"] = 0;
+    out["seconds"] = watch.elapsed_s();
+    if (options.further && diagnosis::n_known(said.confidence_set) > 1 && said.next.name != "none")
+      out.update(answers_after(trial, entry, real, nominal, settings, said.next.name));
+  } catch (const diagnosis::TooPoorData& error) {
+    return failed(too_poor_data, error.what());
+  } catch (const signals::UserError& error) {
+    return failed(bad_input, error.what());
+  } catch (const std::exception& error) {
+    return failed(fault, error.what());
+  }
+  return out;
+}
+
+}  // namespace
+
+TrialRunSummary run_trial(const fs::path& folder, const TrialRunOptions& options) {
+  const fem::SolverSession session;
+  const TrialIndex trial = read_trial(folder);
+  if (options.further && trial.further_experiments.empty())
+    throw signals::UserError(folder.string() +
+                             " holds no further experiments, as none is made at finite strain: "
+                             "run it without --further");
+  const diagnosis::NominalModel nominal =
+      diagnosis::identify_nominal(signals::read_dataset(folder / "sim"));
+  std::vector<const TrialEntry*> open;
+  for (const TrialEntry& entry : trial.cases)
+    if (!fs::exists(trial.answer_file(entry))) open.push_back(&entry);
+  TrialRunSummary summary;
+  summary.there_before = trial.cases.size() - open.size();
+  // Every rank has made the same list before the first answer is written.
+  TrialQueue queue;
+  signals::Progress progress("sensors", open.size(), options.show_progress && queue.rank() == 0);
+  std::exception_ptr failure;
+  try {
+    for (std::size_t i = queue.next(); i < open.size(); i = queue.next()) {
+      const json said = answer(trial, *open[i], nominal, options);
+      signals::write_file(trial.answer_file(*open[i]),
+                          [&](std::ostream& out) { out << said.dump(1) << "\n"; });
+      const int status = said["exit_status"];
+      ++(status == 0 ? summary.answered : status == fault ? summary.failed : summary.refused);
+      progress.advance(static_cast<std::size_t>(queue.n_ranks()));
+    }
+  } catch (...) {
+    // The other ranks wait for this one at the end, disk or no disk.
+    failure = std::current_exception();
+  }
+  const std::vector<unsigned long> all =
+      queue.total({summary.answered, summary.refused, summary.failed});
+  if (failure) std::rethrow_exception(failure);
+  summary.answered = all[0];
+  summary.refused = all[1];
+  summary.failed = all[2];
+  summary.is_first_rank = queue.rank() == 0;
+  return summary;
+}
+
+}  // namespace vibrissa::trial

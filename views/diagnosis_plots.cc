@@ -1,0 +1,195 @@
+#include "views/diagnosis_plots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/figures/table.h"
+
+namespace vibrissa::views {
+namespace {
+
+const std::string over_noise = "Error power / noise power";
+
+report::Curve excess_curve(const std::string& label, const std::vector<diagnosis::BandGap>& bands) {
+  report::Curve curve{.label = label};
+  for (const diagnosis::BandGap& band : bands) {
+    curve.x.push_back(std::sqrt(band.low_hz * band.high_hz));
+    curve.y.push_back(band.excess);
+  }
+  return curve;
+}
+
+report::Panel panel_over_frequency(const std::string& title) {
+  return {.title = title,
+          .x_label = "Frequency [Hz]",
+          .y_label = over_noise,
+          .log_x = true,
+          .log_y = true};
+}
+
+report::Panel gap_by_kind(const std::vector<diagnosis::ChannelGap>& map) {
+  report::Panel panel = panel_over_frequency("Where the nominal simulation is wrong");
+  for (const diagnosis::ChannelGap& channel : map)
+    // Of records with both, which alone show what neither does.
+    panel.curves.push_back(excess_curve(
+        channel.channel == "product" ? "base and wind" : channel.channel, channel.bands));
+  return panel;
+}
+
+report::Panel gap_by_level(const std::vector<diagnosis::LevelGap>& levels) {
+  report::Panel panel = panel_over_frequency("Under base motion, by its level");
+  for (const diagnosis::LevelGap& level : levels)
+    panel.curves.push_back(
+        excess_curve(report::Cell(level.level_m_s2).rounded(3) + " m/s²", level.bands));
+  return panel;
+}
+
+report::Panel gap_in_time(const std::vector<diagnosis::GapInTime>& records) {
+  constexpr std::size_t most_curves = 8;  // more cannot be told apart
+  report::Panel panel{
+      .title = "Along the records", .x_label = "Time [s]", .y_label = over_noise, .log_y = true};
+  for (std::size_t i = 0; i < std::min(records.size(), most_curves); ++i)
+    panel.curves.push_back(
+        {.label = records[i].record, .x = records[i].time_s, .y = records[i].excess});
+  return panel;
+}
+
+report::Figure gap_map(const diagnosis::Location& location) {
+  report::Figure figure{
+      .name = "gap_map",
+      .title = "Gap map",
+      .caption =
+          "Whitened error of the nominal model by third-octave band and kind of record, by level "
+          "of the base motion (rms) and along each record; 1 is noise alone.",
+      .panels = {gap_by_kind(location.map)}};
+  if (!location.by_level.empty()) figure.panels.push_back(gap_by_level(location.by_level));
+  if (!location.in_time.empty()) figure.panels.push_back(gap_in_time(location.in_time));
+  return figure;
+}
+
+report::Figure response_figure(const diagnosis::Diagnosis& diagnosis) {
+  const diagnosis::ResponseComparison& response = diagnosis.response;
+  std::vector<double> low, high;
+  for (std::size_t i = 0; i < response.measured.size(); ++i) {
+    low.push_back(
+        std::max(response.measured[i] - 2. * response.deviation[i], 0.01 * response.measured[i]));
+    high.push_back(response.measured[i] + 2. * response.deviation[i]);
+  }
+  report::Panel panel{.title = "Base moment per base acceleration, " + response.record,
+                      .x_label = "Frequency [Hz]",
+                      .y_label = "|M / a| [N m s²/m]",
+                      .log_x = true,
+                      .log_y = true};
+  panel.curves.push_back({.label = "measured, ± 2 deviations of noise",
+                          .style = report::CurveStyle::band,
+                          .x = response.frequency_hz,
+                          .y_low = low,
+                          .y_high = high});
+  panel.curves.push_back(
+      {.label = "simulation", .x = response.frequency_hz, .y = response.nominal});
+  panel.curves.push_back({.label = "with " + diagnosis.verdict,
+                          .style = report::CurveStyle::dashed,
+                          .x = response.frequency_hz,
+                          .y = response.mended});
+  return {.name = "response",
+          .title = "Response before and after",
+          .caption = "At the lines that the drive excites.",
+          .panels = {panel}};
+}
+
+/// The first n samples.
+report::Panel trace_panel(const diagnosis::Diagnosis& diagnosis, const std::size_t n) {
+  const diagnosis::TraceComparison& trace = diagnosis.trace;
+  const auto part = [n](const std::vector<double>& x, double scale) {
+    std::vector<double> out(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n));
+    for (double& value : out) value *= scale;
+    return out;
+  };
+  report::Panel panel{.title = "Held-out record " + trace.record,
+                      .x_label = "Time [s]",
+                      .y_label = "Base moment [µN m]"};
+  panel.curves.push_back(
+      {.label = "measured", .x = part(trace.time_s, 1.), .y = part(trace.measured, 1e6)});
+  panel.curves.push_back(
+      {.label = "simulation", .x = part(trace.time_s, 1.), .y = part(trace.nominal, 1e6)});
+  panel.curves.push_back({.label = "with " + diagnosis.verdict,
+                          .style = report::CurveStyle::dashed,
+                          .x = part(trace.time_s, 1.),
+                          .y = part(trace.mended, 1e6)});
+  return panel;
+}
+
+report::Figure trace_figure(const diagnosis::Diagnosis& diagnosis) {
+  const std::vector<double>& time_s = diagnosis.trace.time_s;
+  // A second shows the swings; the CSV beside the picture holds what is drawn.
+  std::size_t n = 0;
+  while (n < time_s.size() && time_s[n] < time_s.front() + 1.) ++n;
+  return {.name = "held_out_trace",
+          .title = "Held-out record before and after",
+          .caption = "Free simulation of a record that was not used to fit.",
+          .panels = {trace_panel(diagnosis, n)}};
+}
+
+report::Figure ranking_figure(const std::vector<diagnosis::RankedAnswer>& ranking) {
+  report::Panel panel{.title = "Probability of each answer",
+                      .x_label = "Probability",
+                      .y_label = "Answer",
+                      .x_range = report::Range{0., 1.}};
+  report::Curve heads{.style = report::CurveStyle::points, .colour = 0};
+  for (auto answer = ranking.rbegin(); answer != ranking.rend(); ++answer) {
+    panel.y_names.push_back(answer->name);
+    const double row = static_cast<double>(panel.y_names.size());
+    heads.x.push_back(answer->probability);
+    heads.y.push_back(row);
+    panel.curves.push_back({.x = {0., answer->probability}, .y = {row, row}, .colour = 0});
+  }
+  panel.curves.push_back(std::move(heads));
+  return {.name = "ranking",
+          .title = "Answers",
+          .caption = "How probable each answer is, given these records.",
+          .panels = {panel}};
+}
+
+}  // namespace
+
+std::vector<report::Figure> diagnosis_figures(const diagnosis::Diagnosis& diagnosis) {
+  std::vector<report::Figure> figures;
+  if (!diagnosis.location.map.empty()) figures.push_back(gap_map(diagnosis.location));
+  if (!diagnosis.ranking.empty()) figures.push_back(ranking_figure(diagnosis.ranking));
+  if (!diagnosis.response.frequency_hz.empty()) figures.push_back(response_figure(diagnosis));
+  if (!diagnosis.trace.time_s.empty()) figures.push_back(trace_figure(diagnosis));
+  return figures;
+}
+
+report::Figure held_out_record_figure(const diagnosis::Diagnosis& diagnosis) {
+  report::Figure figure = trace_figure(diagnosis);
+  report::Panel whole = trace_panel(diagnosis, diagnosis.trace.time_s.size());
+  whole.title += ", whole";
+  figure.panels.front().title = "Its first second";
+  figure.panels.insert(figure.panels.begin(), std::move(whole));
+  figure.name = "held_out_record";
+  return figure;
+}
+
+report::Table ranking_table(const diagnosis::Diagnosis& diagnosis) {
+  report::Table table({{"answer", ""},
+                       {"probability", "", 3},
+                       {"error before", "", 3},
+                       {"error after", "", 3},
+                       {"noise floor", "", 3},
+                       {"gap closed", "", 3}});
+  for (const diagnosis::RankedAnswer& answer : diagnosis.ranking) {
+    std::vector<report::Cell> row{answer.name, answer.probability};
+    if (answer.held_out) {
+      const diagnosis::ErrorScore& score = answer.held_out->overall;
+      row.insert(row.end(), {score.nrmse_before, score.nrmse_after, score.noise_floor,
+                             report::Cell(score.gap_closed)});
+    } else {
+      row.resize(6);
+    }
+    table.add_row(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace vibrissa::views

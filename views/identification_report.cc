@@ -1,0 +1,65 @@
+#include "views/identification_report.h"
+
+namespace vibrissa::views {
+
+namespace {
+
+std::string plane_text(const std::vector<separation::PlaneEstimate>& points) {
+  const auto number = [](const double value) { return report::Cell(value).rounded(4); };
+  std::string text;
+  for (const auto& point : points) {
+    text += (text.empty() ? "" : "; ") + number(point.value.real()) + " +- " +
+            number(point.real_deviation);
+    if (point.value.imag() != 0.) {
+      text +=
+          ", j(" + number(point.value.imag()) + " +- " + number(point.imaginary_deviation) + ")";
+    }
+  }
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+report::Table identification_table(const separation::FittedBvrm& fit) {
+  report::Table table({{"mode", ""},
+                       {"frequency", "Hz", 6},
+                       {"+- sd", "Hz", 2},
+                       {"damping ratio", ""},
+                       {"+- sd", "", 2},
+                       {"static gain", "kg m"},
+                       {"+- sd", "kg m", 2}});
+  std::size_t number = 0;
+  for (const auto& mode : fit.modes) {
+    table.add_row({++number, mode.frequency_hz.value, mode.frequency_hz.standard_deviation,
+                   mode.damping_ratio.value, mode.damping_ratio.standard_deviation,
+                   mode.static_gain_kg_m.value, mode.static_gain_kg_m.standard_deviation});
+  }
+  return table;
+}
+
+report::Table output_only_table(const separation::OutputOnlyIdentification& found) {
+  report::Table table({{"what", ""},
+                       {"frequency", "Hz", 6},
+                       {"+- sd", "Hz", 2},
+                       {"damping ratio", ""},
+                       {"+- sd", "", 2},
+                       {"stands in orders", ""}});
+  for (const auto& mode : found.modes) {
+    table.add_row({"mode", mode.frequency_hz.value, mode.frequency_hz.standard_deviation,
+                   mode.damping_ratio.value, mode.damping_ratio.standard_deviation, mode.n_orders});
+  }
+  for (const auto& line : found.undamped_hz) {
+    table.add_row({"does not decay", line.value, line.standard_deviation, report::Cell(),
+                   report::Cell(), report::Cell()});
+  }
+  return table;
+}
+
+std::string evidence_text(const separation::ModelEvidence& evidence) {
+  return "poles [rad/s]: " + plane_text(evidence.poles_zeros.poles) +
+         "\nzeros [rad/s]: " + plane_text(evidence.poles_zeros.zeros) +
+         "\nresidual on held-out data: " + evidence.residual.words +
+         (evidence.hold.words.empty() ? "" : "\n" + evidence.hold.words) + "\n";
+}
+
+}  // namespace vibrissa::views

@@ -1,0 +1,115 @@
+#include "views/plan_plots.h"
+
+#include <algorithm>
+#include <span>
+
+#include "diagnosis/model/words.h"
+
+namespace vibrissa::views {
+namespace {
+
+using diagnosis::EffectPower;
+using diagnosis::SensorKind;
+
+/// So many names stand on one panel without touching.
+constexpr std::size_t most_names = 16;
+
+/// Effects that the experiment shows, the strongest first.
+std::vector<const EffectPower*> by_strength(const diagnosis::ExperimentPlan& plan) {
+  std::vector<const EffectPower*> out;
+  for (const EffectPower& effect : plan.effects)
+    if (effect.shown) out.push_back(&effect);
+  std::sort(out.begin(), out.end(), [](const EffectPower* a, const EffectPower* b) {
+    return a->on(SensorKind::as_built).nats > b->on(SensorKind::as_built).nats;
+  });
+  return out;
+}
+
+/// What could be taken for it on a sensor as built, in brackets.
+std::string name_of(const EffectPower& effect) {
+  const std::vector<std::string>& alike = effect.on(SensorKind::as_built).alike;
+  return alike.empty() ? effect.effect : effect.effect + " (" + alike.front() + "?)";
+}
+
+/// Of all points and what is needed, with room at either end.
+report::Range evidence_range(std::span<const EffectPower* const> effects) {
+  report::Range range{diagnosis::nats_to_find, diagnosis::nats_to_find};
+  for (const EffectPower* effect : effects)
+    for (const SensorKind kind : diagnosis::sensor_kinds)
+      if (const double nats = effect->on(kind).nats; nats > 0.) {
+        range.low = std::min(range.low, nats);
+        range.high = std::max(range.high, nats);
+      }
+  return {0.5 * range.low, 2. * range.high};
+}
+
+report::Panel strength_panel(std::span<const EffectPower* const> effects,
+                             const report::Range& range) {
+  report::Panel panel{.title = "What would be found at typical strength",
+                      .x_label = "Evidence [nats]",
+                      .log_x = true,
+                      .x_range = range};
+  for (const SensorKind kind : diagnosis::sensor_kinds) {
+    const bool exact = kind == SensorKind::exact;
+    report::Curve curve{.label = exact ? "otherwise as simulated" : "as built",
+                        .style = report::CurveStyle::points};
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+      curve.x.push_back(effects[i]->on(kind).nats);
+      curve.y.push_back(static_cast<double>(effects.size() - i));
+    }
+    panel.curves.push_back(std::move(curve));
+  }
+  for (const EffectPower* effect : effects) panel.y_names.push_back(name_of(*effect));
+  std::reverse(panel.y_names.begin(), panel.y_names.end());
+  panel.curves.push_back({.label = "needed",
+                          .style = report::CurveStyle::dashed,
+                          .x = {diagnosis::nats_to_find, diagnosis::nats_to_find},
+                          .y = {0.5, static_cast<double>(effects.size()) + 0.5}});
+  return panel;
+}
+
+report::Cell limit_cell(const EffectPower& effect, SensorKind kind) {
+  const diagnosis::Standing& standing = effect.on(kind);
+  return standing.any_size ? report::Cell("any size") : report::Cell(standing.limit);
+}
+
+}  // namespace
+
+report::Figure plan_figure(const diagnosis::ExperimentPlan& plan) {
+  report::Figure figure{.name = "plan",
+                        .title = "What the experiment could say",
+                        .caption = "In brackets what could be taken for an effect."};
+  const std::vector<const EffectPower*> effects = by_strength(plan);
+  const report::Range range = evidence_range(effects);
+  std::span<const EffectPower* const> left = effects;
+  for (std::size_t n_panels = (effects.size() + most_names - 1) / most_names; n_panels > 0;
+       --n_panels) {
+    const std::size_t n = (left.size() + n_panels - 1) / n_panels;
+    figure.panels.push_back(strength_panel(left.first(n), range));
+    left = left.subspan(n);
+  }
+  return figure;
+}
+
+report::Table limits_table(const diagnosis::ExperimentPlan& plan) {
+  report::Table table({{"number", ""},
+                       {"effect", ""},
+                       {"parameter", ""},
+                       {"unit", ""},
+                       {"typical", "", 3},
+                       {"limit otherwise as simulated", "", 3},
+                       {"limit as built", "", 3},
+                       {"needs", ""},
+                       {"could be, otherwise as simulated", ""},
+                       {"could be, as built", ""}});
+  for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+    const EffectPower& effect = plan.effects[i];
+    table.add_row({i + 1, effect.effect, effect.parameter, effect.unit, effect.typical,
+                   limit_cell(effect, SensorKind::exact), limit_cell(effect, SensorKind::as_built),
+                   effect.needs, diagnosis::joined(effect.exact.alike, " "),
+                   diagnosis::joined(effect.as_built.alike, " ")});
+  }
+  return table;
+}
+
+}  // namespace vibrissa::views

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "case/rig.h"
+#include "report/figures/figure.h"
+#include "views/separation_scores.h"
+
+namespace vibrissa::views {
+
+/// Base acceleration, wind, and the measured moment of the record with both.
+report::Figure records_figure(const sensor_case::RigRecords& records);
+
+/// True moments of wind and vibration beside each method's estimates: the wind's in the whole
+/// record, and both in its middle second.
+report::Figure separation_figure(const sensor_case::RigRecords& records,
+                                 const std::vector<SeparatedSignal>& signals);
+
+/// Power spectral densities of the measured moment, of the true wind moment and of the estimates.
+report::Figure spectra_figure(const sensor_case::RigRecords& records,
+                              const std::vector<SeparatedSignal>& signals);
+
+}  // namespace vibrissa::views
