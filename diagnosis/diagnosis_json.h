@@ -6,7 +6,7 @@
 
 namespace vibrissa::diagnosis {
 
-/// The answer as records.md fixes it, schema "vibrissa-diagnosis-1", with findings, guesses,
+/// The answer as docs/records.md fixes it, schema "vibrissa-diagnosis-1", with findings, guesses,
 /// untested effects, the gap map, probability_of_unlisted, probability_of_tried and
 /// probability_of_outside added. Numbers that are not finite become null. Proven by
 /// tests/diagnosis/diagnosis_json_test.cc.

@@ -11,7 +11,7 @@ namespace vibrissa::materials {
 
 /// The case file's subsection "Materials": silicone (c1, c2, c3, bulk modulus, volumetric law,
 /// density, loss factor), wire and fin (Young's modulus, Poisson's ratio, density, loss factor).
-/// Defaults: paper.md, "settled". Proven by tests/materials/sensor_materials_test.cc.
+/// Defaults: docs/theory.md (T1). Proven by tests/materials/sensor_materials_test.cc.
 struct SensorMaterials {
   Material silicone = make_yeoh({3.4e5, 1.7152e5, 1.32e8}, 1.5e9, 1080., 0.);
   Material wire = make_elastic(70e9, 0.33, 6450., 0.);  // nitinol

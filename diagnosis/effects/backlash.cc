@@ -21,7 +21,7 @@ Effect backlash() {
       .id = "backlash",
       .link = Link::structure,
       .equation = "T = -loss clip(k0 phi, -g Y, g Y)",
-      .source = "effects.md",
+      .source = "Worden and Tomlinson 2001, sec. 2.3.3; Kahraman and Singh 1990, dead zone",
       .confused_with = "joint_friction; threshold, odd lines at low level",
       .form_error = 0.1,
       .needs = {.base = true},

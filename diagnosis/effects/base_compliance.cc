@@ -7,7 +7,7 @@ Effect base_compliance() {
   return Effect{.id = "base_compliance",
                 .link = Link::mount,
                 .equation = "1/k = 1/k0 + 1/ks",
-                .source = "effects.md",
+                .source = "Grossi and Albarracin 2003, restrained beams; Den Hartog 1956, ch. 2",
                 .confused_with = "stiffness (exact alias); second accelerometer, stiffer clamp",
                 .form_error = 0.02,
                 .log_prior = -1.5,

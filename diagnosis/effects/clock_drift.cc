@@ -6,7 +6,7 @@ Effect clock_drift() {
   return Effect{.id = "clock_drift",
                 .link = Link::clock,
                 .equation = "moment sampled at t (1 + e)",
-                .source = "effects.md",
+                .source = "Allan 1987, frequency offset of clocks",
                 .confused_with = "delay; blockwise phase",
                 .form_error = 0.02,
                 .parameters = {uniform("rate_error", "1", -1.5e-3, 1.5e-3, 0.)},

@@ -6,7 +6,7 @@ Effect coil_feedthrough() {
   return Effect{.id = "coil_feedthrough",
                 .link = Link::sensor,
                 .equation = "M_read = M + b M0 a",
-                .source = "effects.md",
+                .source = "ISO 16063-33:2017, magnetic field sensitivity",
                 .confused_with = "mass; wide band, clamped stage",
                 .form_error = 0.01,
                 .needs = {.base = true},

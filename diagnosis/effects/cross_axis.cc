@@ -6,7 +6,7 @@ Effect cross_axis() {
   return Effect{.id = "cross_axis",
                 .link = Link::reference,
                 .equation = "M += (e + f H(s) / H(0)) M0 a_perp",
-                .source = "effects.md",
+                .source = "ISO 16063-31:2009, transverse sensitivity; ADXL345 data sheet, rev. E",
                 .confused_with = "reference_noise; second axis",
                 .form_error = 0.02,
                 .needs = {.cross = true},

@@ -10,7 +10,7 @@ Effect damping() {
       .equation =
           "c = r c0: r^s in each mode by itself; r^(1 - s) where most of the damping is, its "
           "power q in the rest: joint, whisker",
-      .source = "effects.md",
+      .source = "Ungar and Kerwin 1962, loss factors by strain energy; Ewins 2000, ch. 2",
       .confused_with = "viscoelastic; second mode, level",
       .retune = true,
       .form_error = 0.02,

@@ -6,7 +6,7 @@ Effect delay() {
   return Effect{.id = "delay",
                 .link = Link::clock,
                 .equation = "M_read(t) = M(t - tau)",
-                .source = "effects.md",
+                .source = "Oppenheim, Willsky and Nawab 1997, ch. 4: time shift",
                 .confused_with = "sensor_lowpass; magnitude at high frequency",
                 .form_error = 0.01,
                 .parameters = {uniform("tau", "s", -6e-3, 6e-3, 0.)},

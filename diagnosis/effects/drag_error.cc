@@ -6,7 +6,7 @@ Effect drag_error() {
   return Effect{.id = "drag_error",
                 .link = Link::wind,
                 .equation = "F = r F0",
-                .source = "effects.md",
+                .source = "Hoerner 1965, ch. 3; White 2006: drag coefficients",
                 .confused_with = "sensor_gain",
                 .retune = true,
                 .form_error = 0.01,

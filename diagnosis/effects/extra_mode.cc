@@ -21,7 +21,7 @@ Effect extra_mode() {
   return Effect{.id = "extra_mode",
                 .link = Link::structure,
                 .equation = "M += g M0 / ((s/w)^2 + 2 z s/w + 1) a",
-                .source = "effects.md",
+                .source = "Ewins 2000, ch. 2: response as a sum of modes",
                 .confused_with = "mount_compliance",
                 .form_error = 0.03,
                 .needs = {.base = true, .moved_s = 3.},

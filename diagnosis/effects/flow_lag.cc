@@ -6,7 +6,7 @@ Effect flow_lag() {
   return Effect{.id = "flow_lag",
                 .link = Link::wind,
                 .equation = "tau u' + u = u_measured",
-                .source = "effects.md",
+                .source = "Wyngaard 1981, first-order response; Scanlan et al. 1974, bluff bodies",
                 .confused_with = "drag_error; frequency",
                 .form_error = 0.02,
                 .needs = {.wind = true},

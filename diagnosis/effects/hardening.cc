@@ -26,7 +26,7 @@ Effect hardening() {
       .id = "hardening",
       .link = Link::structure,
       .equation = "T = k0 phi b (y/Y)^2",
-      .source = "effects.md",
+      .source = "Nayfeh and Mook 1979, ch. 4; Worden and Tomlinson 2001, sec. 2.3.1 and 3.2",
       .confused_with = "joint_friction, softening_history; exponent of level, free decay",
       .form_error = 0.1,
       .needs = {.base = true},

@@ -23,7 +23,7 @@ Effect hum() {
       .id = "hum",
       .link = Link::sensor,
       .equation = "M_read = M + A sin(2 pi f t + phase)",
-      .source = "effects.md",
+      .source = "Ott 2009, cabling and grounding; Harris 1978, leakage of a line",
       .confused_with = "vortex_shedding; line in the quiet record",
       .irreducible = true,
       .form_error = 0.01,

@@ -38,7 +38,7 @@ Effect joint_friction() {
                 .equation =
                     "T = sum of Jenkins elements, stiffness r k0, slip moments m (1 + d (-0.75, "
                     "-0.25, 0.25, 0.75)) Y",
-                .source = "effects.md; Iwan (1966)",
+                .source = "Iwan 1966, distributed-element model for hysteresis",
                 .confused_with = "hardening; loop area ~ A vs A^2..3",
                 .form_error = 0.15,
                 .needs = {.base = true},

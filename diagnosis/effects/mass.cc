@@ -19,7 +19,7 @@ Effect mass() {
       .equation =
           "m = r m0 of the first mode, base forcing r^g; d M0 a for the modes above; with a "
           "finite-element model by the density of its fin, or else its wire, in all modes",
-      .source = "effects.md; g near 1, the whole mass is not all of the modal mass",
+      .source = "Friswell and Mottershead 1995; Berman and Flannelly 1971, incomplete models",
       .confused_with =
           "stiffness + damping + reference_gain (exact alias for one mode); added known mass",
       .retune = true,

@@ -9,7 +9,7 @@ Effect mount_compliance() {
                 .equation =
                     "(s^2 (1 + m A(s)) + 2 z w s + w^2) a_base = (2 z w s + w^2) a, A = apparent "
                     "mass ratio of the first mode",
-                .source = "effects.md",
+                .source = "ISO 5348:2021, mounting of accelerometers; Den Hartog 1956, ch. 3",
                 .confused_with = "extra_mode, stage_rocking; wide band",
                 .form_error = 0.03,
                 .needs = {.base = true},

@@ -6,7 +6,7 @@ Effect reference_gain() {
   return Effect{.id = "reference_gain",
                 .link = Link::reference,
                 .equation = "a_read = (1 + g) a",
-                .source = "effects.md; ADXL345 data sheet",
+                .source = "ADXL345 data sheet, rev. E, table 1: sensitivity; ISO 16063-21:2003",
                 .confused_with = "sensor_gain",
                 .retune = true,
                 .form_error = 0.01,

@@ -8,7 +8,7 @@ Effect reference_highpass() {
       .id = "reference_highpass",
       .link = Link::reference,
       .equation = "a_read = s / (s + w) a",
-      .source = "effects.md",
+      .source = "Doebelin 2004, ch. 4: piezoelectric accelerometers",
       .confused_with = "sensor_drift; lower lines",
       .form_error = 0.01,
       .needs = {.base = true},

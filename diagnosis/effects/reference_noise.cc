@@ -6,7 +6,7 @@ Effect reference_noise() {
   return Effect{.id = "reference_noise",
                 .link = Link::reference,
                 .equation = "a_read = a + n, n white",
-                .source = "effects.md",
+                .source = "ADXL345 data sheet, rev. E, noise; Bendat and Piersol 2010, ch. 6",
                 .confused_with = "none",
                 .irreducible = true,
                 .form_error = 0.01,

@@ -25,9 +25,7 @@ Effect relative_drag() {
                 .equation =
                     "F = (u - v) |u - v|, v = share (base velocity + lever T' / (g w_1^2)), T the "
                     "joint's moment, g that of static acceleration",
-                .source =
-                    "effects.md; a share of 1 is drag of relative velocity with the coefficient of "
-                    "steady wind, theory.md (T6.2)",
+                .source = "Morison et al. 1950; Blevins 1990, ch. 6 and 8: relative velocity",
                 .confused_with = "damping; wind ladder",
                 .form_error = 0.1,
                 .needs = {.base = true, .wind = true},

@@ -7,7 +7,8 @@ Effect sample_repeat() {
       .id = "sample_repeat",
       .link = Link::clock,
       .equation = "a_read(k T) = a(age + floor(k T / Ts) Ts): the source's own samples are taken",
-      .source = "effects.md; an ADXL345 renews at 400 or 800 Hz",
+      .source =
+          "ADXL345 data sheet, rev. E, table 7: data rates; Crochiere and Rabiner 1983, ch. 2",
       .confused_with = "reference_noise; equal neighbours",
       .form_error = 0.015,
       .needs = {.base = true, .repeats = true},

@@ -8,7 +8,7 @@ Effect sensor_drift() {
       .id = "sensor_drift",
       .link = Link::sensor,
       .equation = "offset = random walk",
-      .source = "effects.md",
+      .source = "El-Sheimy, Hou and Niu 2008, random walk by Allan variance",
       .confused_with = "turbulence; quiet record",
       .irreducible = true,
       .form_error = 0.01,

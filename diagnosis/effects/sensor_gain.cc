@@ -6,7 +6,7 @@ Effect sensor_gain() {
   return Effect{.id = "sensor_gain",
                 .link = Link::sensor,
                 .equation = "M_read = r M",
-                .source = "effects.md",
+                .source = "MLX90393 data sheet, rev. 003, sensitivity; Doebelin 2004, ch. 3",
                 .confused_with = "reference_gain + drag_error",
                 .retune = true,
                 .form_error = 0.01,

@@ -12,9 +12,7 @@ Effect sensor_lowpass() {
       .equation =
           "M_read = M exp(s h) / (1 + s / (n w))^n, corner at -3 dB; h the half step of a filter "
           "that is sampled",
-      .source =
-          "effects.md; n = 1 is one lag, and three droop and delay as an average over time "
-          "does (to third order of its length)",
+      .source = "Doebelin 2004, ch. 3; Millman and Halkias 1972, bandwidth of equal stages",
       .confused_with = "delay; droop",
       .form_error = 0.02,
       .parameters = {log_usual("corner", "Hz", 30., 250., 10., 3e4, 1e100),

@@ -6,7 +6,7 @@ Effect sensor_nonlinearity() {
   return Effect{.id = "sensor_nonlinearity",
                 .link = Link::sensor,
                 .equation = "M_read = M (1 + b x + c x^2 / (1 + |c| x^2)), x = M / Y",
-                .source = "effects.md; the quotient keeps a strong saturation monotone",
+                .source = "Worden and Tomlinson 2001, sec. 2.4; Pintelon and Schoukens 2012, ch. 4",
                 .confused_with = "hardening; harmonics at fixed frequency, also on slow wind",
                 .form_error = 0.1,
                 .parameters = {normal("quadratic", "1", 0., 0.1, -0.6, 0.6, 0.),

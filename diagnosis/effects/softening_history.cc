@@ -27,7 +27,7 @@ Effect softening_history() {
       .id = "softening_history",
       .link = Link::structure,
       .equation = "k = k0 (1 - D (1 - exp(-y_max / (L Y)))), y_max = largest so far",
-      .source = "effects.md; Mullins (1969)",
+      .source = "Mullins 1969; Ogden and Roxburgh 1999, pseudo-elastic model",
       .confused_with = "hardening < 0; up/down ladder",
       .form_error = 0.1,
       .needs = {.base = true},

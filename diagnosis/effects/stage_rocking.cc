@@ -9,7 +9,7 @@ Effect stage_rocking() {
       .link = Link::mount,
       .equation =
           "a_base = a (1 + e / (1 + 2 z s/w + (s/w)^2)), e = kappa times the height of the mode",
-      .source = "effects.md",
+      .source = "ISO 16063-21:2003, rocking motion of exciters",
       .confused_with = "reference_gain; wide band, second accelerometer",
       .form_error = 0.03,
       .needs = {.base = true},

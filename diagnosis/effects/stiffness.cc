@@ -38,7 +38,7 @@ Effect stiffness() {
           "k = r k0 of the first mode: r^s by itself, r^(1 - s) by its joint's spring K, "
           "p / (K / K0) + 1 - p = r^(s - 1); with a finite-element model r^s by its wire and "
           "r^(1 - s) by its silicone, in all modes; dampers c = (k / k0)^q c0",
-      .source = "effects.md; q: a loss factor keeps to 1, a damper to 0, modal damping to 1/2",
+      .source = "Friswell and Mottershead 1995, sensitivity methods; Gent 1958, modulus of rubber",
       .confused_with = "mass (gain), base_compliance; added known mass, static pull",
       .retune = true,
       .form_error = 0.01,

@@ -6,7 +6,7 @@ Effect turbulence() {
   return Effect{.id = "turbulence",
                 .link = Link::wind,
                 .equation = "unseen gusts: spectrum of u |u| c^2 (1 + (f/f0)^2)^(-5/6)",
-                .source = "effects.md; von Karman (1948)",
+                .source = "von Karman 1948, longitudinal spectrum",
                 .confused_with = "reference_noise; fan off",
                 .irreducible = true,
                 .form_error = 0.01,

@@ -26,7 +26,7 @@ Effect viscoelastic() {
       .link = Link::structure,
       .equation =
           "k = k0 (1 + S / N sum s t_i / (1 + s t_i)), t_i spread over w decades around tau",
-      .source = "effects.md; Prony series with equal branches",
+      .source = "Ferry 1980, ch. 1 and 3: generalised Maxwell model, here with equal branches",
       .confused_with = "damping, stiffness; several octaves, second mode, creep",
       .form_error = 0.08,
       .needs = {.base = true},

@@ -33,7 +33,7 @@ Effect vortex_shedding() {
       .link = Link::wind,
       .equation =
           "fluctuating u |u| at f = St u / D, its level c u^2, spread over the distribution of u",
-      .source = "effects.md; St and D by their ratio",
+      .source = "Blevins 1990, ch. 3; Vickery and Basu 1983, Gaussian band",
       .confused_with = "hum; wind sweep",
       .irreducible = true,
       .form_error = 0.01,

@@ -11,7 +11,7 @@
 
 namespace vibrissa::diagnosis {
 
-/// Place in the measuring chain (effects.md).
+/// Place in the measuring chain (docs/effects.md).
 enum class Link { reference, mount, structure, wind, sensor, clock };
 std::string to_string(Link link);
 
@@ -66,12 +66,12 @@ struct Needs {
   double moved_s = 0.;   // longer than this, all records together
 };
 
-/// One entry of the catalogue of effects.md: how the nominal simulator is extended.
+/// One entry of the catalogue of docs/effects.md: how the nominal simulator is extended.
 struct Effect {
   std::string id{};
   Link link = Link::structure;
   std::string equation{};
-  std::string source{};         // of equation, ranges and priors
+  std::string source{};         // of the equation; ranges and priors: docs/effects.md
   std::string confused_with{};  // and what tells apart
   bool retune = false;          // a mere parameter error: recalibrate
   bool irreducible = false;     // noise of its own

@@ -62,8 +62,8 @@ struct NominalModel {
   double wind_direct = 0.;                  // N m / (m/s)^2
   bool has_base = false, has_wind = false;  // paths that the simulation determined
   /// Share of the joint (the silicone) in the compliance of the first mode, and how well it is
-  /// known. Records do not tell it: 0.71 (paper.md) and 0.56 (our finite-element model) for
-  /// flow sensors, 1 for a rigid whisker.
+  /// known. Records do not tell it: 0.71 (docs/theory.md, T15) and 0.56 (our finite-element model)
+  /// for flow sensors, 1 for a rigid whisker.
   double joint_share = 0.7, joint_share_deviation = 0.15;
   /// Factor on the joint's part of that mode's damping that the rates tell.
   double joint_loss_factor = 1.;

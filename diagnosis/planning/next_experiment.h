@@ -16,7 +16,7 @@ struct MenuEntry {
   std::map<std::string, std::string> shows{};  // effect id -> what one would see
 };
 
-/// The experiments that a bench can do, from the column "told apart by" of effects.md.
+/// The experiments that a bench can do, from "told apart by" of docs/effects.md.
 const std::vector<MenuEntry>& experiment_menu();
 
 struct NextExperiment {

@@ -10,8 +10,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// Noise of the reference rig, a sample: the Hall element's 5.43 uT at 0.18 N m/T (paper.md), and
-/// an ADXL345's at rest.
+/// Noise of the reference rig, a sample: the Hall element's 5.43 uT at 0.18 N m/T (docs/theory.md,
+/// T15), and an ADXL345's at rest.
 ChannelNoise usual_noise();
 
 /// What shall move the sensor in one record.

@@ -13,7 +13,7 @@ enum class Start {
   periodic  // the inputs are whole periods in steady state
 };
 
-/// Base moment [N m] (frame and sign of records.md) that the model reads under a record's base
+/// Base moment [N m] (frame and sign of docs/records.md) that the model reads under a record's base
 /// acceleration, cross acceleration and wind speed, in free simulation without noise, one value a
 /// sample. Channels that are absent are zero. Throws UserError when the record holds no input that
 /// the model knows. Proven by tests/diagnosis/model/updated_model_test.cc.

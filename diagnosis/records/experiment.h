@@ -67,7 +67,8 @@ struct Experiment {
   Chain nominal_chain() const { return MendedModel(nominal, known).chain(); }
 };
 
-/// An ADXL345 or its like at rest, a sample [m/s^2]: paper.md gives 0.008 g as its bound.
+/// An ADXL345 or its like at rest, a sample [m/s^2]: docs/theory.md (T15) gives 0.008 g as its
+/// bound.
 inline constexpr double usual_acceleration_noise = 0.05;
 
 /// Fewest samples of which something is left to judge once the unknown start has decayed.

@@ -35,7 +35,7 @@ double squared_frequency_ratio(const ModeChange& change, double joint_share);
 double damping_ratio_factor(const ModeChange& change, double joint_share,
                             double nominal_damping_ratio);
 
-constexpr double mount_damping_ratio = 0.022;  // between 0.01 and 0.05 (effects.md)
+constexpr double mount_damping_ratio = 0.022;  // between 0.01 and 0.05 (docs/effects.md)
 
 /// A prior that is mostly within a usual range, and seldom in a wider one.
 struct UsualPrior {
@@ -55,7 +55,7 @@ struct ResonanceEffect {
   Part part = Part::joint;
   Parameter parameter{};                                  // its name, unit and fitted coordinate
   UsualPrior prior{};                                     // of the coordinate
-  double usual_low = 0., usual_high = 0.;                 // of the value (effects.md)
+  double usual_low = 0., usual_high = 0.;                 // of the value (docs/effects.md)
   std::function<double(double)> to_factor{}, to_value{};  // on the part, and back
   std::optional<Parameter> mass_ratio{};                  // of a mount
   std::string remark{};                                   // what the value means
@@ -69,14 +69,14 @@ struct ResonanceEffect {
 /// The effects of the catalogue that can move a first resonance by more than its uncertainty.
 /// Priors:
 ///  * stiffness: the silicone's modulus. Two ways to know it differ: Gent's relation for Shore 20A
-///    gives 0.73 MPa, the reference study's Yeoh fit 6 c1 = 2.04 MPa (paper.md). A simulation with
-///    a modulus between them is usually wrong by 0.73 MPa to 2.04 MPa over its own; for any other,
-///    also an unknown one, the same factor of 2.8 either way.
+///    gives 0.73 MPa, the reference study's Yeoh fit 6 c1 = 2.04 MPa (docs/theory.md, T15). A
+///    simulation with a modulus between them is usually wrong by 0.73 MPa to 2.04 MPa over its own;
+///    for any other, also an unknown one, the same factor of 2.8 either way.
 ///  * mass: 0.9 to 1.1 usual (infill of a printed fin, glue, magnet), heavy tails.
-///  * temperature_drift: 0.5 %/K over 20 K are a scale of 10 %; usual up to 30 % (effects.md).
+///  * temperature_drift: 0.5 %/K over 20 K are a scale of 10 %; usual up to 30 % (docs/effects.md).
 ///  * base_compliance, mount_compliance, softening_history, hardening, joint_friction,
 ///    viscoelastic: uniform (in the logarithm, as the catalogue) over the usual range of
-///    effects.md, a tenth over the catalogue's own bounds.
+///    docs/effects.md, a tenth over the catalogue's own bounds.
 /// simulated_hz makes mount frequencies relative. Left out are effects that leave poles where they
 /// are (links wind, sensor, reference; damping: f sqrt(1 - 2 zeta^2) moves by 0.4 % at zeta 0.05),
 /// extra_mode, clock_drift (at most 0.1 %) and backlash, whose gap has no scale without amplitude.

@@ -65,10 +65,10 @@ struct ResonanceDiagnosis {
 /// integrated along the line of solutions (the last figure solved for, the density divided by
 /// |dg/dx|) and over the deviation of y, 2 sqrt(s^2 + s0^2). P: the priors of the search
 /// (log_prior_of_number, Effect::log_prior). pi_c: the damper that is left, usual 0.3 .. 3
-/// (effects.md). The silicone's share is taken as given. `none` and, for what no effect reaches,
-/// outside_catalogue compete. Where the frequencies agree but not the damping ratios, the first of
-/// them is `damping`. Throws UserError for figures that are not positive, deviations outside (0,
-/// 0.5), damping ratios outside (0, 1) or shares outside (0, 1]. Proven by
+/// (docs/effects.md). The silicone's share is taken as given. `none` and, for what no effect
+/// reaches, outside_catalogue compete. Where the frequencies agree but not the damping ratios, the
+/// first of them is `damping`. Throws UserError for figures that are not positive, deviations
+/// outside (0, 0.5), damping ratios outside (0, 1) or shares outside (0, 1]. Proven by
 /// tests/diagnosis/resonances/resonance_gap_test.cc against closed forms, the finite-element model
 /// and sampled priors.
 ResonanceDiagnosis explain_resonance_gap(const ResonanceFigures& simulated,
@@ -80,10 +80,10 @@ struct ResonanceExample {
   ResonanceFigures simulated{}, measured{};
   ResonanceModel model{};
 };
-/// The reference study's flow sensor (paper.md): 37.32 Hz simulated, 31.47 Hz and 0.027 built, 0.05
-/// its nominal damping ratio. Share of the silicone 0.71, so that its modulus ratio is 0.64; the
-/// study's dimensions are not known: this project's model of them, cases/flow_sensor.prm, has 0.56,
-/// a deviation below. Yeoh modulus 6 c1 = 2.04 MPa.
+/// The reference study's flow sensor (docs/theory.md, T15): 37.32 Hz simulated, 31.47 Hz and 0.027
+/// built, 0.05 its nominal damping ratio. Share of the silicone 0.71, so that its modulus ratio is
+/// 0.64; the study's dimensions are not known: this project's model of them, cases/flow_sensor.prm,
+/// has 0.56, a deviation below. Yeoh modulus 6 c1 = 2.04 MPa.
 ResonanceExample paper_gap();
 
 }  // namespace vibrissa::diagnosis

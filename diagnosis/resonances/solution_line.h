@@ -21,7 +21,7 @@ struct ResonanceGap {
   bool dampings_agree() const;
   /// c / c0 that is left to explain on a changed mode.
   std::optional<double> damping_left(const ModeChange& change) const;
-  /// Prior density of its logarithm, usual 0.3 .. 3 (effects.md); 1 without damping ratios.
+  /// Prior density of its logarithm, usual 0.3 .. 3 (docs/effects.md); 1 without damping ratios.
   double damping_density(const ModeChange& change) const;
 };
 

@@ -16,7 +16,7 @@ double mean_square_error(std::span<const double> truth, std::span<const double> 
 /// rms(truth - estimate) / rms(truth - mean truth). Throws UserError for a constant truth.
 double nrmse(std::span<const double> truth, std::span<const double> estimate);
 
-/// 100 (1 - nrmse): "accuracy %" of records.md.
+/// 100 (1 - nrmse): "accuracy %" of docs/theory.md (T15).
 double fit_percent(std::span<const double> truth, std::span<const double> estimate);
 
 /// Variance accounted for, 100 (1 - var(truth - estimate) / var(truth)): blind to an offset.

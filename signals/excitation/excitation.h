@@ -88,8 +88,8 @@ std::string name_of(SweepLaw law);
 /// reveals in words, and phases, so that the drive can be made again elsewhere.
 nlohmann::json to_json(const DesignedExcitation& excitation);
 
-/// Writes one drive as a record (records.md) with the drive as the given channel, in its SI unit,
-/// or as WAV scaled to the full scale of all drives, so that their levels stay in proportion.
+/// Writes one drive as a record (docs/records.md) with the drive as the given channel, in its SI
+/// unit, or as WAV scaled to the full scale of all drives, so that their levels stay in proportion.
 /// Throws UnitError where the drive's unit measures something else than the channel.
 void write_drive_record(const std::filesystem::path& file, const DesignedExcitation& excitation,
                         const Drive& drive, const std::string& channel);

@@ -8,7 +8,7 @@
 namespace vibrissa::signals {
 
 enum class MultisinePhase {
-  schroeder,  // phi_i = -pi i (i - 1) / n_lines, phi_1 = 0 (paper.md, settled)
+  schroeder,  // phi_i = -pi i (i - 1) / n_lines, phi_1 = 0 (docs/theory.md, T11)
   random,     // uniform, from the seed
   ascending,  // the paper's experiment: sines with phases in steps of 30 degrees, from -90 degrees
   zero        // sines in phase: all -90 degrees

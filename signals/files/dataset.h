@@ -39,7 +39,7 @@ struct DatasetRecord {
   double clock_start_s = 0.;
 };
 
-/// Records of one sensor, as records.md describes the folder.
+/// Records of one sensor, as docs/records.md describes the folder.
 struct Dataset {
   std::vector<DatasetRecord> records;
   /// What had to be guessed because the folder does not say it; empty when it does.

@@ -13,7 +13,7 @@ namespace vibrissa::signals {
 
 /// How a record file is read. Rows are data rows, counted from 1 after the header line.
 struct ReadOptions {
-  std::vector<ColumnChoice> columns = {};  // empty: the columns of records.md as they are named
+  std::vector<ColumnChoice> columns = {};       // empty: the columns of docs/records.md as named
   std::optional<double> sampling_rate_hz = {};  // needed when the file tells no time
   std::size_t first_row = 1;
   std::optional<std::size_t> n_rows = {};

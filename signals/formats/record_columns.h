@@ -8,8 +8,8 @@
 
 namespace vibrissa::signals::formats {
 
-/// Channels in the order in which a record is written: those of records.md first, then the others
-/// by name.
+/// Channels in the order in which a record is written: those of docs/records.md first, then the
+/// others by name.
 std::vector<std::string> channels_in_writing_order(const Record& record);
 
 /// What formats with arrays hold of a record, in this order: sampling_rate_hz and start_s (one

@@ -8,7 +8,8 @@ namespace vibrissa::signals {
 /// Can the base move? A clamped stage stands still while its coil may be driven.
 enum class Stage { free, clamped };
 
-/// What was changed on the bench for one record (records.md); the defaults are the sensor as it is.
+/// What was changed on the bench for one record (docs/records.md); the defaults are the sensor as
+/// it is.
 struct BenchSetup {
   double added_mass_kg = 0., added_mass_height_m = 0.;  // above the base
   double tilt_deg = 0.;                                 // of the sensor's axis, from the vertical

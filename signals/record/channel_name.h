@@ -5,7 +5,7 @@
 
 namespace vibrissa::signals {
 
-/// Channels of records.md in the order in which a record is written; time_s last.
+/// Channels of docs/records.md in the order in which a record is written; time_s last.
 const std::vector<std::string>& known_channels();
 
 inline const std::string time_channel = "time_s";

@@ -27,7 +27,7 @@ struct Unknown {
   std::function<double(const World& plain)> hidden_below{};
 };
 
-/// Those that have a name, in the words of effects.md.
+/// Those that have a name, in the words of docs/effects.md.
 const std::vector<Unknown>& named_unknowns();
 /// Those that have none.
 const std::vector<Unknown>& nameless_unknowns();

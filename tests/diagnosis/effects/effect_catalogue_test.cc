@@ -10,7 +10,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// The words that effects.md fixes, but sample_repeat, which is known by its equal neighbours.
+/// The words that docs/effects.md fixes, but sample_repeat, which is known by its equal neighbours.
 const std::set<std::string> ids_of_effects_md{"stiffness",
                                               "damping",
                                               "mass",

@@ -196,7 +196,7 @@ TEST(Fdaf, GivesTheSameAgainAfterAReset) {
 }
 
 TEST(Fdaf, HoldsTheRingDownInThePapersSettings) {
-  // 431 samples to 1 % at 31.47 Hz, zeta 0.027, 500 Hz (paper.md).
+  // 431 samples to 1 % at 31.47 Hz, zeta 0.027, 500 Hz (docs/theory.md, T15).
   const double decay = 0.027 * 2. * std::numbers::pi * 31.47;
   const double n_samples = std::log(100.) / decay * 500.;
   EXPECT_NEAR(n_samples, 431., 1.);
