@@ -27,7 +27,16 @@ install(FILES ${PROJECT_BINARY_DIR}/vibrissaConfig.cmake
               ${PROJECT_BINARY_DIR}/vibrissaConfigVersion.cmake
         COMPONENT library DESTINATION ${VIBRISSA_PACKAGE_DIR})
 
+# Each package brings its licence, and the copyright file that Debian's policy asks for.
+function(vibrissa_install_licence component folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE COMPONENT ${component} DESTINATION ${folder})
+  install(FILES ${PROJECT_SOURCE_DIR}/cmake/debian_copyright COMPONENT ${component}
+          DESTINATION ${folder} RENAME copyright)
+endfunction()
+vibrissa_install_licence(library ${CMAKE_INSTALL_DATADIR}/doc/libvibrissa-dev)
+
 if(VIBRISSA_SOLID)
+  vibrissa_install_licence(program ${CMAKE_INSTALL_DOCDIR})
   install(TARGETS vibrissa COMPONENT program DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(TARGETS generate_trial observe_trial COMPONENT program
           DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/vibrissa)
@@ -41,8 +50,9 @@ if(VIBRISSA_SOLID)
           DESTINATION ${CMAKE_INSTALL_DATADIR}/vibrissa)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs COMPONENT program
           DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
-  install(FILES ${PROJECT_SOURCE_DIR}/README.md COMPONENT program
-          DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+                ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
+          COMPONENT program DESTINATION ${CMAKE_INSTALL_DOCDIR})
   # Manual and completion are what the program says of itself.
   foreach(text "manual man/man1/vibrissa.1" "completion bash-completion/completions/vibrissa")
     string(REPLACE " " ";" text ${text})
@@ -62,6 +72,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME vibrissa)
 set(CPACK_PACKAGE_CONTACT "The makers of Vibrissa <vibrissa@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program library)
 set(CPACK_COMPONENTS_GROUPING IGNORE)

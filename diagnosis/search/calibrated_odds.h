@@ -20,7 +20,7 @@ AnswerKind answer_kind(const std::string& answer);
 /// How often an answer of a kind was right in blind trials, where its odds among all that was tried
 /// say p: logit = offset + slope logit(p). It is less than p where something may be there that
 /// these records do not show, or that was not tried. Learnt by `vibrissa trial score`, whose seeds
-/// docs/trial.md tells.
+/// docs/diagnosis.md tells.
 struct Trust {
   double offset = 0., slope = 1.;
 };

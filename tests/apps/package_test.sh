@@ -29,4 +29,9 @@ test -s "$folder/trial/trial.json"
 PYTHONPATH="$folder/root/usr/lib/python3/dist-packages" /usr/bin/python3 -c \
   "import vibrissa; print(vibrissa.read_record('$folder/r.csv'))"
 test -s "$folder/root/usr/share/man/man1/vibrissa.1"
+cmp "$source/LICENSE" "$folder/root/usr/share/doc/vibrissa/LICENSE"
+dpkg-deb --extract "$folder"/packages/libvibrissa-dev_*.deb "$folder/library"
+for copyright in "$folder"/{root,library}/usr/share/doc/*/copyright; do
+  grep -q '^License: GPL-3+' "$copyright"
+done
 bash -n "$folder/root/usr/share/bash-completion/completions/vibrissa"
