@@ -1,4 +1,4 @@
-// Time of one foretelling of an experiment's records by the measuring chain, per sample: linear,
+// Time of one predicting of an experiment's records by the measuring chain, per sample: linear,
 // and with a joint that is nonlinear. Peers (two modes over 30 000 samples, side by side in SIMD)
 // need 0.67 ns (linear) and 2.85 ns (cubic) a sample and candidate for the state equations alone;
 // the chain adds the spectra that a likelihood in lines needs.
@@ -52,7 +52,7 @@ Experiment experiment() {
   return prepare_experiment(two_modes(), dataset, signals::Split::fit, InputNoise::as_measured);
 }
 
-void foretell(benchmark::State& state, const char* effect) {
+void predict(benchmark::State& state, const char* effect) {
   const Experiment prepared = experiment();
   Chain chain{.structure = prepared.nominal, .joint_share = 0.7};
   if (*effect != 0)
@@ -63,10 +63,10 @@ void foretell(benchmark::State& state, const char* effect) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-BENCHMARK_CAPTURE(foretell, linear, "")->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(foretell, viscoelastic, "viscoelastic")->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(foretell, cubic, "hardening")->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(foretell, friction, "joint_friction")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(predict, linear, "")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(predict, viscoelastic, "viscoelastic")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(predict, cubic, "hardening")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(predict, friction, "joint_friction")->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 

@@ -53,16 +53,17 @@ bool has_moving(const Experiment& experiment) {
 
 /// How well the joint is known after a fit.
 double joint_share_deviation(const Experiment& experiment, const HypothesisFit& fit) {
-  const auto place = static_cast<Eigen::Index>(place_joint_share);
+  const auto index = static_cast<Eigen::Index>(index_of_joint_share);
   return std::min(experiment.nominal.joint_share_deviation,
-                  std::sqrt(fit.covariance(place, place)));
+                  std::sqrt(fit.covariance(index, index)));
 }
 
 /// Scores of a fit on records that it has not seen, for an answer of its own.
 void score_answer(RankedAnswer& answer, const HypothesisFit& fit, const Experiment& experiment,
                   const Experiment& held_out, const DiagnoseOptions& options) {
   answer.held_out = score_held_out(experiment, held_out, fit, options.held_out);
-  if (!fit.hypothesis.is_discrepancy()) answer.left_over = left_over(experiment, held_out, fit);
+  if (!fit.hypothesis.is_discrepancy())
+    answer.residual_excess = residual_excess(experiment, held_out, fit);
 }
 
 /// Of the first few answers; answers that share a fit share its scores.
@@ -74,7 +75,7 @@ void score_answers(Diagnosis& out, const SearchResult& result, const Experiment&
     for (std::size_t j = 0; j < i && !answer.held_out; ++j)
       if (result.candidates[j].fit == fit) {
         answer.held_out = out.ranking[j].held_out;
-        answer.left_over = out.ranking[j].left_over;
+        answer.residual_excess = out.ranking[j].residual_excess;
       }
     if (!answer.held_out) score_answer(answer, result.fits[fit], experiment, held_out, options);
   }
@@ -96,9 +97,9 @@ std::optional<RankedAnswer> nearest_known(const SearchResult& result, const Expe
 
 /// The same where the held-out records themselves refuted what comes nearest.
 std::optional<Finding> refuted_by_held_out(const Diagnosis& diagnosis) {
-  if (!diagnosis.nearest_known || !diagnosis.nearest_known->left_over) return std::nullopt;
-  const LeftOver& left = *diagnosis.nearest_known->left_over;
-  if (!contradicts(left)) return std::nullopt;
+  if (!diagnosis.nearest_known || !diagnosis.nearest_known->residual_excess) return std::nullopt;
+  const ResidualExcess& left = *diagnosis.nearest_known->residual_excess;
+  if (!contradicted_by(left)) return std::nullopt;
   return Finding{.kind = FindingKind::not_confirmed,
                  .record = left.record,
                  .message = "what explains the fit records best, " + diagnosis.nearest_known->name +
@@ -111,8 +112,8 @@ std::optional<Finding> contradiction(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == outside_catalogue) return refuted_by_held_out(diagnosis);
   if (diagnosis.verdict == "none") return std::nullopt;
   if (!best.held_out || !best.held_out->overall.gap_closed_ci95) return std::nullopt;
-  // Of what cannot be foretold nothing closes; it is borne out by its power.
-  if (!best.held_out->not_foretold.empty()) return std::nullopt;
+  // Of what cannot be predicted nothing closes; it is confirmed by its power.
+  if (!best.held_out->not_predictable.empty()) return std::nullopt;
   if ((*best.held_out->overall.gap_closed_ci95)[1] >= 0.5) return std::nullopt;
   return Finding{.kind = FindingKind::not_confirmed,
                  .message =
@@ -120,7 +121,7 @@ std::optional<Finding> contradiction(const Diagnosis& diagnosis) {
                      "closes; the cause, or its size, does not carry over to them"};
 }
 
-void set_gap(Diagnosis& out, const MendedModel& simulation, const signals::Dataset& real,
+void set_gap(Diagnosis& out, const UpdatedModel& simulation, const signals::Dataset& real,
              const SearchResult& result, const Experiment& experiment) {
   if (!out.ranking.front().held_out) {
     const Experiment fit_records =
@@ -164,21 +165,21 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
                                                    const std::string& name) {
   const std::vector<std::string> ids = effect_ids(name);
   std::vector<Eigen::Index> named;
-  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-    const FreeFigure& figure = fit.figures[i];
-    if (figure.nuisance && figure.parameter == 0 &&
-        std::find(ids.begin(), ids.end(), figure.effect->id) != ids.end())
+  for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
+    const FitParameter& fit_parameter = fit.fit_parameters[i];
+    if (fit_parameter.nuisance && fit_parameter.parameter == 0 &&
+        std::find(ids.begin(), ids.end(), fit_parameter.effect->id) != ids.end())
       named.push_back(static_cast<Eigen::Index>(i));
   }
-  const RetunedPosterior posterior = retuned_posterior(fit, named);
+  const RecalibratedPosterior posterior = recalibrated_posterior(fit, named);
   std::vector<ParameterEstimate> out;
   for (const std::string& id : ids)
-    for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-      const FreeFigure& figure = fit.figures[i];
-      if (figure.effect == nullptr || figure.effect->id != id) continue;
-      const auto place = static_cast<Eigen::Index>(i);
-      const Parameter& parameter = figure.description;
-      const double x = posterior.x(place), variance = posterior.covariance(place, place),
+    for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
+      const FitParameter& fit_parameter = fit.fit_parameters[i];
+      if (fit_parameter.effect == nullptr || fit_parameter.effect->id != id) continue;
+      const auto index = static_cast<Eigen::Index>(i);
+      const Parameter& parameter = fit_parameter.description;
+      const double x = posterior.x(index), variance = posterior.covariance(index, index),
                    half = signals::normal_quantile_975 * std::sqrt(variance);
       const auto value = [&](double at) {
         return parameter.value(std::clamp(at, parameter.prior.low, parameter.prior.high));
@@ -195,23 +196,24 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
   return out;
 }
 
-MendedModel mended_model(const Experiment& experiment, const HypothesisFit& fit) {
-  MendedModel model(experiment.nominal, experiment.known);
-  model.nominal.joint_share = fit.x(static_cast<Eigen::Index>(place_joint_share));
+UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fit) {
+  UpdatedModel model(experiment.nominal, experiment.known);
+  model.nominal.joint_share = fit.x(static_cast<Eigen::Index>(index_of_joint_share));
   model.nominal.joint_share_deviation = joint_share_deviation(experiment, fit);
-  model.nominal.joint_loss_factor = fit.x(static_cast<Eigen::Index>(place_joint_loss));
-  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-    const FreeFigure& figure = fit.figures[i];
-    if (figure.effect == nullptr) continue;
-    if (figure.parameter == 0)
-      model.effects.push_back({.id = figure.effect->id, .values = {}, .scales = experiment.scales});
+  model.nominal.joint_loss_factor = fit.x(static_cast<Eigen::Index>(index_of_joint_loss));
+  for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
+    const FitParameter& fit_parameter = fit.fit_parameters[i];
+    if (fit_parameter.effect == nullptr) continue;
+    if (fit_parameter.parameter == 0)
+      model.effects.push_back(
+          {.id = fit_parameter.effect->id, .values = {}, .scales = experiment.scales});
     model.effects.back().values.push_back(
-        figure.description.value(fit.x(static_cast<Eigen::Index>(i))));
+        fit_parameter.description.value(fit.x(static_cast<Eigen::Index>(i))));
   }
   return model;
 }
 
-Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& recorded,
+Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recorded,
                    const DiagnoseOptions& options) {
   check_menu_names(options.possible_experiments);
   const NominalModel& nominal = simulation.nominal;
@@ -244,10 +246,10 @@ Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& record
   if (const auto finding = contradiction(out)) out.findings.push_back(*finding);
   set_gap(out, simulation, real, result, experiment);
   out.response = compare_response(experiment, result.fits[best.fit]);
-  out.mended = mended_model(experiment, result.fits[best.fit]);
-  if (out.verdict != outside_catalogue) out.resonance = resonance_change(experiment, out.mended);
-  out.wind_speed = wind_speed_error(simulation, out.mended, real);
-  out.separation = separation_quality(simulation, out.mended, real);
+  out.updated = updated_model(experiment, result.fits[best.fit]);
+  if (out.verdict != outside_catalogue) out.resonance = resonance_change(experiment, out.updated);
+  out.wind_speed = wind_speed_error(simulation, out.updated, real);
+  out.separation = separation_quality(simulation, out.updated, real);
   out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);
   out.indistinguishable = indistinguishable_sets(experiment, result);
   out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable,

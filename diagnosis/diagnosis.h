@@ -43,9 +43,9 @@ struct RankedAnswer {
   std::vector<ParameterEstimate> parameters{};
   /// Of stiffness and mass in the finite-element model's own parameters (material_estimates.h).
   std::vector<ParameterEstimate> materials{};
-  std::optional<HeldOutScore> held_out{};  // of the first few
-  std::optional<LeftOver> left_over{};     // of the same
-  std::vector<EffectShare> shares{};       // of the first, when it is a combination
+  std::optional<HeldOutScore> held_out{};           // of the first few
+  std::optional<ResidualExcess> residual_excess{};  // of the same
+  std::vector<EffectShare> shares{};                // of the first, when it is a combination
 };
 
 struct Gap {
@@ -79,8 +79,8 @@ struct Diagnosis {
   /// Nominal model and best answer beside the records.
   ResponseComparison response{};
   TraceComparison trace{};
-  /// The simulation with the best answer's effects and every retune as fitted.
-  MendedModel mended{};
+  /// The simulation with the best answer's effects and every calibration as fitted.
+  UpdatedModel updated{};
   /// What they do to the resonance and to the response below it; nothing where no known effect
   /// explains the records.
   std::optional<ResonanceChange> resonance{};
@@ -104,7 +104,7 @@ struct DiagnoseOptions {
 /// UserError for data that spoil everything (finding.h), TooPoorData when no fit record can be
 /// compared.
 /// Proven by tests/diagnosis/diagnosis_test.cc.
-Diagnosis diagnose(const MendedModel& simulation, const signals::Dataset& real,
+Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& real,
                    const DiagnoseOptions& options = {});
 
 /// Value and 95 % interval of each parameter that an answer names, back from the coordinates of the
@@ -113,6 +113,6 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
                                                    const std::string& name);
 
 /// The experiment's simulation with what a fit has added to it: its chain as a model to keep.
-MendedModel mended_model(const Experiment& experiment, const HypothesisFit& fit);
+UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fit);
 
 }  // namespace vibrissa::diagnosis

@@ -56,18 +56,19 @@ json score_json(const ErrorScore& score) {
   return out;
 }
 
-/// The two members of a figure that the mended model changes; null where there is none.
+/// The two members of a parameter that the updated model changes; null where there is none.
 template <typename Figure>
-json before_after(const std::optional<Figure>& figure, double Figure::*before,
+json before_after(const std::optional<Figure>& fit_parameter, double Figure::*before,
                   double Figure::*after) {
-  if (!figure) return nullptr;
-  return {{"before", json_number((*figure).*before)}, {"after", json_number((*figure).*after)}};
+  if (!fit_parameter) return nullptr;
+  return {{"before", json_number((*fit_parameter).*before)},
+          {"after", json_number((*fit_parameter).*after)}};
 }
 
 json held_out_json(const HeldOutScore& score) {
   json out = score_json(score.overall);
-  out["foretold"] = score.foretold;
-  out["not_foretold"] = score.not_foretold;
+  out["predicted"] = score.predicted;
+  out["not_predictable"] = score.not_predictable;
   out["vibration_left_db"] =
       before_after(score.vibration_left, &VibrationLeft::before_db, &VibrationLeft::after_db);
   out["records"] = json::array();
@@ -75,7 +76,7 @@ json held_out_json(const HeldOutScore& score) {
   return out;
 }
 
-json left_over_json(const LeftOver& left) {
+json residual_excess_json(const ResidualExcess& left) {
   return {{"record", left.record},
           {"excess_power", json_number(left.excess)},
           {"deviations", json_number(left.n_deviations)},
@@ -104,7 +105,8 @@ json answer_json(const RankedAnswer& answer) {
           {"in_the_models_parameters", estimates_json(answer.materials)},
           {"shapley_shares", shares},
           {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)},
-          {"left_over", answer.left_over ? left_over_json(*answer.left_over) : json(nullptr)}};
+          {"residual_excess",
+           answer.residual_excess ? residual_excess_json(*answer.residual_excess) : json(nullptr)}};
 }
 
 std::string verdict_line(const Diagnosis& diagnosis) {
@@ -175,8 +177,8 @@ std::string held_out_line(const HeldOutScore& score) {
   if (all.gap_closed && all.gap_closed_ci95)
     text += " (" + percent((*all.gap_closed_ci95)[0]) + " .. " +
             percent((*all.gap_closed_ci95)[1]) + ")";
-  if (!score.not_foretold.empty())
-    text += "; of " + joined(score.not_foretold, ", ") + " nothing can be foretold";
+  if (!score.not_predictable.empty())
+    text += "; of " + joined(score.not_predictable, ", ") + " nothing can be predicted";
   return text;
 }
 
@@ -184,7 +186,7 @@ std::string vibration_part(const HeldOutScore& score) {
   if (!score.vibration_left) return "";
   std::ostringstream text;
   text.precision(1);
-  text << std::fixed << "vibration left when the foretold one is subtracted "
+  text << std::fixed << "vibration left when the predicted one is subtracted "
        << score.vibration_left->before_db << " dB -> " << score.vibration_left->after_db << " dB";
   return text.str();
 }
@@ -217,9 +219,9 @@ std::string nearest_line(const Diagnosis& diagnosis) {
   std::string text = "Nearest: " + nearest.name;
   if (nearest.held_out && nearest.held_out->overall.gap_closed)
     text += " closes " + percent(*nearest.held_out->overall.gap_closed) + " of the gap";
-  if (nearest.left_over && contradicts(*nearest.left_over))
-    return text + ", but leaves " + three_digits(1. + nearest.left_over->excess) +
-           " times the power that noise and its form allow in " + nearest.left_over->record;
+  if (nearest.residual_excess && contradicted_by(*nearest.residual_excess))
+    return text + ", but leaves " + three_digits(1. + nearest.residual_excess->excess) +
+           " times the power that noise and its form allow in " + nearest.residual_excess->record;
   return text + ", but leaves more than noise";
 }
 
@@ -287,7 +289,7 @@ bool is_recalibration(const std::string& answer) {
   return !ids.empty() && std::all_of(ids.begin(), ids.end(), [](const std::string& id) {
     const auto& all = effect_catalogue();
     return std::any_of(all.begin(), all.end(),
-                       [&](const Effect& e) { return e.id == id && e.retune; });
+                       [&](const Effect& e) { return e.id == id && e.calibration; });
   });
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t ratio_number = 0, wire_share_number = 2;
 
-/// From ln of the ratio and its gradient by the coordinates of some figures.
+/// From ln of the ratio and its gradient by the coordinates of some parameters.
 ParameterEstimate estimate(const HypothesisFit& fit, const std::string& effect,
                            const std::string& name, const double log_ratio,
                            const std::vector<std::pair<std::size_t, double>>& gradient) {
@@ -40,8 +40,8 @@ void add_stiffness(const NominalModel& nominal, const HypothesisFit& fit,
                    std::vector<ParameterEstimate>& out) {
   const ParameterPath *silicone = nominal.path("silicone_modulus"),
                       *wire = nominal.path("wire_modulus");
-  const auto ratio = fit.place("stiffness", ratio_number),
-             share = fit.place("stiffness", wire_share_number);
+  const auto ratio = fit.index("stiffness", ratio_number),
+             share = fit.index("stiffness", wire_share_number);
   if (!silicone || !wire || !ratio || !share) return;
   const double log_ratio = fit.x(static_cast<Eigen::Index>(*ratio)),
                wire_share = fit.x(static_cast<Eigen::Index>(*share));
@@ -60,7 +60,7 @@ void add_mass(const NominalModel& nominal, const HypothesisFit& fit,
               std::vector<ParameterEstimate>& out) {
   const std::string name = nominal.mass_parameter();
   const ParameterPath* path = nominal.path(name);
-  const auto ratio = fit.place("mass", ratio_number);
+  const auto ratio = fit.index("mass", ratio_number);
   if (!path || !ratio) return;
   const double slope = -0.5 / path->frequency.front();
   out.push_back(estimate(fit, "mass", name + "_ratio",

@@ -19,7 +19,7 @@ struct MshElement {
   unsigned int line;
 };
 
-/// What a Gmsh file says, not yet judged: points and lines are left out.
+/// What a Gmsh file says, not yet evaluated: points and lines are left out.
 struct MshText {
   std::map<std::pair<int, int>, std::string> physical_names;  // by dimension and tag
   std::vector<dealii::Point<3>> nodes;

@@ -81,11 +81,11 @@ std::map<std::string, py::array_t<double>> separate(const Record& record,
 
 // Model and the report that `vibrissa diagnose --json` prints, and its words.
 struct Answer {
-  diagnosis::MendedModel mended;
+  diagnosis::UpdatedModel updated;
   std::string json, words;
 };
 
-Answer diagnose(const diagnosis::MendedModel& simulation, const signals::Dataset& real,
+Answer diagnose(const diagnosis::UpdatedModel& simulation, const signals::Dataset& real,
                 const std::size_t max_effects, const double simulated_rate_hz,
                 const std::vector<std::string>& possible_experiments) {
   diagnosis::DiagnoseOptions options;
@@ -93,16 +93,16 @@ Answer diagnose(const diagnosis::MendedModel& simulation, const signals::Dataset
   options.simulated_rate_hz = simulated_rate_hz;
   options.possible_experiments = possible_experiments;
   const diagnosis::Diagnosis found = diagnosis::diagnose(simulation, real, options);
-  return {found.mended, diagnosis::diagnosis_json(found), diagnosis::verdict_text(found)};
+  return {found.updated, diagnosis::diagnosis_json(found), diagnosis::verdict_text(found)};
 }
 
-// A reduced model or a mended model.
-diagnosis::MendedModel read_model(const std::filesystem::path& file) {
-  if (diagnosis::is_mended_model(file)) return diagnosis::read_mended_model(file);
+// A reduced model or an updated model.
+diagnosis::UpdatedModel read_model(const std::filesystem::path& file) {
+  if (diagnosis::is_updated_model(file)) return diagnosis::read_updated_model(file);
   return diagnosis::nominal_from(signals::read_reduced_model(file));
 }
 
-py::array_t<double> simulate(const diagnosis::MendedModel& model, const Record& inputs,
+py::array_t<double> simulate(const diagnosis::UpdatedModel& model, const Record& inputs,
                              const bool periodic) {
   std::vector<double> moment;
   {
@@ -133,20 +133,20 @@ void add_models(py::module_& module) {
           py::arg("frequency_hz"), "Base moment over base acceleration [kg m], exp(+j w t).")
       .def_property_readonly(
           "json", [](const SampledBvrm& model) { return separation::to_json(model).dump(); });
-  py::class_<diagnosis::MendedModel>(
+  py::class_<diagnosis::UpdatedModel>(
       module, "Model", "A simulation: nominal model and the effects known to be there.")
-      .def_static("read", &read_model, py::arg("file"), "model.json or mended_model.json.")
+      .def_static("read", &read_model, py::arg("file"), "model.json or updated_model.json.")
       .def_static(
           "from_records",
           [](const signals::Dataset& simulated) {
-            return diagnosis::MendedModel(diagnosis::identify_nominal(simulated));
+            return diagnosis::UpdatedModel(diagnosis::identify_nominal(simulated));
           },
           py::arg("simulated"), "The nominal model that simulated records say.")
       .def(
           "write",
-          [](const diagnosis::MendedModel& model, const std::filesystem::path& file) {
+          [](const diagnosis::UpdatedModel& model, const std::filesystem::path& file) {
             signals::write_file(
-                file, [&](std::ostream& out) { out << diagnosis::mended_model_json(model); });
+                file, [&](std::ostream& out) { out << diagnosis::updated_model_json(model); });
           },
           py::arg("file"))
       .def("simulate", &simulate, py::arg("inputs"), py::kw_only(), py::arg("periodic") = false,
@@ -165,7 +165,7 @@ void add_methods(py::module_& module) {
   module.def("separate", &separate, plain, py::arg("record"), py::arg("model"), py::arg("methods"),
              py::arg("block"), py::arg("taps"), py::arg("step"), py::arg("hold"));
   py::class_<Answer>(module, "Answer")
-      .def_readonly("mended", &Answer::mended)
+      .def_readonly("updated", &Answer::updated)
       .def_readonly("json", &Answer::json)
       .def_readonly("words", &Answer::words);
   module.def("diagnose", &diagnose, without_lock, py::arg("simulation"), py::arg("real"),

@@ -63,7 +63,7 @@ void add_scores(std::vector<report::KeyNumber>& numbers, const diagnosis::ErrorS
                                                       (*score.gap_closed_ci95)[1], percent)
                            : ""});
   numbers.push_back(
-      {"Error of the signal, mended", percent(score.nrmse_after),
+      {"Error of the signal, updated", percent(score.nrmse_after),
        "before " + percent(score.nrmse_before) + ", noise alone " + percent(score.noise_floor)});
 }
 
@@ -82,7 +82,7 @@ std::vector<report::KeyNumber> key_numbers(const Diagnosis& d) {
                            " Hz; below it the response is " + number(d.resonance->slow_gain_ratio) +
                            " times the simulated one"});
   if (d.wind_speed)
-    numbers.push_back({"Error of the wind speed, mended", number(d.wind_speed->after_m_s) + " m/s",
+    numbers.push_back({"Error of the wind speed, updated", number(d.wind_speed->after_m_s) + " m/s",
                        "before " + number(d.wind_speed->before_m_s) + " m/s"});
   return numbers;
 }
@@ -219,7 +219,7 @@ std::string separation_sentence(const Diagnosis& d) {
   if (!d.ranking.empty() && d.ranking.front().held_out &&
       d.ranking.front().held_out->vibration_left) {
     const auto& left = *d.ranking.front().held_out->vibration_left;
-    text << "Vibration left when the foretold one is subtracted: " << left.before_db
+    text << "Vibration left when the predicted one is subtracted: " << left.before_db
          << " dB before, " << left.after_db << " dB after. ";
   }
   if (d.separation)
@@ -280,7 +280,7 @@ report::Table explanation_table(const diagnosis::ResonanceDiagnosis& d) {
 }  // namespace
 
 report::Page diagnosis_page(const Diagnosis& d) {
-  const std::vector<report::Figure> figures = diagnosis_figures(d);
+  const std::vector<report::Figure> figures = diagnosis_plots(d);
   return {.title = "Why the bench differs from the simulation",
           .headline = headline(d),
           .verdict = verdict(d),

@@ -90,7 +90,7 @@ report::Figure response_figure(const diagnosis::Diagnosis& diagnosis) {
   panel.curves.push_back({.label = "with " + diagnosis.verdict,
                           .style = report::CurveStyle::dashed,
                           .x = response.frequency_hz,
-                          .y = response.mended});
+                          .y = response.updated});
   return {.name = "response",
           .title = "Response before and after",
           .caption = "At the lines that the drive excites.",
@@ -115,7 +115,7 @@ report::Panel trace_panel(const diagnosis::Diagnosis& diagnosis, const std::size
   panel.curves.push_back({.label = "with " + diagnosis.verdict,
                           .style = report::CurveStyle::dashed,
                           .x = part(trace.time_s, 1.),
-                          .y = part(trace.mended, 1e6)});
+                          .y = part(trace.updated, 1e6)});
   return panel;
 }
 
@@ -152,7 +152,7 @@ report::Figure ranking_figure(const std::vector<diagnosis::RankedAnswer>& rankin
 
 }  // namespace
 
-std::vector<report::Figure> diagnosis_figures(const diagnosis::Diagnosis& diagnosis) {
+std::vector<report::Figure> diagnosis_plots(const diagnosis::Diagnosis& diagnosis) {
   std::vector<report::Figure> figures;
   if (!diagnosis.location.map.empty()) figures.push_back(gap_map(diagnosis.location));
   if (!diagnosis.ranking.empty()) figures.push_back(ranking_figure(diagnosis.ranking));

@@ -10,9 +10,9 @@ namespace vibrissa::views {
 
 /// Gap map, ranking, response and held-out trace before and after; what the data do not give is
 /// left out. Proven by tests/apps/diagnose_test.cc.
-std::vector<report::Figure> diagnosis_figures(const diagnosis::Diagnosis& diagnosis);
+std::vector<report::Figure> diagnosis_plots(const diagnosis::Diagnosis& diagnosis);
 
-/// The trace among diagnosis_figures() below the whole record that it is the first second of.
+/// The trace among diagnosis_plots() below the whole record that it is the first second of.
 report::Figure held_out_record_figure(const diagnosis::Diagnosis& diagnosis);
 
 /// One row an answer: probability, held-out errors before and after, share of the gap closed.

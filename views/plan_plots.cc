@@ -33,7 +33,7 @@ std::string name_of(const EffectPower& effect) {
 
 /// Of all points and what is needed, with room at either end.
 report::Range evidence_range(std::span<const EffectPower* const> effects) {
-  report::Range range{diagnosis::nats_to_find, diagnosis::nats_to_find};
+  report::Range range{diagnosis::detection_threshold_nats, diagnosis::detection_threshold_nats};
   for (const EffectPower* effect : effects)
     for (const SensorKind kind : diagnosis::sensor_kinds)
       if (const double nats = effect->on(kind).nats; nats > 0.) {
@@ -61,16 +61,18 @@ report::Panel strength_panel(std::span<const EffectPower* const> effects,
   }
   for (const EffectPower* effect : effects) panel.y_names.push_back(name_of(*effect));
   std::reverse(panel.y_names.begin(), panel.y_names.end());
-  panel.curves.push_back({.label = "needed",
-                          .style = report::CurveStyle::dashed,
-                          .x = {diagnosis::nats_to_find, diagnosis::nats_to_find},
-                          .y = {0.5, static_cast<double>(effects.size()) + 0.5}});
+  panel.curves.push_back(
+      {.label = "needed",
+       .style = report::CurveStyle::dashed,
+       .x = {diagnosis::detection_threshold_nats, diagnosis::detection_threshold_nats},
+       .y = {0.5, static_cast<double>(effects.size()) + 0.5}});
   return panel;
 }
 
 report::Cell limit_cell(const EffectPower& effect, SensorKind kind) {
-  const diagnosis::Standing& standing = effect.on(kind);
-  return standing.any_size ? report::Cell("any size") : report::Cell(standing.limit);
+  const diagnosis::Detectability& detectability = effect.on(kind);
+  return detectability.detected_at_any_size ? report::Cell("any size")
+                                            : report::Cell(detectability.limit);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ namespace {
 struct DiagnoseCommand {
   CommonOptions common;
   NominalInput simulation;
-  FigureInput figures;   // in place of records
-  RecordOptions record;  // of the real sensor
+  ResonanceInput figures;  // in place of records
+  RecordOptions record;    // of the real sensor
   std::optional<std::string> real;
   std::optional<std::filesystem::path> folder;
   std::size_t max_effects = diagnosis::SearchOptions{}.max_effects;
@@ -38,10 +38,10 @@ void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& d
       report::RunFolder::given_or_free(options.folder, std::filesystem::path("results/diagnosis"));
   folder.write_run({.command_line = given_command_line()});
   folder.write_text("diagnosis.json", diagnosis::diagnosis_json(diagnosis));
-  folder.write_text("mended_model.json", diagnosis::mended_model_json(diagnosis.mended));
+  folder.write_text("updated_model.json", diagnosis::updated_model_json(diagnosis.updated));
   folder.write_text("verdict.txt", diagnosis::verdict_text(diagnosis, whole_verdict));
   folder.write_text("ranking.csv", views::ranking_table(diagnosis).to_csv());
-  for (const report::Figure& figure : views::diagnosis_figures(diagnosis))
+  for (const report::Figure& figure : views::diagnosis_plots(diagnosis))
     report::write_figure(folder.path(), figure);
   const auto pictures = report::draw_pictures(folder.path());
   report::write_page(folder.path(), views::diagnosis_page(diagnosis));
@@ -100,7 +100,7 @@ void diagnose(const DiagnoseCommand& options) {
     throw signals::UserError(
         "--resonance, --damping and --example compare figures, --real and --sim records: give "
         "either figures or records");
-  diagnose_figures(options.figures, options.simulation, options.common, options.folder);
+  diagnose_resonances(options.figures, options.simulation, options.common, options.folder);
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ void add_diagnose_command(CLI::App& app) {
       "Why the records differ from the simulation: where, which effect, how far the gap closes");
   command->add_option(
       "--model", options->simulation.model,
-      "The simulation as a case file (.prm), a reduced model or a mended model (.json)");
+      "The simulation as a case file (.prm), a reduced model or an updated model (.json)");
   command->add_option("--sim", options->simulation.simulation,
                       "The simulation as a dataset: a folder of records with dataset.json");
   command->add_option("--real", options->real,
@@ -121,11 +121,11 @@ void add_diagnose_command(CLI::App& app) {
   options->figures.add_to(*command);
   command->add_option(
       "-o,--out,--output", options->folder,
-      "New folder for report.html, diagnosis.json, mended_model.json, ranking.csv and pictures "
+      "New folder for report.html, diagnosis.json, updated_model.json, ranking.csv and pictures "
       "(default: results/diagnosis, numbered when it is there)");
   command
       ->add_option("--max-effects", options->max_effects,
-                   "Most effects that are combined beside retuned parameters")
+                   "Most effects that are combined beside recalibrated parameters")
       ->check(CLI::Range(1, 5))
       ->capture_default_str();
   command

@@ -72,7 +72,7 @@ NominalInput::Simulation simulation_of(const PlanCommand& options, bool show) {
   if (!simulation.model.effects.empty())
     throw signals::UserError(*options.nominal.model +
                              ": a plan starts from a simulation without effects: give the one that "
-                             "was mended");
+                             "was updated");
   return simulation;
 }
 

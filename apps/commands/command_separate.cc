@@ -40,11 +40,11 @@ struct SeparateOptions {
   bool stream = false;
 };
 
-/// What is left of the measured moment when a mended model has foretold the part of the base.
-std::vector<double> separate_by_mended_model(const std::string& file,
-                                             const signals::Record& record) {
+/// What is left of the measured moment when an updated model has predicted the part of the base.
+std::vector<double> separate_by_updated_model(const std::string& file,
+                                              const signals::Record& record) {
   std::vector<double> wind =
-      diagnosis::simulate_vibration(diagnosis::read_mended_model(file), record);
+      diagnosis::simulate_vibration(diagnosis::read_updated_model(file), record);
   const auto measured = record.channel(signals::channel::base_moment);
   std::transform(measured.begin(), measured.end(), wind.begin(), wind.begin(), std::minus<>());
   return wind;
@@ -69,9 +69,9 @@ std::vector<views::SeparatedSignal> separate_all(const SeparateOptions& options,
   const auto measured = record.channel(signals::channel::base_moment);
   std::vector<views::SeparatedSignal> signals{views::score(
       "nothing removed", {measured.begin(), measured.end()}, record, truth, options.settling_s)};
-  if (options.model_file && diagnosis::is_mended_model(*options.model_file)) {
-    signals.push_back(views::score("mended_model",
-                                   separate_by_mended_model(*options.model_file, record), record,
+  if (options.model_file && diagnosis::is_updated_model(*options.model_file)) {
+    signals.push_back(views::score("updated_model",
+                                   separate_by_updated_model(*options.model_file, record), record,
                                    truth, options.settling_s));
   } else if (options.model_file) {
     const auto bvrm = bvrm_separator(options, record.sampling_rate_hz());
@@ -141,9 +141,9 @@ void separate_as_stream(const SeparateOptions& options) {
         "--truth, --dtw-path and --sensor-model need");
   if (signals::formats::extension_of(*options.output_file) != ".csv")
     throw signals::UserError("--stream writes CSV: give -o a name that ends in .csv");
-  if (options.model_file && diagnosis::is_mended_model(*options.model_file))
+  if (options.model_file && diagnosis::is_updated_model(*options.model_file))
     throw signals::UserError(*options.model_file +
-                             ": a mended model is simulated whole: leave --stream out, or give a "
+                             ": an updated model is simulated whole: leave --stream out, or give a "
                              "model of 'vibrissa identify'");
   signals::RecordStream record(options.record_file, options.record.read_options());
   std::vector<NamedSeparator> methods;
@@ -209,10 +209,10 @@ void add_separate_command(CLI::App& app) {
   command
       ->add_option("record", options->record_file, "Record with base acceleration and base moment")
       ->required();
-  command->add_option(
-      "--model", options->model_file,
-      "BVRM as JSON, from 'vibrissa identify -o', or mended_model.json of a diagnosis (without it: "
-      "adaptive filter only)");
+  command->add_option("--model", options->model_file,
+                      "BVRM as JSON, from 'vibrissa identify -o', or updated_model.json of a "
+                      "diagnosis (without it: "
+                      "adaptive filter only)");
   command->add_option("--hold", options->hold,
                       "Base acceleration between samples: first_order, zero_order or band_limited "
                       "(default: as the model was fitted, else first_order)");

@@ -27,19 +27,19 @@ struct SimulateOptions {
   bool periodic = false;
 };
 
-/// The inputs of a record with the base moment that a mended model reads under them.
-signals::Record mended_record(const SimulateOptions& options) {
+/// The inputs of a record with the base moment that an updated model reads under them.
+signals::Record updated_record(const SimulateOptions& options) {
   if (!options.chosen.is_plain() || options.model_file)
     throw signals::UserError(
-        "a mended model is simulated under --inputs as it is: what changes a case file, and "
+        "an updated model is simulated under --inputs as it is: what changes a case file, and "
         "--model, are not for it");
   if (!options.input_file)
-    throw signals::UserError("--inputs: a mended model needs a record with its inputs");
+    throw signals::UserError("--inputs: an updated model needs a record with its inputs");
   signals::Record record = signals::read_record(*options.input_file);
   record.set_channel(
       signals::channel::base_moment,
       diagnosis::simulate_moment(
-          diagnosis::read_mended_model(options.chosen.case_file), record,
+          diagnosis::read_updated_model(options.chosen.case_file), record,
           options.periodic ? diagnosis::Start::periodic : diagnosis::Start::settled));
   return record;
 }
@@ -62,17 +62,17 @@ void report(const SimulateOptions& options, const signals::Record& record,
 void simulate(const SimulateOptions& options) {
   const FileNames outputs = {options.record_file, options.model_file};
   refuse_overwriting({options.chosen.case_file, options.input_file}, outputs);
-  if (diagnosis::is_mended_model(options.chosen.case_file)) {
+  if (diagnosis::is_updated_model(options.chosen.case_file)) {
     if (!fem::is_first_process()) return;
-    const signals::Record record = mended_record(options);
+    const signals::Record record = updated_record(options);
     signals::write_record(options.record_file, record);
-    report(options, record, "mended model");
+    report(options, record, "updated model");
     return;
   }
   if (options.input_file)
-    throw signals::UserError("--inputs is for a mended model; a case file names its own inputs");
+    throw signals::UserError("--inputs is for an updated model; a case file names its own inputs");
   if (options.periodic)
-    throw signals::UserError("--periodic is for the --inputs of a mended model");
+    throw signals::UserError("--periodic is for the --inputs of an updated model");
   const sensor_case::Case parameters = options.chosen.load().read();
   refuse_overwriting(recordings_of(parameters), outputs);
   sensor_case::check_reduced_wind(parameters);
@@ -98,9 +98,10 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("-o,--output,--out,--record", options->record_file, "Record written")
       ->capture_default_str();
   command->add_option("--model", options->model_file, "Also write the reduced model (JSON)");
-  command->add_option("--inputs", options->input_file,
-                      "With a mended model (mended_model.json of a diagnosis) in place of the case "
-                      "file: record with its base acceleration and wind speed; no noise");
+  command->add_option(
+      "--inputs", options->input_file,
+      "With an updated model (updated_model.json of a diagnosis) in place of the case "
+      "file: record with its base acceleration and wind speed; no noise");
   command->add_flag("--periodic", options->periodic,
                     "These inputs are whole periods in steady state");
   add_common_options(*command, options->common);
@@ -108,7 +109,7 @@ void add_simulate_command(CLI::App& app) {
       "Examples:\n"
       "  vibrissa simulate sensor.prm -o simulated.csv --model model.json\n"
       "  vibrissa simulate sensor.prm --set 'Materials/Silicone/c1=2.4e5' -o softer.csv\n"
-      "  vibrissa simulate diagnosis/mended_model.json --inputs bench.csv -o mended.csv");
+      "  vibrissa simulate diagnosis/updated_model.json --inputs bench.csv -o updated.csv");
   command->callback([options] { simulate(*options); });
 }
 

@@ -26,7 +26,7 @@ std::array<double, 2> simulated_and_measured(const std::string& option, const st
                            "' is not SIMULATED:MEASURED: give two numbers with a colon between");
 }
 
-void check(const FigureInput& figures) {
+void check(const ResonanceInput& figures) {
   if (figures.example && (figures.resonance || figures.damping))
     throw signals::UserError(
         "--example has its own figures: leave out --resonance and --damping, or --example");
@@ -36,7 +36,7 @@ void check(const FigureInput& figures) {
     throw signals::UserError(signals::unknown_name("example", *figures.example, {"paper-gap"}));
 }
 
-diagnosis::ResonanceExample read(const FigureInput& figures) {
+diagnosis::ResonanceExample read(const ResonanceInput& figures) {
   if (figures.example) return diagnosis::paper_gap();
   diagnosis::ResonanceExample given;
   const auto hz = simulated_and_measured("--resonance", *figures.resonance);
@@ -52,7 +52,7 @@ diagnosis::ResonanceExample read(const FigureInput& figures) {
 
 }  // namespace
 
-void FigureInput::add_to(CLI::App& command) {
+void ResonanceInput::add_to(CLI::App& command) {
   command.add_option("--resonance", resonance,
                      "SIMULATED_HZ:MEASURED_HZ: the first resonances, when there are no records");
   command.add_option("--damping", damping, "SIMULATED:MEASURED: damping ratios beside --resonance");
@@ -60,9 +60,9 @@ void FigureInput::add_to(CLI::App& command) {
                      "Built-in figures: paper-gap, the reference study's own gap");
 }
 
-void diagnose_figures(const FigureInput& figures, const NominalInput& simulation,
-                      const CommonOptions& common,
-                      const std::optional<std::filesystem::path>& folder) {
+void diagnose_resonances(const ResonanceInput& figures, const NominalInput& simulation,
+                         const CommonOptions& common,
+                         const std::optional<std::filesystem::path>& folder) {
   check(figures);
   diagnosis::ResonanceExample given = read(figures);
   if (simulation.model)

@@ -11,7 +11,7 @@
 namespace vibrissa::apps {
 
 /// Figures that `vibrissa diagnose` takes in place of records.
-struct FigureInput {
+struct ResonanceInput {
   std::optional<std::string> resonance, damping, example;
 
   void add_to(CLI::App& command);
@@ -20,8 +20,8 @@ struct FigureInput {
 
 /// Explains a gap of two resonances and leaves the answer on standard output and, when a folder is
 /// named, there. Throws UserError for figures that contradict each other or the simulation.
-void diagnose_figures(const FigureInput& figures, const NominalInput& simulation,
-                      const CommonOptions& common,
-                      const std::optional<std::filesystem::path>& folder);
+void diagnose_resonances(const ResonanceInput& figures, const NominalInput& simulation,
+                         const CommonOptions& common,
+                         const std::optional<std::filesystem::path>& folder);
 
 }  // namespace vibrissa::apps

@@ -43,7 +43,7 @@ NominalInput::Simulation NominalInput::read(const bool show_progress) const {
     signals::Dataset dataset = signals::read_dataset(*simulation);
     return {diagnosis::identify_nominal(dataset), std::move(dataset)};
   }
-  if (diagnosis::is_mended_model(*model)) return {diagnosis::read_mended_model(*model), {}};
+  if (diagnosis::is_updated_model(*model)) return {diagnosis::read_updated_model(*model), {}};
   return {diagnosis::nominal_from(read_model(show_progress)), {}};
 }
 

@@ -16,7 +16,7 @@ struct NominalInput {
   /// The simulation and its records, none when it is a model. Throws UserError unless one of the
   /// two is given, and what their readers throw.
   struct Simulation {
-    diagnosis::MendedModel model;
+    diagnosis::UpdatedModel model;
     signals::Dataset dataset;
     /// Of the first record; 0: none.
     double sampling_rate_hz() const;

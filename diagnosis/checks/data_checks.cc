@@ -47,7 +47,7 @@ void check_clipping(const DatasetRecord& entry, std::vector<Finding>& findings) 
 
 void check_repeats(const DatasetRecord& entry, std::vector<Finding>& findings) {
   const auto check = [&](const std::string& name, bool moves) {
-    if (!moves || !entry.record.has(name) || !is_polled(entry.record.channel(name))) return;
+    if (!moves || !entry.record.has(name) || !is_held(entry.record.channel(name))) return;
     findings.push_back({FindingKind::repeated_samples, entry.name,
                         three_digits(100. * repeat_share(entry.record.channel(name))) +
                             " % of the samples of " + name +

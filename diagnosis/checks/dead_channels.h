@@ -8,7 +8,7 @@
 namespace vibrissa::diagnosis {
 
 /// Channels that do not follow what the record says of its excitation: constant where they must
-/// move, standing still for a while between values that differ. Proven by
+/// move, detectability still for a while between values that differ. Proven by
 /// tests/diagnosis/checks/dead_channels_test.cc.
 void check_dead_channels(const signals::DatasetRecord& entry, std::vector<Finding>& findings);
 

@@ -23,7 +23,7 @@ Effect backlash() {
       .equation = "T = -loss clip(k0 phi, -g Y, g Y)",
       .source = "Worden and Tomlinson 2001, sec. 2.3.3; Kahraman and Singh 1990, dead zone",
       .confused_with = "joint_friction; threshold, odd lines at low level",
-      .form_error = 0.1,
+      .model_form_error = 0.1,
       .needs = {.base = true},
       .parameters = {log_uniform("gap", "1", 5e-4, 0.6, 0.), uniform("loss", "1", 0.1, 1., 0.)},
       .starts = {{0.02, 0.6}, {0.1, 0.6}, {0.005, 0.6}},

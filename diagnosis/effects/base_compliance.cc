@@ -9,7 +9,7 @@ Effect base_compliance() {
                 .equation = "1/k = 1/k0 + 1/ks",
                 .source = "Grossi and Albarracin 2003, restrained beams; Den Hartog 1956, ch. 2",
                 .confused_with = "stiffness (exact alias); second accelerometer, stiffer clamp",
-                .form_error = 0.02,
+                .model_form_error = 0.02,
                 .log_prior = -1.5,
                 .parameters = {log_uniform("stiffness_ratio", "1", 0.5, 1e4, 1e100)},
                 .starts = {{10.}, {30.}},

@@ -8,7 +8,7 @@ Effect clock_drift() {
                 .equation = "moment sampled at t (1 + e)",
                 .source = "Allan 1987, frequency offset of clocks",
                 .confused_with = "delay; blockwise phase",
-                .form_error = 0.02,
+                .model_form_error = 0.02,
                 .parameters = {uniform("rate_error", "1", -1.5e-3, 1.5e-3, 0.)},
                 .starts = {{3e-5}, {-3e-5}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {

@@ -8,7 +8,7 @@ Effect coil_feedthrough() {
                 .equation = "M_read = M + b M0 a",
                 .source = "ISO 16063-33:2017, magnetic field sensitivity",
                 .confused_with = "mass; wide band, clamped stage",
-                .form_error = 0.01,
+                .model_form_error = 0.01,
                 .needs = {.base = true},
                 .parameters = {uniform("gain", "1", -0.7, 0.7, 0.)},
                 .starts = {{0.02}, {-0.02}},

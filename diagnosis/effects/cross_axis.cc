@@ -8,7 +8,7 @@ Effect cross_axis() {
                 .equation = "M += (e + f H(s) / H(0)) M0 a_perp",
                 .source = "ISO 16063-31:2009, transverse sensitivity; ADXL345 data sheet, rev. E",
                 .confused_with = "reference_noise; second axis",
-                .form_error = 0.02,
+                .model_form_error = 0.02,
                 .needs = {.cross = true},
                 .parameters = {normal("static_gain", "1", 0., 0.2, -2., 2., 0.),
                                normal("dynamic_gain", "1", 0., 0.2, -2., 2., 0.)},

@@ -8,7 +8,7 @@ Effect delay() {
                 .equation = "M_read(t) = M(t - tau)",
                 .source = "Oppenheim, Willsky and Nawab 1997, ch. 4: time shift",
                 .confused_with = "sensor_lowpass; magnitude at high frequency",
-                .form_error = 0.01,
+                .model_form_error = 0.01,
                 .parameters = {uniform("tau", "s", -6e-3, 6e-3, 0.)},
                 .starts = {{2e-4}, {-2e-4}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {

@@ -23,7 +23,7 @@ Effect extra_mode() {
                 .equation = "M += g M0 / ((s/w)^2 + 2 z s/w + 1) a",
                 .source = "Ewins 2000, ch. 2: response as a sum of modes",
                 .confused_with = "mount_compliance",
-                .form_error = 0.03,
+                .model_form_error = 0.03,
                 .needs = {.base = true, .moved_s = 3.},
                 .parameters = {log_uniform("frequency", "Hz", 45., 240., 100.),
                                log_uniform("damping_ratio", "1", 0.004, 0.15, 0.02),

@@ -8,7 +8,7 @@ Effect flow_lag() {
                 .equation = "tau u' + u = u_measured",
                 .source = "Wyngaard 1981, first-order response; Scanlan et al. 1974, bluff bodies",
                 .confused_with = "drag_error; frequency",
-                .form_error = 0.02,
+                .model_form_error = 0.02,
                 .needs = {.wind = true},
                 .parameters = {log_uniform("tau", "s", 2e-5, 0.4, 0.)},
                 .starts = {{0.01}, {0.05}},

@@ -28,7 +28,7 @@ Effect hardening() {
       .equation = "T = k0 phi b (y/Y)^2",
       .source = "Nayfeh and Mook 1979, ch. 4; Worden and Tomlinson 2001, sec. 2.3.1 and 3.2",
       .confused_with = "joint_friction, softening_history; exponent of level, free decay",
-      .form_error = 0.1,
+      .model_form_error = 0.1,
       .needs = {.base = true},
       .parameters = {uniform("cubic_ratio", "1", -0.6, 8., 0.)},
       .starts = {{0.03}, {-0.03}, {0.2}, {0.6}, {1.5}, {4.}, {-0.15}},

@@ -26,7 +26,7 @@ Effect hum() {
       .source = "Ott 2009, cabling and grounding; Harris 1978, leakage of a line",
       .confused_with = "vortex_shedding; line in the quiet record",
       .irreducible = true,
-      .form_error = 0.01,
+      .model_form_error = 0.01,
       .parameters = {log_uniform("amplitude", "N m", 1e-8, 1e-3, 0.), frequency},
       .starts = {{3e-7, 50.},
                  {3e-6, 50.},

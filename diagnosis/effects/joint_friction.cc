@@ -40,7 +40,7 @@ Effect joint_friction() {
                     "-0.25, 0.25, 0.75)) Y",
                 .source = "Iwan 1966, distributed-element model for hysteresis",
                 .confused_with = "hardening; loop area ~ A vs A^2..3",
-                .form_error = 0.15,
+                .model_form_error = 0.15,
                 .needs = {.base = true},
                 .parameters = {log_uniform("stiffness_ratio", "1", 0.03, 1.5, 0.),
                                log_uniform("slip_moment", "1", 2e-4, 0.7, 1.),

@@ -22,8 +22,8 @@ Effect mass() {
       .source = "Friswell and Mottershead 1995; Berman and Flannelly 1971, incomplete models",
       .confused_with =
           "stiffness + damping + reference_gain (exact alias for one mode); added known mass",
-      .retune = true,
-      .form_error = 0.02,
+      .calibration = true,
+      .model_form_error = 0.02,
       .needs = {.base = true},
       .parameters = {log_uniform("ratio", "1", 0.7, 1.45, 1.),
                      normal("forcing_exponent", "1", 1., 0.1, 0.6, 1.4, 1.),

@@ -11,7 +11,7 @@ Effect mount_compliance() {
                     "mass ratio of the first mode",
                 .source = "ISO 5348:2021, mounting of accelerometers; Den Hartog 1956, ch. 3",
                 .confused_with = "extra_mode, stage_rocking; wide band",
-                .form_error = 0.03,
+                .model_form_error = 0.03,
                 .needs = {.base = true},
                 .parameters = {log_uniform("frequency", "Hz", 45., 1500., 1e9),
                                log_uniform("damping_ratio", "1", 0.005, 0.12, 0.02),

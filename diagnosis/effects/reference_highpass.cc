@@ -10,7 +10,7 @@ Effect reference_highpass() {
       .equation = "a_read = s / (s + w) a",
       .source = "Doebelin 2004, ch. 4: piezoelectric accelerometers",
       .confused_with = "sensor_drift; lower lines",
-      .form_error = 0.01,
+      .model_form_error = 0.01,
       .needs = {.base = true},
       .parameters = {log_uniform("corner", "Hz", 0.002, 6., 0.)},
       .starts = {{0.1}, {1.}},

@@ -9,7 +9,7 @@ Effect reference_noise() {
                 .source = "ADXL345 data sheet, rev. E, noise; Bendat and Piersol 2010, ch. 6",
                 .confused_with = "none",
                 .irreducible = true,
-                .form_error = 0.01,
+                .model_form_error = 0.01,
                 .needs = {.base = true},
                 .parameters = {log_uniform("standard_deviation", "m/s^2", 0.05, 3., 0.)},
                 .starts = {{0.1}, {0.5}},

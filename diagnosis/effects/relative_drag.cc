@@ -27,7 +27,7 @@ Effect relative_drag() {
                     "joint's moment, g that of static acceleration",
                 .source = "Morison et al. 1950; Blevins 1990, ch. 6 and 8: relative velocity",
                 .confused_with = "damping; wind ladder",
-                .form_error = 0.1,
+                .model_form_error = 0.1,
                 .needs = {.base = true, .wind = true},
                 .parameters = {log_uniform("share", "1", 0.02, 5., 0.),
                                log_usual("lever", "1", 0.5, 2., 0.1, 10., 1.)},

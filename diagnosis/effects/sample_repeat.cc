@@ -10,12 +10,12 @@ Effect sample_repeat() {
       .source =
           "ADXL345 data sheet, rev. E, table 7: data rates; Crochiere and Rabiner 1983, ch. 2",
       .confused_with = "reference_noise; equal neighbours",
-      .form_error = 0.015,
+      .model_form_error = 0.015,
       .needs = {.base = true, .repeats = true},
       .parameters = {uniform("share", "1", 0., 1., 0.), uniform("age", "s", -2e-3, 4e-3, 0.)},
       .starts = {{1., 0.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
-        chain.renewed_share += v[0];
+        chain.new_sample_share += v[0];
         chain.reference.push_back([age = v[1]](Complex s) { return std::exp(s * age); });
       }};
 }

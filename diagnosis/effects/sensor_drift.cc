@@ -11,7 +11,7 @@ Effect sensor_drift() {
       .source = "El-Sheimy, Hou and Niu 2008, random walk by Allan variance",
       .confused_with = "turbulence; quiet record",
       .irreducible = true,
-      .form_error = 0.01,
+      .model_form_error = 0.01,
       // What wanders within a second or two may be what the unknown start of a record leaves.
       .needs = {.moved_s = 3.},
       .parameters = {log_uniform("walk", "N m/s^0.5", 1e-8, 1e-4, 0.)},

@@ -8,8 +8,8 @@ Effect sensor_gain() {
                 .equation = "M_read = r M",
                 .source = "MLX90393 data sheet, rev. 003, sensitivity; Doebelin 2004, ch. 3",
                 .confused_with = "reference_gain + drag_error",
-                .retune = true,
-                .form_error = 0.01,
+                .calibration = true,
+                .model_form_error = 0.01,
                 .parameters = {ratio_near_one("ratio", 0.02, 0.6, 1.6)},
                 .starts = {{0.98}, {1.02}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {

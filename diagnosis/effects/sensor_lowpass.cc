@@ -14,7 +14,7 @@ Effect sensor_lowpass() {
           "that is sampled",
       .source = "Doebelin 2004, ch. 3; Millman and Halkias 1972, bandwidth of equal stages",
       .confused_with = "delay; droop",
-      .form_error = 0.02,
+      .model_form_error = 0.02,
       .parameters = {log_usual("corner", "Hz", 30., 250., 10., 3e4, 1e100),
                      normal("half_step", "s", 0., 5e-5, -2e-4, 2e-4, 0.),
                      uniform("lags", "1", 1., 3., 1.)},

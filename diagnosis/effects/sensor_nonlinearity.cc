@@ -8,7 +8,7 @@ Effect sensor_nonlinearity() {
                 .equation = "M_read = M (1 + b x + c x^2 / (1 + |c| x^2)), x = M / Y",
                 .source = "Worden and Tomlinson 2001, sec. 2.4; Pintelon and Schoukens 2012, ch. 4",
                 .confused_with = "hardening; harmonics at fixed frequency, also on slow wind",
-                .form_error = 0.1,
+                .model_form_error = 0.1,
                 .parameters = {normal("quadratic", "1", 0., 0.1, -0.6, 0.6, 0.),
                                normal("cubic", "1", 0., 0.15, -1.5, 1.5, 0.)},
                 .starts = {{0.01, 0.01}, {0.01, -0.01}, {-0.01, -0.1}, {0.05, 0.}, {-0.05, 0.}},

@@ -29,7 +29,7 @@ Effect softening_history() {
       .equation = "k = k0 (1 - D (1 - exp(-y_max / (L Y)))), y_max = largest so far",
       .source = "Mullins 1969; Ogden and Roxburgh 1999, pseudo-elastic model",
       .confused_with = "hardening < 0; up/down ladder",
-      .form_error = 0.1,
+      .model_form_error = 0.1,
       .needs = {.base = true},
       .parameters = {log_uniform("softening", "1", 3e-4, 0.6, 0.),
                      log_uniform("level", "1", 0.02, 3., 1.)},

@@ -11,7 +11,7 @@ Effect stage_rocking() {
           "a_base = a (1 + e / (1 + 2 z s/w + (s/w)^2)), e = kappa times the height of the mode",
       .source = "ISO 16063-21:2003, rocking motion of exciters",
       .confused_with = "reference_gain; wide band, second accelerometer",
-      .form_error = 0.03,
+      .model_form_error = 0.03,
       .needs = {.base = true},
       // With a resonance beyond the band it is a gain: which it is then is not told.
       .log_prior = -1.7,

@@ -28,7 +28,7 @@ Effect temperature_drift() {
           "record; c = c0 (1 + p x)",
       .source = "Ferry 1980, ch. 11; Treloar 1975, ch. 4: modulus of rubber and temperature",
       .confused_with = "sensor_drift; frequency moves here, offset there",
-      .form_error = 0.05,
+      .model_form_error = 0.05,
       // Silicone warms over minutes: what seems to drift within a few seconds is the
       // accelerometer's noise that the mode carries on.
       .needs = {.base = true, .moved_s = 3.},

@@ -9,7 +9,7 @@ Effect turbulence() {
                 .source = "von Karman 1948, longitudinal spectrum",
                 .confused_with = "reference_noise; fan off",
                 .irreducible = true,
-                .form_error = 0.01,
+                .model_form_error = 0.01,
                 .needs = {.wind = true},
                 .parameters = {log_uniform("intensity", "1", 0.001, 0.6, 0.),
                                log_uniform("corner", "Hz", 0.5, 60., 5.)},

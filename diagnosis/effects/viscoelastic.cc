@@ -12,8 +12,8 @@ constexpr std::size_t n_branches = 5;
 std::array<double, n_branches> branch_times(double tau, double decades) {
   std::array<double, n_branches> times{};
   for (std::size_t i = 0; i < n_branches; ++i) {
-    const double place = static_cast<double>(i) / (n_branches - 1) - 0.5;
-    times[i] = tau * std::pow(10., decades * place);
+    const double index = static_cast<double>(i) / (n_branches - 1) - 0.5;
+    times[i] = tau * std::pow(10., decades * index);
   }
   return times;
 }
@@ -28,7 +28,7 @@ Effect viscoelastic() {
           "k = k0 (1 + S / N sum s t_i / (1 + s t_i)), t_i spread over w decades around tau",
       .source = "Ferry 1980, ch. 1 and 3: generalised Maxwell model, here with equal branches",
       .confused_with = "damping, stiffness; several octaves, second mode, creep",
-      .form_error = 0.08,
+      .model_form_error = 0.08,
       .needs = {.base = true},
       // Half of its times are so slow that it is a change of stiffness.
       .log_prior = -0.7,

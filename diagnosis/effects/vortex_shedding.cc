@@ -36,7 +36,7 @@ Effect vortex_shedding() {
       .source = "Blevins 1990, ch. 3; Vickery and Basu 1983, Gaussian band",
       .confused_with = "hum; wind sweep",
       .irreducible = true,
-      .form_error = 0.01,
+      .model_form_error = 0.01,
       .needs = {.wind = true},
       .parameters = {log_uniform("level", "1", 0.001, 1., 0.),
                      log_uniform("strouhal_over_diameter", "1/m", 8., 180., 10.),

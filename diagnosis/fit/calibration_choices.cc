@@ -9,43 +9,44 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A posterior given that some of its figures are nominal, or negligibly off, and the log density
-/// that it had there.
+/// A posterior given that some of its parameters are nominal, or negligibly off, and the log
+/// density that it had there.
 struct AtNominal {
-  RetunedPosterior posterior;
+  RecalibratedPosterior posterior;
   double log_density = 0.;
 };
 
 AtNominal at_nominal(const NominalModel& nominal, const HypothesisFit& fit,
-                     const RetunedPosterior& posterior, const std::vector<Eigen::Index>& places) {
+                     const RecalibratedPosterior& posterior,
+                     const std::vector<Eigen::Index>& indices) {
   AtNominal out{.posterior = posterior};
-  const auto n = static_cast<Eigen::Index>(places.size());
+  const auto n = static_cast<Eigen::Index>(indices.size());
   if (n == 0) return out;
-  Eigen::MatrixXd covariance = posterior.covariance(places, places);
+  Eigen::MatrixXd covariance = posterior.covariance(indices, indices);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const FreeFigure& figure = fit.figures[static_cast<std::size_t>(places[i])];
-    const double width = negligible_retune(nominal, figure.effect->id);
-    const double information = fit.information(places[i], places[i]);
-    covariance(i, i) += width * width + fit.shift_by_forms(figure.effect, information);
+    const FitParameter& fit_parameter = fit.fit_parameters[static_cast<std::size_t>(indices[i])];
+    const double width = negligible_calibration(nominal, fit_parameter.effect->id);
+    const double information = fit.information(indices[i], indices[i]);
+    covariance(i, i) += width * width + fit.shift_by_forms(fit_parameter.effect, information);
   }
-  const Eigen::VectorXd x = posterior.x(places);
+  const Eigen::VectorXd x = posterior.x(indices);
   const Eigen::LDLT<Eigen::MatrixXd> ldlt(covariance);
   const double log_determinant = ldlt.vectorD().array().abs().log().sum();
   out.log_density = -0.5 * (x.dot(ldlt.solve(x)) + log_determinant +
                             static_cast<double>(n) * std::log(2. * std::numbers::pi));
-  const Eigen::MatrixXd columns = posterior.covariance(Eigen::all, places);
+  const Eigen::MatrixXd columns = posterior.covariance(Eigen::all, indices);
   out.posterior.x -= columns * ldlt.solve(x);
   out.posterior.covariance -= columns * ldlt.solve(Eigen::MatrixXd(columns.transpose()));
   return out;
 }
 
-/// What tolerances have cost a fit, in nats: as much at most is refunded. A climb that has ended
+/// What tolerances have cost a fit, in nats: as much at most is refunded. A state that has ended
 /// before its top has not paid for what its curvature promises.
 double cost_of_tolerances(const HypothesisFit& fit) {
   double sum = 0.;
-  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-    const Prior& tolerance = fit.figures[i].description.prior;
-    if (fit.figures[i].nuisance && fit.figures[i].parameter == 0)
+  for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
+    const Prior& tolerance = fit.fit_parameters[i].description.prior;
+    if (fit.fit_parameters[i].nuisance && fit.fit_parameters[i].parameter == 0)
       sum += tolerance.log_density(tolerance.centre) -
              tolerance.log_density(fit.x(static_cast<Eigen::Index>(i)));
   }
@@ -56,15 +57,15 @@ double spread_of_range(const Prior& prior) {
   return (prior.high - prior.low) / std::sqrt(12.);
 }
 
-/// Log densities of figures that may lie anywhere in their range, or are small, over those of
+/// Log densities of parameters that may lie anywhere in their range, or are small, over those of
 /// normal distributions of the range's spread. What lies beyond its range by more than its
 /// deviation is unlikely.
-double ranges_for_normals(const HypothesisFit& fit, const RetunedPosterior& posterior,
+double ranges_for_normals(const HypothesisFit& fit, const RecalibratedPosterior& posterior,
                           const std::vector<Eigen::Index>& named) {
   double sum = 0.;
-  for (const Eigen::Index place : named) {
-    const Prior& range = fit.figures[static_cast<std::size_t>(place)].description.prior;
-    const double x = posterior.x(place), variance = posterior.covariance(place, place),
+  for (const Eigen::Index index : named) {
+    const Prior& range = fit.fit_parameters[static_cast<std::size_t>(index)].description.prior;
+    const double x = posterior.x(index), variance = posterior.covariance(index, index),
                  spread = spread_of_range(range), z = x / spread,
                  beyond = std::max({0., range.low - x, x - range.high});
     sum += 0.5 * z * z + 0.5 * std::log(2. * std::numbers::pi / 12.) -
@@ -81,7 +82,7 @@ double log_mean(double a, double b) {
 
 }  // namespace
 
-double negligible_retune(const NominalModel& nominal, const std::string& id) {
+double negligible_calibration(const NominalModel& nominal, const std::string& id) {
   constexpr double least = 1e-4, damping_factor = 5.;
   const double misfit =
       std::max(least, id == "drag_error" ? nominal.wind_misfit : nominal.base_misfit);
@@ -94,28 +95,29 @@ double log_any_magnitude(const double top, const double x, const double variance
   return std::log(0.5 + 0.5 * top / (size * std::log1p(1. / least_of_top)));
 }
 
-std::vector<Eigen::Index> retunes_but(const HypothesisFit& fit,
-                                      const std::vector<std::string>& ids) {
-  std::vector<Eigen::Index> places;
-  for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-    const FreeFigure& figure = fit.figures[i];
-    if (figure.nuisance && figure.parameter == 0 &&
-        std::find(ids.begin(), ids.end(), figure.effect->id) == ids.end())
-      places.push_back(static_cast<Eigen::Index>(i));
+std::vector<Eigen::Index> calibrations_but(const HypothesisFit& fit,
+                                           const std::vector<std::string>& ids) {
+  std::vector<Eigen::Index> indices;
+  for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
+    const FitParameter& fit_parameter = fit.fit_parameters[i];
+    if (fit_parameter.nuisance && fit_parameter.parameter == 0 &&
+        std::find(ids.begin(), ids.end(), fit_parameter.effect->id) == ids.end())
+      indices.push_back(static_cast<Eigen::Index>(i));
   }
-  return places;
+  return indices;
 }
 
-RetunedPosterior retuned_posterior(const HypothesisFit& fit,
-                                   const std::vector<Eigen::Index>& named) {
-  RetunedPosterior out{fit.x, fit.covariance, fit.log_evidence};
+RecalibratedPosterior recalibrated_posterior(const HypothesisFit& fit,
+                                             const std::vector<Eigen::Index>& named) {
+  RecalibratedPosterior out{fit.x, fit.covariance, fit.log_evidence};
   const auto n = static_cast<Eigen::Index>(named.size());
   if (n == 0) return out;
   // The tolerance is divided out and a normal distribution of the range's spread put in its place:
   // a change of information on the diagonal.
   Eigen::VectorXd more(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Prior& tolerance = fit.figures[static_cast<std::size_t>(named[i])].description.prior;
+    const Prior& tolerance =
+        fit.fit_parameters[static_cast<std::size_t>(named[i])].description.prior;
     const double spread = spread_of_range(tolerance);
     more(i) = 1. / (spread * spread) - 1. / (tolerance.scale * tolerance.scale);
     out.log_evidence += std::log(tolerance.scale / spread);
@@ -134,43 +136,45 @@ RetunedPosterior retuned_posterior(const HypothesisFit& fit,
   return out;
 }
 
-RetuneChoice as_simulated_choice(const HypothesisFit& fit) {
+CalibrationChoice as_simulated_choice(const HypothesisFit& fit) {
   return {.log_evidence = fit.log_evidence - std::numbers::ln2};
 }
 
-std::vector<RetuneChoice> retune_choices(const NominalModel& nominal, const HypothesisFit& fit) {
+std::vector<CalibrationChoice> calibration_choices(const NominalModel& nominal,
+                                                   const HypothesisFit& fit) {
   std::vector<Eigen::Index> ratios;
-  if (!fit.hypothesis.is_discrepancy()) ratios = retunes_but(fit, {});
-  std::vector<RetuneChoice> choices;
+  if (!fit.hypothesis.is_discrepancy()) ratios = calibrations_but(fit, {});
+  std::vector<CalibrationChoice> choices;
   for (std::size_t set = 0; set < (std::size_t{1} << ratios.size()); ++set) {
-    RetuneChoice choice;
+    CalibrationChoice choice;
     double tolerance_at_nominal = 0.;
     std::vector<Eigen::Index> named, others;
     for (std::size_t i = 0; i < ratios.size(); ++i) {
-      const FreeFigure& figure = fit.figures[static_cast<std::size_t>(ratios[i])];
+      const FitParameter& fit_parameter = fit.fit_parameters[static_cast<std::size_t>(ratios[i])];
       if ((set >> i & 1) == 0) {
         others.push_back(ratios[i]);
-        tolerance_at_nominal += figure.description.prior.log_density(0.);
+        tolerance_at_nominal += fit_parameter.description.prior.log_density(0.);
         continue;
       }
-      choice.named.push_back(figure.effect->id);
+      choice.named.push_back(fit_parameter.effect->id);
       named.push_back(ratios[i]);
     }
-    const RetunedPosterior posterior = retuned_posterior(fit, named);
+    const RecalibratedPosterior posterior = recalibrated_posterior(fit, named);
     const AtNominal exactly = at_nominal(nominal, fit, posterior, others);
     const double as_built = posterior.log_evidence + ranges_for_normals(fit, posterior, named),
                  exact = posterior.log_evidence - tolerance_at_nominal + exactly.log_density +
                          ranges_for_normals(fit, exactly.posterior, named);
     const bool leaves_exact = named.empty() && !fit.hypothesis.is_discrepancy();
     choice.log_evidence = leaves_exact ? as_built - std::numbers::ln2 : log_mean(exact, as_built);
-    // Where the retuned sensor is unstable there is no answer.
+    // Where the recalibrated sensor is unstable there is no answer.
     if (!std::isfinite(choice.log_evidence))
       choice.log_evidence = -std::numeric_limits<double>::infinity();
     choices.push_back(std::move(choice));
   }
-  std::sort(choices.begin(), choices.end(), [](const RetuneChoice& a, const RetuneChoice& b) {
-    return a.log_evidence > b.log_evidence;
-  });
+  std::sort(choices.begin(), choices.end(),
+            [](const CalibrationChoice& a, const CalibrationChoice& b) {
+              return a.log_evidence > b.log_evidence;
+            });
   return choices;
 }
 

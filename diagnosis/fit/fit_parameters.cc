@@ -33,15 +33,16 @@ std::size_t discrepancy_band(const double frequency_ratio) {
       discrepancy_edges.begin());
 }
 
-std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothesis& hypothesis) {
-  std::vector<FreeFigure> figures(n_own_figures);
+std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
+                                              const Hypothesis& hypothesis) {
+  std::vector<FitParameter> fit_parameters(n_common_parameters);
   const double m = std::log(experiment.moment_noise);
-  figures[place_moment_noise].description = {
+  fit_parameters[index_of_moment_noise].description = {
       .name = "moment_noise",
       .unit = "N m",
       .logarithmic = true,
       .prior = {.kind = Prior::Kind::uniform, .low = m - 4., .high = m + 4.}};
-  figures[place_acceleration_noise].description = {
+  fit_parameters[index_of_acceleration_noise].description = {
       .name = "acceleration_noise",
       .unit = "m/s^2",
       .logarithmic = true,
@@ -50,18 +51,18 @@ std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothe
                 .scale = usual_spread,
                 .low = std::log(1e-6),
                 .high = std::log(20.)}};
-  figures[place_joint_share].description =
+  fit_parameters[index_of_joint_share].description =
       normal("joint_share", "1", experiment.nominal.joint_share,
              experiment.nominal.joint_share_deviation, 0.3, 1., 1.);
-  figures[place_joint_loss].description =
+  fit_parameters[index_of_joint_loss].description =
       normal("joint_loss_factor", "1", experiment.nominal.joint_loss_factor, 0.05, 0.7,
              most_joint_loss(experiment.nominal), 1.);
   const auto add = [&](const Effect& effect, bool nuisance) {
     for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
-      figures.push_back({&effect, i, effect.parameters[i], nuisance});
-      // As a finding of its own a retune parameter may lie anywhere in its range.
-      if (effect.retune && !nuisance && i == 0)
-        figures.back().description.prior.kind = Prior::Kind::uniform;
+      fit_parameters.push_back({&effect, i, effect.parameters[i], nuisance});
+      // As a finding of its own a calibration parameter may lie anywhere in its range.
+      if (effect.calibration && !nuisance && i == 0)
+        fit_parameters.back().description.prior.kind = Prior::Kind::uniform;
     }
   };
   for (const std::string& id : nuisance_ids()) {
@@ -71,23 +72,24 @@ std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothe
   for (const Effect* effect : hypothesis.effects()) add(*effect, false);
   if (hypothesis.is_discrepancy())
     for (std::size_t i = 0; i < n_discrepancy_bands(); ++i)
-      figures.push_back({nullptr, i, log_uniform("discrepancy", "1", 1e-4, 1., 0.), false});
+      fit_parameters.push_back({nullptr, i, log_uniform("discrepancy", "1", 1e-4, 1., 0.), false});
   if (!hypothesis.effects().empty())
-    figures.push_back({nullptr, 0, uniform("form_error_share", "1", 0., 1., 0.), false});
-  return figures;
+    fit_parameters.push_back(
+        {nullptr, 0, uniform("model_form_error_share", "1", 0., 1., 0.), false});
+  return fit_parameters;
 }
 
-Chain make_chain(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+Chain make_chain(const Experiment& experiment, const std::vector<FitParameter>& fit_parameters,
                  const Eigen::VectorXd& x, const Effect* left_out) {
   Chain chain = experiment.nominal_chain();
-  chain.joint_share = x(place_joint_share);
-  chain.joint_loss_factor = x(place_joint_loss);
-  for (std::size_t i = n_own_figures; i < figures.size();) {
-    const Effect* effect = figures[i].effect;
+  chain.joint_share = x(index_of_joint_share);
+  chain.joint_loss_factor = x(index_of_joint_loss);
+  for (std::size_t i = n_common_parameters; i < fit_parameters.size();) {
+    const Effect* effect = fit_parameters[i].effect;
     if (effect == nullptr) break;  // form error and discrepancy come last
     std::vector<double> values;
-    for (; i < figures.size() && figures[i].effect == effect; ++i)
-      values.push_back(figures[i].description.value(x(static_cast<Eigen::Index>(i))));
+    for (; i < fit_parameters.size() && fit_parameters[i].effect == effect; ++i)
+      values.push_back(fit_parameters[i].description.value(x(static_cast<Eigen::Index>(i))));
     if (effect != left_out) effect->extend(chain, values, experiment.scales);
   }
   return chain;

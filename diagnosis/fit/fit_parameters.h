@@ -9,19 +9,19 @@
 
 namespace vibrissa::diagnosis {
 
-/// One free figure of a fit: of a channel's noise, the joint, a nuisance, an effect, the form error
-/// or a discrepancy.
-struct FreeFigure {
+/// One free parameter of a fit: of a channel's noise, the joint, a nuisance, an effect, the form
+/// error or a discrepancy.
+struct FitParameter {
   const Effect* effect = nullptr;  // nothing: of none
   std::size_t parameter = 0;       // number in the effect, or band of the discrepancy
   Parameter description{};
   bool nuisance = false;
 };
 
-/// Places of the figures that belong to no effect; form error or discrepancy come last of all.
-inline constexpr std::size_t place_moment_noise = 0, place_acceleration_noise = 1,
-                             place_joint_share = 2, place_joint_loss = 3, n_noise_figures = 2,
-                             n_own_figures = 4;
+/// Indices of the parameters that belong to no effect; form error or discrepancy come last of all.
+inline constexpr std::size_t index_of_moment_noise = 0, index_of_acceleration_noise = 1,
+                             index_of_joint_share = 2, index_of_joint_loss = 3,
+                             n_noise_parameters = 2, n_common_parameters = 4;
 
 /// Number of bands of a discrepancy, and the one a frequency lies in; in frequencies of the first
 /// mode.
@@ -30,10 +30,11 @@ std::size_t discrepancy_band(double frequency_ratio);
 
 /// What is free under a hypothesis: noise, joint, nuisances, the effects' parameters, and the share
 /// of the effects' form errors, or the levels of the discrepancy.
-std::vector<FreeFigure> make_figures(const Experiment& experiment, const Hypothesis& hypothesis);
+std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
+                                              const Hypothesis& hypothesis);
 
-/// The chain at coordinates x of the figures, without one effect.
-Chain make_chain(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+/// The chain at coordinates x of the parameters, without one effect.
+Chain make_chain(const Experiment& experiment, const std::vector<FitParameter>& fit_parameters,
                  const Eigen::VectorXd& x, const Effect* left_out = nullptr);
 
 }  // namespace vibrissa::diagnosis

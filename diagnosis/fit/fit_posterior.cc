@@ -29,22 +29,23 @@ double accelerometer_term(const PreparedRecord& record, double variance) {
 
 }  // namespace
 
-std::vector<double> form_error_power(const Effect& effect, std::span<const Complex> change) {
+std::vector<double> model_form_error_power(const Effect& effect, std::span<const Complex> change) {
   std::vector<double> out = neighbour_mean(powers(change), form_reach);
-  for (double& power : out) power *= effect.form_error * effect.form_error;
+  for (double& power : out) power *= effect.model_form_error * effect.model_form_error;
   return out;
 }
 
-FitPosterior::FitPosterior(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+FitPosterior::FitPosterior(const Experiment& experiment,
+                           const std::vector<FitParameter>& fit_parameters,
                            const Hypothesis& hypothesis)
     : experiment_(experiment),
-      figures_(figures),
-      form_error_(!hypothesis.effects().empty()),
+      fit_parameters_(fit_parameters),
+      model_form_error_(!hypothesis.effects().empty()),
       discrepancy_(hypothesis.is_discrepancy()) {}
 
 std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
   assert(x.allFinite());
-  const Chain chain = make_chain(experiment_, figures_, x);
+  const Chain chain = make_chain(experiment_, fit_parameters_, x);
   return ChainSimulator(chain).predict(experiment_.records);
 }
 
@@ -59,48 +60,49 @@ void FitPosterior::renew_slow_variance(const Eigen::VectorXd& x,
     for (double& value : misfit_.back()) value *= share * share;
     form_.emplace_back(record.n_bins(), 0.);
   }
-  for (const FreeFigure& figure : figures_)
-    if (figure.effect != nullptr && !figure.nuisance && figure.parameter == 0)
-      add_form_error(x, at, *figure.effect);
+  for (const FitParameter& fit_parameter : fit_parameters_)
+    if (fit_parameter.effect != nullptr && !fit_parameter.nuisance && fit_parameter.parameter == 0)
+      add_model_form_error(x, at, *fit_parameter.effect);
 }
 
-void FitPosterior::add_form_error(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                                  const Effect& effect) {
-  const Chain without = make_chain(experiment_, figures_, x, &effect);
+void FitPosterior::add_model_form_error(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                                        const Effect& effect) {
+  const Chain without = make_chain(experiment_, fit_parameters_, x, &effect);
   const std::vector<std::vector<Complex>> mean = ChainSimulator(without).means(experiment_.records);
   for (std::size_t r = 0; r < at.size(); ++r) {
-    const std::vector<double> power = form_error_power(effect, difference(at[r].mean, mean[r]));
+    const std::vector<double> power =
+        model_form_error_power(effect, difference(at[r].mean, mean[r]));
     for (std::size_t b = 0; b < power.size(); ++b) form_[r][b] += power[b];
   }
 }
 
 double FitPosterior::acceleration_variance(const Eigen::VectorXd& x, const Chain& chain) const {
-  return std::exp(2. * x(place_acceleration_noise)) + chain.reference_variance;
+  return std::exp(2. * x(index_of_acceleration_noise)) + chain.reference_variance;
 }
 
 double FitPosterior::acceleration_variance(const Eigen::VectorXd& x) const {
-  return acceleration_variance(x, make_chain(experiment_, figures_, x));
+  return acceleration_variance(x, make_chain(experiment_, fit_parameters_, x));
 }
 
-Eigen::Index FitPosterior::discrepancy_place(std::size_t record, std::size_t b) const {
+Eigen::Index FitPosterior::discrepancy_index(std::size_t record, std::size_t b) const {
   const double ratio = 2. * std::numbers::pi * static_cast<double>(b + 1) *
                        experiment_.records[record].bin_hz() / experiment_.scales.first_mode_rad_s;
-  return static_cast<Eigen::Index>(figures_.size() - n_discrepancy_bands() +
+  return static_cast<Eigen::Index>(fit_parameters_.size() - n_discrepancy_bands() +
                                    discrepancy_band(ratio));
 }
 
 std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Prediction& prediction,
                                            std::size_t record, double acceleration_variance) const {
-  const double moment = std::exp(2. * x(place_moment_noise));
-  const double form = form_error_ ? x(x.size() - 1) : 0.;
+  const double moment = std::exp(2. * x(index_of_moment_noise));
+  const double form = model_form_error_ ? x(x.size() - 1) : 0.;
   std::vector<double> out(prediction.mean.size());
   for (std::size_t b = 0; b < out.size(); ++b)
     out[b] = moment * prediction.moment_noise[b] +
-             acceleration_variance * prediction.acceleration_noise[b] + prediction.own_noise[b] +
-             misfit_[record][b] + form * form_[record][b];
+             acceleration_variance * prediction.acceleration_noise[b] +
+             prediction.process_noise[b] + misfit_[record][b] + form * form_[record][b];
   if (discrepancy_)
     for (std::size_t b = 0; b < out.size(); ++b) {
-      const double share = std::exp(x(discrepancy_place(record, b)));
+      const double share = std::exp(x(discrepancy_index(record, b)));
       out[b] += share * share * power_[record][b];
     }
   return out;
@@ -115,7 +117,7 @@ double FitPosterior::log_likelihood(const Eigen::VectorXd& x,
     const std::vector<double> s = variance(x, at[r], r, a_variance);
     const std::vector<Complex> error = difference(record.moment, at[r].mean);
     for (std::size_t b = 0; b < s.size(); ++b) sum -= std::norm(error[b]) / s[b] + std::log(s[b]);
-    sum += IntegratedUnknowns(at[r].unknowns, error, s).log_likelihood_gain() -
+    sum += IntegratedNuisances(at[r].unknowns, error, s).log_likelihood_gain() -
            accelerometer_term(record, a_variance);
   }
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
@@ -123,8 +125,8 @@ double FitPosterior::log_likelihood(const Eigen::VectorXd& x,
 
 double FitPosterior::log_prior(const Eigen::VectorXd& x) const {
   double sum = 0.;
-  for (std::size_t i = 0; i < figures_.size(); ++i)
-    sum += figures_[i].description.prior.log_density(x(static_cast<Eigen::Index>(i)));
+  for (std::size_t i = 0; i < fit_parameters_.size(); ++i)
+    sum += fit_parameters_[i].description.prior.log_density(x(static_cast<Eigen::Index>(i)));
   return sum;
 }
 
@@ -132,19 +134,20 @@ std::vector<EffectAction> FitPosterior::actions(const Eigen::VectorXd& x,
                                                 const std::vector<Prediction>& at) const {
   std::vector<EffectAction> actions;
   const double a_variance = acceleration_variance(x);
-  for (const FreeFigure& figure : figures_) {
-    if (figure.effect == nullptr || figure.parameter != 0) continue;
-    const Chain chain = make_chain(experiment_, figures_, x, figure.effect);
+  for (const FitParameter& fit_parameter : fit_parameters_) {
+    if (fit_parameter.effect == nullptr || fit_parameter.parameter != 0) continue;
+    const Chain chain = make_chain(experiment_, fit_parameters_, x, fit_parameter.effect);
     const std::vector<Prediction> without = ChainSimulator(chain).predict(experiment_.records);
     const double a_without = acceleration_variance(x, chain);
-    EffectAction action{.effect = figure.effect};
+    EffectAction action{.effect = fit_parameter.effect};
     for (std::size_t r = 0; r < at.size(); ++r) {
       const std::vector<double> s = variance(x, at[r], r, a_variance);
       const std::vector<double> s_without = variance(x, without[r], r, a_without);
       std::vector<Complex> change = difference(at[r].mean, without[r].mean);
       for (std::size_t b = 0; b < s.size(); ++b)
         action.energy +=
-            (std::norm(change[b]) + (figure.nuisance ? 0. : std::abs(s[b] - s_without[b]))) / s[b];
+            (std::norm(change[b]) + (fit_parameter.nuisance ? 0. : std::abs(s[b] - s_without[b]))) /
+            s[b];
       action.change.push_back(std::move(change));
     }
     actions.push_back(std::move(action));
@@ -163,48 +166,48 @@ FitPosterior::BinVariances FitPosterior::variances(const Eigen::VectorXd& x,
 
 void FitPosterior::set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                                     const BinVariances& s, const double acceleration_variance,
-                                    const Eigen::Index place, Derivatives& out) const {
-  const bool moment = place == static_cast<Eigen::Index>(place_moment_noise);
-  const double level = 2. * std::exp(2. * x(place));
+                                    const Eigen::Index index, Derivatives& out) const {
+  const bool moment = index == static_cast<Eigen::Index>(index_of_moment_noise);
+  const double level = 2. * std::exp(2. * x(index));
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r)
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
-      out.variance(row, place) =
+      out.variance(row, index) =
           level * (moment ? at[r].moment_noise[b] : at[r].acceleration_noise[b]) / s[r][b];
-  if (!moment) out.acceleration(place) = level / acceleration_variance;
+  if (!moment) out.acceleration(index) = level / acceleration_variance;
 }
 
 void FitPosterior::set_share_column(const Eigen::VectorXd& x, const BinVariances& s,
-                                    const Eigen::Index place, Derivatives& out) const {
-  const double level = 2. * std::exp(2. * x(place));
+                                    const Eigen::Index index, Derivatives& out) const {
+  const double level = 2. * std::exp(2. * x(index));
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r)
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
       if (!discrepancy_)
-        out.variance(row, place) = form_[r][b] / s[r][b];
-      else if (discrepancy_place(r, b) == place)
-        out.variance(row, place) = level * power_[r][b] / s[r][b];
+        out.variance(row, index) = form_[r][b] / s[r][b];
+      else if (discrepancy_index(r, b) == index)
+        out.variance(row, index) = level * power_[r][b] / s[r][b];
 }
 
-double FitPosterior::step_of(const Eigen::VectorXd& x, const Eigen::Index place) const {
-  const Parameter& parameter = figures_[static_cast<std::size_t>(place)].description;
-  return x(place) + parameter.step > parameter.prior.high ? -parameter.step : parameter.step;
+double FitPosterior::step_of(const Eigen::VectorXd& x, const Eigen::Index index) const {
+  const Parameter& parameter = fit_parameters_[static_cast<std::size_t>(index)].description;
+  return x(index) + parameter.step > parameter.prior.high ? -parameter.step : parameter.step;
 }
 
 void FitPosterior::set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                                   const BinVariances& s, const Chain& moved,
                                   const std::vector<Prediction>& there, const double h,
-                                  const Eigen::Index place, Derivatives& out) const {
+                                  const Eigen::Index index, Derivatives& out) const {
   const double a_moved = acceleration_variance(x, moved);
-  out.acceleration(place) = (a_moved - acceleration_variance(x)) / h;
+  out.acceleration(index) = (a_moved - acceleration_variance(x)) / h;
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r) {
     const std::vector<double> s_there = variance(x, there[r], r, a_moved);
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row) {
       const Complex d = (there[r].mean[b] - at[r].mean[b]) / h;
-      out.mean(2 * row, place) = d.real();
-      out.mean(2 * row + 1, place) = d.imag();
-      out.variance(row, place) = (s_there[b] - s[r][b]) / h;
+      out.mean(2 * row, index) = d.real();
+      out.mean(2 * row + 1, index) = d.imag();
+      out.variance(row, index) = (s_there[b] - s[r][b]) / h;
     }
   }
 }
@@ -219,25 +222,25 @@ Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
   Derivatives out{.mean = Eigen::MatrixXd::Zero(2 * n_bins, x.size()),
                   .variance = Eigen::MatrixXd::Zero(n_bins, x.size()),
                   .acceleration = Eigen::VectorXd::Zero(x.size())};
-  std::vector<Eigen::Index> places;
-  for (std::size_t i = n_noise_figures; i < figures_.size(); ++i) {
-    const FreeFigure& figure = figures_[i];
-    const bool is_of_chain = figure.effect != nullptr || i < n_own_figures;
-    if (is_of_chain && figure.description.prior.low < figure.description.prior.high)
-      places.push_back(static_cast<Eigen::Index>(i));
+  std::vector<Eigen::Index> indices;
+  for (std::size_t i = n_noise_parameters; i < fit_parameters_.size(); ++i) {
+    const FitParameter& fit_parameter = fit_parameters_[i];
+    const bool is_of_chain = fit_parameter.effect != nullptr || i < n_common_parameters;
+    if (is_of_chain && fit_parameter.description.prior.low < fit_parameter.description.prior.high)
+      indices.push_back(static_cast<Eigen::Index>(i));
   }
-  for (std::size_t first = 0; first < places.size(); first += n_together) {
-    const std::size_t n = std::min(n_together, places.size() - first);
+  for (std::size_t first = 0; first < indices.size(); first += n_together) {
+    const std::size_t n = std::min(n_together, indices.size() - first);
     std::vector<Chain> moved;
-    for (const Eigen::Index place : std::span(places).subspan(first, n)) {
+    for (const Eigen::Index index : std::span(indices).subspan(first, n)) {
       Eigen::VectorXd there = x;
-      there(place) += step_of(x, place);
-      moved.push_back(make_chain(experiment_, figures_, there));
+      there(index) += step_of(x, index);
+      moved.push_back(make_chain(experiment_, fit_parameters_, there));
     }
     const auto predictions = predict_together(moved, experiment_.records);
     for (std::size_t i = 0; i < n; ++i) {
-      const Eigen::Index place = places[first + i];
-      set_derivative(x, at, s, moved[i], predictions[i], step_of(x, place), place, out);
+      const Eigen::Index index = indices[first + i];
+      set_derivative(x, at, s, moved[i], predictions[i], step_of(x, index), index, out);
     }
   }
   return out;
@@ -257,12 +260,12 @@ Derivatives FitPosterior::whitened(const Eigen::VectorXd& x, const std::vector<P
   Derivatives out{.mean = per_deviation.asDiagonal() * derivatives.mean,
                   .variance = per_variance.asDiagonal() * derivatives.variance,
                   .acceleration = derivatives.acceleration / acceleration_variance};
-  for (std::size_t i = 0; i < figures_.size(); ++i) {
-    const auto place = static_cast<Eigen::Index>(i);
-    if (i < n_noise_figures)
-      set_noise_column(x, at, s, acceleration_variance, place, out);
-    else if (figures_[i].effect == nullptr && i >= n_own_figures)
-      set_share_column(x, s, place, out);
+  for (std::size_t i = 0; i < fit_parameters_.size(); ++i) {
+    const auto index = static_cast<Eigen::Index>(i);
+    if (i < n_noise_parameters)
+      set_noise_column(x, at, s, acceleration_variance, index, out);
+    else if (fit_parameters_[i].effect == nullptr && i >= n_common_parameters)
+      set_share_column(x, s, index, out);
   }
   return out;
 }
@@ -297,21 +300,21 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
                 a_lines * d.acceleration * d.acceleration.transpose();
   remove_unknowns(at, s, d.mean, gradient, information);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Prior& prior = figures_[static_cast<std::size_t>(i)].description.prior;
+    const Prior& prior = fit_parameters_[static_cast<std::size_t>(i)].description.prior;
     gradient(i) += prior.slope(x(i));
     information(i, i) += prior.curvature(x(i));
   }
 }
 
-/// Takes what the unknown figures of each record explain out of gradient and information.
+/// Takes what the unknown parameters of each record explain out of gradient and information.
 void FitPosterior::remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
                                    const Eigen::MatrixXd& mean_columns, Eigen::VectorXd& gradient,
                                    Eigen::MatrixXd& information) const {
   Eigen::Index first = 0;
   for (std::size_t r = 0; r < at.size(); ++r) {
     const auto n_rows = static_cast<Eigen::Index>(2 * s[r].size());
-    const IntegratedUnknowns unknowns(at[r].unknowns,
-                                      difference(experiment_.records[r].moment, at[r].mean), s[r]);
+    const IntegratedNuisances unknowns(at[r].unknowns,
+                                       difference(experiment_.records[r].moment, at[r].mean), s[r]);
     if (unknowns.any()) {
       const Eigen::MatrixXd overlap =
           2. * mean_columns.middleRows(first, n_rows).transpose() * unknowns.whitened_shapes();

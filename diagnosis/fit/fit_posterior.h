@@ -22,21 +22,21 @@ struct EffectAction {
 inline constexpr std::size_t form_reach = 10;
 
 /// Power that the form error of an effect may have around each bin, given what it changes.
-std::vector<double> form_error_power(const Effect& effect, std::span<const Complex> change);
+std::vector<double> model_form_error_power(const Effect& effect, std::span<const Complex> change);
 
-/// Derivatives by the figures: of the mean (real and imaginary parts in turn) [N m], of its
+/// Derivatives by the parameters: of the mean (real and imaginary parts in turn) [N m], of its
 /// variance [(N m)^2], of the accelerometer's variance [(m/s^2)^2].
 struct Derivatives {
   Eigen::MatrixXd mean, variance;
   Eigen::VectorXd acceleration;
 };
 
-/// Log posterior of a fit's figures by Whittle's likelihood (see fit_hypothesis()). What the
+/// Log posterior of a fit's parameters by Whittle's likelihood (see fit_hypothesis()). What the
 /// variance takes from the mean, misfit of the nominal form and form errors, is held fixed between
-/// renewals. experiment and figures must outlive it.
+/// renewals. experiment and parameters must outlive it.
 class FitPosterior {
  public:
-  FitPosterior(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+  FitPosterior(const Experiment& experiment, const std::vector<FitParameter>& fit_parameters,
                const Hypothesis& hypothesis);
 
   std::vector<Prediction> predict(const Eigen::VectorXd& x) const;
@@ -51,7 +51,7 @@ class FitPosterior {
   double log_likelihood(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
   double log_prior(const Eigen::VectorXd& x) const;
 
-  /// By the figures that their priors leave free; those of the noise are left at zero.
+  /// By the parameters that their priors leave free; those of the noise are left at zero.
   Derivatives derivatives(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
   /// Gradient of the log posterior, and Fisher's information plus the prior's curvature.
   /// derivatives: at x, or at a place from which they have hardly changed.
@@ -59,44 +59,44 @@ class FitPosterior {
                  const Derivatives& derivatives, Eigen::VectorXd& gradient,
                  Eigen::MatrixXd& information) const;
 
-  /// In the order of the figures.
+  /// In the order of the parameters.
   std::vector<EffectAction> actions(const Eigen::VectorXd& x,
                                     const std::vector<Prediction>& at) const;
 
  private:
   using BinVariances = std::vector<std::vector<double>>;  // [record][bin]
 
-  /// A figure's step to a place nearby.
-  double step_of(const Eigen::VectorXd& x, Eigen::Index place) const;
-  /// From the predictions at a step h of one figure, under a chain.
+  /// A parameter's step to a place nearby.
+  double step_of(const Eigen::VectorXd& x, Eigen::Index index) const;
+  /// From the predictions at a step h of one parameter, under a chain.
   void set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                       const BinVariances& s, const Chain& moved,
-                      const std::vector<Prediction>& there, double h, Eigen::Index place,
+                      const std::vector<Prediction>& there, double h, Eigen::Index index,
                       Derivatives& out) const;
-  /// Of the whole variance, over it: those of the figures of noise are set.
+  /// Of the whole variance, over it: those of the parameters of noise are set.
   Derivatives whitened(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                        const BinVariances& s, double acceleration_variance,
                        const Derivatives& derivatives) const;
   void set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                        const BinVariances& s, double acceleration_variance, Eigen::Index place,
+                        const BinVariances& s, double acceleration_variance, Eigen::Index index,
                         Derivatives& out) const;
-  void set_share_column(const Eigen::VectorXd& x, const BinVariances& s, Eigen::Index place,
+  void set_share_column(const Eigen::VectorXd& x, const BinVariances& s, Eigen::Index index,
                         Derivatives& out) const;
   BinVariances variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                          double acceleration_variance) const;
   void remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
                        const Eigen::MatrixXd& mean_columns, Eigen::VectorXd& gradient,
                        Eigen::MatrixXd& information) const;
-  void add_form_error(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                      const Effect& effect);
-  /// Figure of the discrepancy that a bin belongs to.
-  Eigen::Index discrepancy_place(std::size_t record, std::size_t b) const;
+  void add_model_form_error(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                            const Effect& effect);
+  /// Parameter of the discrepancy that a bin belongs to.
+  Eigen::Index discrepancy_index(std::size_t record, std::size_t b) const;
   /// Variance of the accelerometer under a chain of its own.
   double acceleration_variance(const Eigen::VectorXd& x, const Chain& chain) const;
 
   const Experiment& experiment_;
-  const std::vector<FreeFigure>& figures_;
-  bool form_error_, discrepancy_;
+  const std::vector<FitParameter>& fit_parameters_;
+  bool model_form_error_, discrepancy_;
   BinVariances misfit_, form_, power_;
 };
 

@@ -17,7 +17,7 @@ struct Block {
   double gain() const {
     constexpr double fewest = 10.;
     if (count < fewest) return 0.;
-    // Less power than foretold is no fault of bounds: forms are often better than theirs.
+    // Less power than predicted is no fault of bounds: forms are often better than theirs.
     const double mean = std::max(1., power / count);
     return std::max(0., count * (mean - 1. - std::log(mean)) - 0.5 * std::log(count));
   }
@@ -57,7 +57,7 @@ GoodnessOfFit goodness_of_fit(const Experiment& experiment,
     }
   GoodnessOfFit out;
   double power = 0., count = 0.;
-  for (const auto& [place, block] : blocks) {
+  for (const auto& [index, block] : blocks) {
     power += block.power;
     count += block.count;
     if (block.holds_own_noise()) out.misshape_nats += block.gain();
@@ -65,7 +65,7 @@ GoodnessOfFit goodness_of_fit(const Experiment& experiment,
   }
   if (count == 0.) return out;
   out.tone_nats = loudest_tone(experiment, records);
-  out.foretold = foretold_noise(experiment, records);
+  out.predicted = predicted_noise(experiment, records);
   out.excess = power / count - 1.;
   out.surplus_nats_per_bin /= count;
   return out;

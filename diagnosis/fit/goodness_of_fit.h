@@ -22,7 +22,7 @@ struct GoodnessOfFit {
   /// Largest |error|^2 of a line of the records at rest, but the lowest, less ln(their lines): what
   /// the loudest tone that the fit lacks stands out of chance.
   double tone_nats = 0.;
-  ForetoldNoise foretold;
+  PredictedNoise predicted;
 };
 
 /// records: residual of the experiment's records under a fit. Proven by

@@ -17,50 +17,50 @@ namespace vibrissa::diagnosis {
 
 /// Nuisances that are said to differ from nominal, by anything their range allows. Half of all
 /// sensors are as simulated in the others, half are a little off in all of them, as built.
-struct RetuneChoice {
+struct CalibrationChoice {
   std::vector<std::string> named{};  // ids, alphabetical
   double log_evidence = 0.;          // of the data
 };
 
-/// Power that the form errors of effects and retunes may have, around each bin [(N m)^2].
+/// Power that the form errors of effects and calibrations may have, around each bin [(N m)^2].
 struct FormErrors {
   std::vector<double> linear, nonlinear;
 };
 
-/// What a fit foretells of one record, bins as PreparedRecord::moment.
+/// What a fit predicts of one record, bins as PreparedRecord::moment.
 struct FittedRecord {
   std::vector<Complex> mean;
-  std::vector<double> own_noise, variance;  // (N m)^2, of the effects alone and of all
-  std::vector<OwnUnknown> unknowns{};       // Prediction::unknowns
-  FormErrors form_errors;
+  std::vector<double> process_noise, variance;  // (N m)^2, of the effects alone and of all
+  std::vector<RecordNuisance> unknowns{};       // Prediction::unknowns
+  FormErrors model_form_errors;
 };
 
-/// A hypothesis at its most probable parameters. Figures in their coordinates x.
+/// A hypothesis at its most probable parameters. Parameters in their coordinates x.
 struct HypothesisFit {
   Hypothesis hypothesis;
   bool as_simulated = false;  // but for the effects: see fit_as_simulated()
-  std::vector<FreeFigure> figures;
+  std::vector<FitParameter> fit_parameters;
   Eigen::VectorXd x;
   Eigen::MatrixXd information;  // Fisher's, with the priors' curvature
   Eigen::MatrixXd covariance;   // its inverse
   double log_likelihood = -std::numeric_limits<double>::infinity();
   double log_posterior = -std::numeric_limits<double>::infinity();  // density at x
   double log_evidence = -std::numeric_limits<double>::infinity();   // all nuisances free
-  std::vector<RetuneChoice> choices;                                // best first
+  std::vector<CalibrationChoice> choices;                           // best first
   int n_iterations = 0;
-  /// Whitened energy of what each effect or retune does, sum |mean - mean without it|^2 / S.
+  /// Whitened energy of what each effect or calibration does, sum |mean - mean without it|^2 / S.
   std::vector<std::pair<const Effect*, double>> effect_energy;
   std::vector<FittedRecord> records;
   GoodnessOfFit goodness;
 
-  /// Form errors of all effects and retunes but one, in whitened energy: what gains less than this
-  /// is not told from them.
+  /// Form errors of all effects and calibrations but one, in whitened energy: what gains less than
+  /// this is not told from them.
   double form_energy(const Effect* but = nullptr) const;
-  /// Variance of a shift of a retune that moves the prediction no more than the others' form
-  /// errors: it may stem from them. information: of the data, by the retune.
-  double shift_by_forms(const Effect* retune, double information) const;
+  /// Variance of a shift of a calibration that moves the prediction no more than the others' form
+  /// errors: it may stem from them. information: of the data, by the calibration.
+  double shift_by_forms(const Effect* calibration, double information) const;
   /// Value and standard deviation of an effect's parameter (of x).
-  std::optional<std::size_t> place(const std::string& effect, std::size_t parameter) const;
+  std::optional<std::size_t> index(const std::string& effect, std::size_t parameter) const;
   Chain chain(const Experiment& experiment) const;
 };
 
@@ -82,10 +82,10 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
                              const HypothesisFit* start = nullptr, const FitOptions& options = {},
                              const std::optional<FurtherStart>& further = std::nullopt);
 
-/// The same with retunes that are as simulated, no further off than the simulation and the effects'
-/// forms are known: where free ones take up what an effect does as well, the half of all sensors
-/// that are as simulated is not seen from there. free: that fit. Its one choice names no retune.
-/// Proven by tests/diagnosis/fit/fit_as_simulated_test.cc.
+/// The same with calibrations that are as simulated, no further off than the simulation and the
+/// effects' forms are known: where free ones take up what an effect does as well, the half of all
+/// sensors that are as simulated is not seen from there. free: that fit. Its one choice names no
+/// calibration. Proven by tests/diagnosis/fit/fit_as_simulated_test.cc.
 HypothesisFit fit_as_simulated(const Experiment& experiment, const HypothesisFit& free,
                                const FitOptions& options = {});
 

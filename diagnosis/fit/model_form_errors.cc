@@ -10,11 +10,11 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Power by which two fits foretell a record differently, around each bin.
+/// Power by which two fits predict a record differently, around each bin.
 std::vector<double> change(const FittedRecord& a, const FittedRecord& b) {
   std::vector<double> power = powers(difference(a.mean, b.mean));
   for (std::size_t i = 0; i < power.size(); ++i)
-    power[i] += std::abs(a.own_noise[i] - b.own_noise[i]);
+    power[i] += std::abs(a.process_noise[i] - b.process_noise[i]);
   return neighbour_mean(power, form_reach);
 }
 
@@ -47,22 +47,22 @@ Hidden hidden_by_forms(const Experiment& experiment, const HypothesisFit& fit,
   std::vector<FormBlock> nonlinear, all;
   for (std::size_t r = 0; r < experiment.records.size(); ++r) {
     const std::vector<double> gained = change(fit.records[r], fewer.records[r]);
-    const FormErrors& errors = fewer.records[r].form_errors;
+    const FormErrors& errors = fewer.records[r].model_form_errors;
     for (std::size_t b = 0; b < gained.size(); ++b) {
-      const std::size_t place = frequency_block(experiment, experiment.records[r], b);
-      if (place >= all.size()) {
-        nonlinear.resize(place + 1);
-        all.resize(place + 1);
+      const std::size_t index = frequency_block(experiment, experiment.records[r], b);
+      if (index >= all.size()) {
+        nonlinear.resize(index + 1);
+        all.resize(index + 1);
       }
       const double variance = fit.records[r].variance[b];
-      nonlinear[place].add(gained[b], errors.nonlinear[b], variance);
-      all[place].add(gained[b], errors.nonlinear[b] + errors.linear[b], variance);
+      nonlinear[index].add(gained[b], errors.nonlinear[b], variance);
+      all[index].add(gained[b], errors.nonlinear[b] + errors.linear[b], variance);
     }
   }
   const auto sum = [](const std::vector<FormBlock>& blocks) {
     double total = 0.;
     for (const FormBlock& block : blocks) total += block.hidden();
-    // A retune without which the sensor is unstable has no form error that could be told.
+    // A calibration without which the sensor is unstable has no form error that could be told.
     return std::isfinite(total) ? total : 0.;
   };
   return {sum(nonlinear), sum(all)};

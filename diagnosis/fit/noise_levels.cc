@@ -5,17 +5,17 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-NoiseLevel noise_level(const HypothesisFit& fit, const std::size_t figure) {
-  const auto place = static_cast<Eigen::Index>(figure);
-  return {std::exp(2. * fit.x(place)), std::sqrt(fit.covariance(place, place))};
+NoiseLevel noise_level(const HypothesisFit& fit, const std::size_t fit_parameter) {
+  const auto index = static_cast<Eigen::Index>(fit_parameter);
+  return {std::exp(2. * fit.x(index)), std::sqrt(fit.covariance(index, index))};
 }
 
 }  // namespace
 
 NoiseLevels noise_levels(const Experiment& experiment, const HypothesisFit& fit,
                          const Chain& chain) {
-  NoiseLevels levels{noise_level(fit, place_moment_noise),
-                     noise_level(fit, place_acceleration_noise)};
+  NoiseLevels levels{noise_level(fit, index_of_moment_noise),
+                     noise_level(fit, index_of_acceleration_noise)};
   double lines = 0.;
   for (const PreparedRecord& record : experiment.records)
     if (record.excitation == signals::Excitation{})

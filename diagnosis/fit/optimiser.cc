@@ -8,13 +8,13 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Step of the figures that are not held at a bound.
-Eigen::VectorXd damped_step(const std::vector<FreeFigure>& figures, const Eigen::VectorXd& x,
-                            const Eigen::VectorXd& gradient, const Eigen::MatrixXd& information,
-                            double damping) {
+/// Step of the parameters that are not held at a bound.
+Eigen::VectorXd damped_step(const std::vector<FitParameter>& fit_parameters,
+                            const Eigen::VectorXd& x, const Eigen::VectorXd& gradient,
+                            const Eigen::MatrixXd& information, double damping) {
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Prior& prior = figures[static_cast<std::size_t>(i)].description.prior;
+    const Prior& prior = fit_parameters[static_cast<std::size_t>(i)].description.prior;
     if (prior.low == prior.high) continue;
     const bool at_low = x(i) <= prior.low && gradient(i) < 0.;
     const bool at_high = x(i) >= prior.high && gradient(i) > 0.;
@@ -30,7 +30,7 @@ Eigen::VectorXd damped_step(const std::vector<FreeFigure>& figures, const Eigen:
   for (std::size_t i = 0; i < free.size(); ++i) step(free[i]) = part(static_cast<Eigen::Index>(i));
   // Fisher scoring far from the optimum overshoots in logarithms.
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Parameter& parameter = figures[static_cast<std::size_t>(i)].description;
+    const Parameter& parameter = fit_parameters[static_cast<std::size_t>(i)].description;
     const double range = parameter.prior.high - parameter.prior.low;
     const double most = std::min(0.25 * range, parameter.largest_step);
     step(i) = std::clamp(step(i), -most, most);
@@ -40,98 +40,101 @@ Eigen::VectorXd damped_step(const std::vector<FreeFigure>& figures, const Eigen:
 
 /// What a step was to gain to second order, and what it gains; nothing: it leads down.
 struct Step {
-  double foretold = 0., gain = 0.;
+  double predicted = 0., gain = 0.;
 };
 
-std::optional<Step> take_step(const FitPosterior& posterior, const std::vector<FreeFigure>& figures,
-                              Climb& climb, const Eigen::VectorXd& gradient,
+std::optional<Step> take_step(const FitPosterior& posterior,
+                              const std::vector<FitParameter>& fit_parameters,
+                              OptimiserState& state, const Eigen::VectorXd& gradient,
                               const Eigen::MatrixXd& information, const int n_attempts) {
   for (int attempt = 0; attempt < n_attempts; ++attempt) {
     Eigen::VectorXd x =
-        climb.x + damped_step(figures, climb.x, gradient, information, climb.damping);
-    // Next to figures under which the sensor runs away no step can be told.
+        state.x + damped_step(fit_parameters, state.x, gradient, information, state.damping);
+    // Next to parameters under which the sensor runs away no step can be told.
     if (!x.allFinite()) return std::nullopt;
-    clamp(figures, x);
+    clamp(fit_parameters, x);
     std::vector<Prediction> there = posterior.predict(x);
     const double value = posterior.log_likelihood(x, there) + posterior.log_prior(x);
-    if (!(value > climb.log_posterior)) {
-      climb.damping = std::max(1e-2, climb.damping * 8.);
+    if (!(value > state.log_posterior)) {
+      state.damping = std::max(1e-2, state.damping * 8.);
       continue;
     }
-    const Eigen::VectorXd way = x - climb.x;
-    const Step step{.foretold = way.dot(gradient - 0.5 * information * way),
-                    .gain = value - climb.log_posterior};
-    climb.x = x;
-    climb.predictions = std::move(there);
-    climb.log_posterior = value;
-    climb.damping = std::max(1e-6, climb.damping * 0.2);
+    const Eigen::VectorXd way = x - state.x;
+    const Step step{.predicted = way.dot(gradient - 0.5 * information * way),
+                    .gain = value - state.log_posterior};
+    state.x = x;
+    state.predictions = std::move(there);
+    state.log_posterior = value;
+    state.damping = std::max(1e-6, state.damping * 0.2);
     return step;
   }
   return std::nullopt;
 }
 
-Climb begin_climb(FitPosterior& posterior, const Eigen::VectorXd& x) {
-  Climb climb{.x = x, .predictions = posterior.predict(x)};
-  posterior.renew_slow_variance(x, climb.predictions);
-  climb.log_posterior = posterior.log_likelihood(x, climb.predictions) + posterior.log_prior(x);
-  return climb;
+OptimiserState begin_optimiser(FitPosterior& posterior, const Eigen::VectorXd& x) {
+  OptimiserState state{.x = x, .predictions = posterior.predict(x)};
+  posterior.renew_slow_variance(x, state.predictions);
+  state.log_posterior = posterior.log_likelihood(x, state.predictions) + posterior.log_prior(x);
+  return state;
 }
 
 }  // namespace
 
-void clamp(const std::vector<FreeFigure>& figures, Eigen::VectorXd& x) {
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    const Prior& prior = figures[i].description.prior;
+void clamp(const std::vector<FitParameter>& fit_parameters, Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < fit_parameters.size(); ++i) {
+    const Prior& prior = fit_parameters[i].description.prior;
     double& value = x(static_cast<Eigen::Index>(i));
     value = std::clamp(value, prior.low, prior.high);
   }
 }
 
-void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, Climb& climb,
-              const int n_iterations, const FitOptions& options) {
+void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
+              OptimiserState& state, const int n_iterations, const FitOptions& options) {
   // This many further gains like the last one would not do.
   constexpr double n_hopeful_gains = 15.;
   constexpr double most_astray = 0.2;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;
-  for (int n_renewals = 0; !climb.ended;) {
-    posterior.renew_slow_variance(climb.x, climb.predictions);
-    climb.log_posterior =
-        posterior.log_likelihood(climb.x, climb.predictions) + posterior.log_prior(climb.x);
-    const bool renewed = !climb.derivatives;
+  for (int n_renewals = 0; !state.ended;) {
+    posterior.renew_slow_variance(state.x, state.predictions);
+    state.log_posterior =
+        posterior.log_likelihood(state.x, state.predictions) + posterior.log_prior(state.x);
+    const bool renewed = !state.derivatives;
     if (renewed) {
       if (n_renewals++ == n_iterations) return;
-      climb.derivatives = posterior.derivatives(climb.x, climb.predictions);
-      ++climb.n_iterations;
+      state.derivatives = posterior.derivatives(state.x, state.predictions);
+      ++state.n_iterations;
     }
-    posterior.linearise(climb.x, climb.predictions, *climb.derivatives, gradient, information);
-    const double damping = climb.damping;
-    const auto step = take_step(posterior, figures, climb, gradient, information, renewed ? 5 : 1);
-    if (!step && !renewed) climb.damping = damping;
+    posterior.linearise(state.x, state.predictions, *state.derivatives, gradient, information);
+    const double damping = state.damping;
+    const auto step =
+        take_step(posterior, fit_parameters, state, gradient, information, renewed ? 5 : 1);
+    if (!step && !renewed) state.damping = damping;
     const double gain = step ? step->gain : 0.;
     const bool hopeless =
-        climb.n_iterations >= 3 && climb.log_posterior + n_hopeful_gains * gain < options.to_beat;
+        state.n_iterations >= 3 && state.log_posterior + n_hopeful_gains * gain < options.to_beat;
     const bool is_little = gain < options.tolerance;
-    climb.ended = hopeless || (renewed && is_little);
-    if (climb.ended) return;
-    const bool astray = !step || std::abs(gain - step->foretold) > most_astray * step->foretold;
-    if (astray || is_little) climb.derivatives.reset();
+    state.ended = hopeless || (renewed && is_little);
+    if (state.ended) return;
+    const bool astray = !step || std::abs(gain - step->predicted) > most_astray * step->predicted;
+    if (astray || is_little) state.derivatives.reset();
   }
 }
 
-Climb best_start(FitPosterior& posterior, const std::vector<FreeFigure>& figures,
-                 const std::vector<Eigen::VectorXd>& starts, const FitOptions& options) {
+OptimiserState best_start(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
+                          const std::vector<Eigen::VectorXd>& starts, const FitOptions& options) {
   constexpr int n_first_iterations = 3;
-  std::vector<Climb> climbs;
-  for (const Eigen::VectorXd& x : starts) climbs.push_back(begin_climb(posterior, x));
-  const auto better = [](const Climb& a, const Climb& b) {
+  std::vector<OptimiserState> optimiser_runs;
+  for (const Eigen::VectorXd& x : starts) optimiser_runs.push_back(begin_optimiser(posterior, x));
+  const auto better = [](const OptimiserState& a, const OptimiserState& b) {
     return a.log_posterior > b.log_posterior;
   };
-  std::sort(climbs.begin(), climbs.end(), better);
-  climbs.resize(std::min(climbs.size(), options.n_promising));
-  for (Climb& climb : climbs) climb_on(posterior, figures, climb, n_first_iterations, options);
-  std::sort(climbs.begin(), climbs.end(), better);
-  return std::move(climbs.front());
+  std::sort(optimiser_runs.begin(), optimiser_runs.end(), better);
+  optimiser_runs.resize(std::min(optimiser_runs.size(), options.n_promising));
+  for (OptimiserState& state : optimiser_runs)
+    optimise(posterior, fit_parameters, state, n_first_iterations, options);
+  std::sort(optimiser_runs.begin(), optimiser_runs.end(), better);
+  return std::move(optimiser_runs.front());
 }
 
 }  // namespace vibrissa::diagnosis

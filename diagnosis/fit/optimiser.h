@@ -14,17 +14,17 @@ struct FitOptions {
   int max_iterations = 14;
   /// Ends when an iteration gains less log posterior than this.
   double tolerance = 0.1;
-  /// Log posterior that another hypothesis has reached: a climb that is hopelessly below gives up.
+  /// Log posterior that another hypothesis has reached: a state that is hopelessly below gives up.
   double to_beat = -std::numeric_limits<double>::infinity();
   /// Starts of which a few iterations tell the basin.
   std::size_t n_promising = 2;
 };
 
 /// Sets coordinates that lie outside their prior's bounds to these.
-void clamp(const std::vector<FreeFigure>& figures, Eigen::VectorXd& x);
+void clamp(const std::vector<FitParameter>& fit_parameters, Eigen::VectorXd& x);
 
-/// Where a climb stands.
-struct Climb {
+/// Where a state stands.
+struct OptimiserState {
   Eigen::VectorXd x;
   std::vector<Prediction> predictions;
   double log_posterior = -std::numeric_limits<double>::infinity();
@@ -34,14 +34,15 @@ struct Climb {
   std::optional<Derivatives> derivatives{};  // while they hold
 };
 
-/// Fisher scoring with damping (Levenberg and Marquardt) from where the climb stands. Derivatives,
-/// which cost a simulation for each figure, serve as long as they foretell the gains: n_iterations
-/// counts their renewals. Proven by tests/diagnosis/fit/optimiser_test.cc and search_test.cc.
-void climb_on(FitPosterior& posterior, const std::vector<FreeFigure>& figures, Climb& climb,
-              int n_iterations, const FitOptions& options);
+/// Fisher scoring with damping (Levenberg and Marquardt) from where the state stands. Derivatives,
+/// which cost a simulation for each parameter, serve as long as they predict the gains:
+/// n_iterations counts their renewals. Proven by tests/diagnosis/fit/optimiser_test.cc and
+/// search_test.cc.
+void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
+              OptimiserState& state, int n_iterations, const FitOptions& options);
 
 /// A few iterations from the most promising starts tell which basin is the best.
-Climb best_start(FitPosterior& posterior, const std::vector<FreeFigure>& figures,
-                 const std::vector<Eigen::VectorXd>& starts, const FitOptions& options);
+OptimiserState best_start(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
+                          const std::vector<Eigen::VectorXd>& starts, const FitOptions& options);
 
 }  // namespace vibrissa::diagnosis

@@ -16,15 +16,15 @@ namespace {
 
 constexpr Eigen::Index n_regressors = 2;
 
-/// The wind's speed and its square, in the judged bins.
+/// The wind's speed and its square, in the evaluated bins.
 std::array<std::vector<Complex>, n_regressors> wind_bins(const PreparedRecord& record) {
   std::vector<double> square = record.wind;
   for (double& value : square) value *= value;
-  return {judged_bins(record, record.wind), judged_bins(record, square)};
+  return {evaluated_bins(record, record.wind), evaluated_bins(record, square)};
 }
 
 /// Blocks of frequency in which effects' own noise is there without wind, too: a tone's skirts are
-/// smooth over the lines, as the wind's are, and would be foretold by it.
+/// smooth over the lines, as the wind's are, and would be predicted by it.
 std::set<std::size_t> windless_blocks(const Experiment& experiment,
                                       const std::span<const WhitenedRecord> records) {
   std::map<std::size_t, std::pair<double, double>> shares;
@@ -96,8 +96,8 @@ void add_record(const Experiment& experiment, const PreparedRecord& record,
 
 }  // namespace
 
-ForetoldNoise foretold_noise(const Experiment& experiment,
-                             const std::span<const WhitenedRecord> records) {
+PredictedNoise predicted_noise(const Experiment& experiment,
+                               const std::span<const WhitenedRecord> records) {
   Sums sums;
   const std::set<std::size_t> left_out = windless_blocks(experiment, records);
   for (std::size_t r = 0; r < records.size(); ++r)

@@ -6,8 +6,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// What the measured wind foretells of a residual that a fit calls noise of its effects.
-struct ForetoldNoise {
+/// What the measured wind predicts of a residual that a fit calls noise of its effects.
+struct PredictedNoise {
   double nats = 0.;   // that the regression gains beyond what its coefficients gain by chance
   double share = 0.;  // of the residual's energy, where effects' own noise is a part of it
 };
@@ -18,6 +18,7 @@ struct ForetoldNoise {
 /// = X theta + n. Noise follows neither, and |X theta|^2 has mean p, the rank of X (independence
 /// test; Ljung, System Identification, 1999, 16.6). Proven by
 /// tests/diagnosis/fit/predicted_noise_test.cc.
-ForetoldNoise foretold_noise(const Experiment& experiment, std::span<const WhitenedRecord> records);
+PredictedNoise predicted_noise(const Experiment& experiment,
+                               std::span<const WhitenedRecord> records);
 
 }  // namespace vibrissa::diagnosis

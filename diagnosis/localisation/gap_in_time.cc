@@ -34,9 +34,9 @@ std::vector<double> trend_p_values(const RecordGap& gap) {
   constexpr std::size_t n_blocks = 16;
   std::vector<Complex> turned(gap.predicted);
   for (Complex& value : turned) value *= Complex(0., -1.);
-  const std::vector<double> p = judged_samples(*gap.record, gap.predicted);
-  const std::vector<double> q = judged_samples(*gap.record, turned);
-  const std::vector<double> e = judged_samples(*gap.record, gap.error);
+  const std::vector<double> p = evaluated_samples(*gap.record, gap.predicted);
+  const std::vector<double> q = evaluated_samples(*gap.record, turned);
+  const std::vector<double> e = evaluated_samples(*gap.record, gap.error);
   std::vector<double> gain, quadrature;
   for (std::size_t block = 0; block < n_blocks; ++block) {
     const std::size_t from = block * e.size() / n_blocks, to = (block + 1) * e.size() / n_blocks;
@@ -62,7 +62,7 @@ GapInTime excess_of(const RecordGap& gap) {
     whitened[b] /= std::sqrt(gap.variance[b]);
     power += std::norm(whitened[b]);
   }
-  const std::vector<double> samples = judged_samples(*gap.record, whitened);
+  const std::vector<double> samples = evaluated_samples(*gap.record, whitened);
   const double square = std::inner_product(samples.begin(), samples.end(), samples.begin(), 0.);
   if (!(square > 0.)) return {};
   // A sample's mean square where every bin holds noise alone.

@@ -98,10 +98,10 @@ std::vector<LevelGap> gap_map_by_level(const Experiment& experiment,
   for (const RecordGap& gap : gaps) {
     if (kind_of(*gap.record) != "base" || !gap.record->periodic) continue;
     const double level = base_level_m_s2(*gap.record);
-    auto place = by_level.lower_bound(level / same_level);
-    if (place == by_level.end() || place->first > level * same_level)
-      place = by_level.emplace(level, std::vector<RecordGap>{}).first;
-    place->second.push_back(gap);
+    auto index = by_level.lower_bound(level / same_level);
+    if (index == by_level.end() || index->first > level * same_level)
+      index = by_level.emplace(level, std::vector<RecordGap>{}).first;
+    index->second.push_back(gap);
   }
   if (by_level.size() < 2) return {};
   const std::vector<double> edges = band_edges_hz(experiment);

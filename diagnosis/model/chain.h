@@ -60,7 +60,7 @@ using NoiseSource = std::function<void(const RecordView&, std::span<double> vari
 /// Effects extend it; without effects it is the nominal simulator.
 struct Chain {
   /// Share of what the accelerometer's source gave, at its own rate, in place of what was polled.
-  double renewed_share = 0.;
+  double new_sample_share = 0.;
   std::vector<Filter> reference{};  // reading -> true acceleration at the accelerometer
   std::vector<Filter> mount{};      // there -> base
   NominalModel structure{};

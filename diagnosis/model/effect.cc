@@ -148,7 +148,7 @@ Chain probe(const Effect& effect, const NominalModel& structure) {
 bool is_nonlinear(const Effect& effect) {
   const Chain chain = probe(effect);
   // Samples that are taken twice fold lines onto others.
-  const bool folds = chain.renewed_share > 0.;
+  const bool folds = chain.new_sample_share > 0.;
   return !chain.joint.empty() || !chain.readout.empty() || chain.relative_wind.on || folds;
 }
 

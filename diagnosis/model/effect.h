@@ -11,7 +11,7 @@
 
 namespace vibrissa::diagnosis {
 
-/// Place in the measuring chain (docs/effects.md).
+/// Link of the measuring chain (docs/effects.md).
 enum class Link { reference, mount, structure, wind, sensor, clock };
 std::string to_string(Link link);
 
@@ -27,7 +27,7 @@ struct Prior {
   double curvature(double x) const;  // > 0, the Gaussian that stands for it near x
 };
 
-/// One figure of an effect. Fitted in x = value, or x = ln(value) when positive.
+/// One parameter of an effect. Fitted in x = value, or x = ln(value) when positive.
 struct Parameter {
   std::string name{}, unit{};
   bool logarithmic = false;
@@ -73,10 +73,10 @@ struct Effect {
   std::string equation{};
   std::string source{};         // of the equation; ranges and priors: docs/effects.md
   std::string confused_with{};  // and what tells apart
-  bool retune = false;          // a mere parameter error: recalibrate
+  bool calibration = false;     // a mere parameter error: recalibrate
   bool irreducible = false;     // noise of its own
   /// Our form may differ from nature's by this share of what the effect does.
-  double form_error = 0.01;
+  double model_form_error = 0.01;
   Needs needs{};
   double log_prior = 0.;  // beside that of its fellows
   std::vector<Parameter> parameters{};

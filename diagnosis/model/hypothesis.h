@@ -7,7 +7,7 @@
 
 namespace vibrissa::diagnosis {
 
-/// The retune effects that are free in every hypothesis: stiffness, damping, gains and drag.
+/// The calibration effects that are free in every hypothesis: stiffness, damping, gains and drag.
 const std::vector<std::string>& nuisance_ids();
 
 /// A set of effects that together may explain the gap, beside the nuisances. Sorted by id.

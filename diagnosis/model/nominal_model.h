@@ -28,7 +28,7 @@ struct StructuralMode {
 };
 
 /// How the structure follows one of its physical parameters x, from the finite-element model:
-/// d ln(figure) / d ln x, an entry to each mode of the NominalModel. Powers of x in between; a
+/// d ln(parameter) / d ln x, an entry to each mode of the NominalModel. Powers of x in between; a
 /// static moment that x does not change has the exponent 0.
 struct ParameterPath {
   std::vector<double> frequency, base_gain, wind_gain;
@@ -90,7 +90,7 @@ struct NominalModel {
   /// Name of the density that its mass follows: of the fin, or else of the wire; empty when neither
   /// is known.
   std::string mass_parameter() const;
-  /// Takes every figure along the path to ln x; the damping ratios stay. Proven by
+  /// Takes every parameter along the path to ln x; the damping ratios stay. Proven by
   /// tests/diagnosis/nominal/nominal_from_model_test.cc.
   void follow(const ParameterPath& path, double log_x);
 

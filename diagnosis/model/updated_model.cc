@@ -4,7 +4,7 @@
 
 namespace vibrissa::diagnosis {
 
-Chain MendedModel::chain() const {
+Chain UpdatedModel::chain() const {
   Chain chain{.structure = nominal,
               .joint_share = nominal.joint_share,
               .joint_loss_factor = nominal.joint_loss_factor};

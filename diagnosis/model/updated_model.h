@@ -17,14 +17,14 @@ struct KnownEffect {
 };
 
 /// A simulation with what an earlier diagnosis has found: the nominal model and the effects that
-/// are known to be there, retunes among them, in the order in which they extend it. A nominal model
-/// is one without effects. Proven by tests/diagnosis/model/updated_model_test.cc.
-struct MendedModel {
+/// are known to be there, calibrations among them, in the order in which they extend it. A nominal
+/// model is one without effects. Proven by tests/diagnosis/model/updated_model_test.cc.
+struct UpdatedModel {
   NominalModel nominal{};
   std::vector<KnownEffect> effects{};
 
-  MendedModel() = default;
-  MendedModel(NominalModel model, std::vector<KnownEffect> known = {})  // NOLINT: meant to convert
+  UpdatedModel() = default;
+  UpdatedModel(NominalModel model, std::vector<KnownEffect> known = {})  // NOLINT: meant to convert
       : nominal(std::move(model)), effects(std::move(known)) {}
 
   /// Throws UserError for an effect that the catalogue has not.

@@ -52,14 +52,14 @@ json to_json(const ParameterPath& path) {
 }
 
 ParameterPath read_path(const JsonEntry& entry, const std::size_t n_modes) {
-  const auto figures = [&](const std::string& name) {
+  const auto fit_parameters = [&](const std::string& name) {
     std::vector<double> values = entry[name].numbers();
     entry[name].require(values.size() == n_modes, "must have a number for each mode");
     return values;
   };
-  return {.frequency = figures("frequency"),
-          .base_gain = figures("base_gain"),
-          .wind_gain = figures("wind_gain"),
+  return {.frequency = fit_parameters("frequency"),
+          .base_gain = fit_parameters("base_gain"),
+          .wind_gain = fit_parameters("wind_gain"),
           .static_base_moment = entry["static_base_moment"].number(),
           .static_wind_moment = entry["static_wind_moment"].number()};
 }
@@ -178,26 +178,26 @@ KnownEffect read_effect(const JsonEntry& entry) {
 
 }  // namespace
 
-std::string mended_model_json(const MendedModel& model) {
+std::string updated_model_json(const UpdatedModel& model) {
   json effects = json::array();
   for (const KnownEffect& known : model.effects) effects.push_back(to_json(known));
   const json document{
-      {"schema", mended_model_schema}, {"nominal", to_json(model.nominal)}, {"effects", effects}};
+      {"schema", updated_model_schema}, {"nominal", to_json(model.nominal)}, {"effects", effects}};
   return document.dump(1);
 }
 
-MendedModel read_mended_model(const std::filesystem::path& file) {
+UpdatedModel read_updated_model(const std::filesystem::path& file) {
   const nlohmann::json document = signals::read_json(file);
   const JsonEntry root(document, file.string(), nlohmann::json::json_pointer());
-  root["schema"].require(root["schema"].text() == mended_model_schema,
-                         "must be \"" + mended_model_schema + "\"");
+  root["schema"].require(root["schema"].text() == updated_model_schema,
+                         "must be \"" + updated_model_schema + "\"");
   return {read_nominal(root["nominal"]), root["effects"].list(read_effect)};
 }
 
-bool is_mended_model(const std::filesystem::path& file) {
+bool is_updated_model(const std::filesystem::path& file) {
   try {
     const nlohmann::json document = signals::read_json(file);
-    return document.is_object() && document.value("schema", "") == mended_model_schema;
+    return document.is_object() && document.value("schema", "") == updated_model_schema;
   } catch (const std::exception&) {
     return false;
   }

@@ -8,17 +8,17 @@
 namespace vibrissa::diagnosis {
 
 /// Schema of the files, for those who must tell them from other models.
-inline const std::string mended_model_schema = "vibrissa-mended-model-1";
+inline const std::string updated_model_schema = "vibrissa-updated-model-1";
 
 /// The model as JSON: modes, direct terms, the joint's share, effects with named values, units and
 /// scales.
-std::string mended_model_json(const MendedModel& model);
+std::string updated_model_json(const UpdatedModel& model);
 
 /// Throws UserError with the file and place of what is missing or out of its range, and the names
 /// that are known. Proven by tests/diagnosis/model/updated_model_test.cc.
-MendedModel read_mended_model(const std::filesystem::path& file);
+UpdatedModel read_updated_model(const std::filesystem::path& file);
 
 /// Is the file a JSON document of this schema? False for what is none.
-bool is_mended_model(const std::filesystem::path& file);
+bool is_updated_model(const std::filesystem::path& file);
 
 }  // namespace vibrissa::diagnosis

@@ -58,7 +58,7 @@ Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& r
       }
       whole[k] = response * spectrum[k];
     }
-    const std::vector<Complex> bins = judged_bins(record, samples_of(whole, record.n_samples));
+    const std::vector<Complex> bins = evaluated_bins(record, samples_of(whole, record.n_samples));
     for (Eigen::Index b = 0; b < n_bins; ++b) columns(b, c) = bins[static_cast<std::size_t>(b)];
   }
   return columns;
@@ -118,7 +118,7 @@ void set_wind_path(NominalModel& model, const signals::Dataset& simulation) {
   model.has_wind = true;
 }
 
-/// One model foretells one kind of reading.
+/// One model predicts one kind of reading.
 signals::Readout readout_of(const signals::Dataset& simulation) {
   if (simulation.records.empty()) return signals::Readout::moment;
   const DatasetRecord& first = simulation.records.front();

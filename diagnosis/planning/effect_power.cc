@@ -32,9 +32,9 @@ struct StudiedEffect {
   EffectPower power{};
 };
 
-/// Could the rival be taken for the effect, on such a sensor?
+/// Could the alternative be taken for the effect, on such a sensor?
 struct OpenPair {
-  std::size_t effect = 0, rival = 0;
+  std::size_t effect = 0, alternative = 0;
   SensorKind kind = SensorKind::exact;
 };
 
@@ -95,7 +95,8 @@ class PowerStudy {
     for_each(effects_.size(), [&](std::size_t i) { find(effects_[i]); });
     const std::vector<OpenPair> pairs = open_pairs();
     std::vector<bool> taking_part(effects_.size(), false);
-    for (const OpenPair& pair : pairs) taking_part[pair.effect] = taking_part[pair.rival] = true;
+    for (const OpenPair& pair : pairs)
+      taking_part[pair.effect] = taking_part[pair.alternative] = true;
     for_each(effects_.size(), [&](std::size_t i) {
       if (taking_part[i]) set_faint(effects_[i]);
     });
@@ -106,7 +107,7 @@ class PowerStudy {
       if (alike[i] != 0)
         effects_[pairs[i].effect]
             .power.on(pairs[i].kind)
-            .alike.push_back(effects_[pairs[i].rival].effect->id);
+            .alike.push_back(effects_[pairs[i].alternative].effect->id);
     std::vector<EffectPower> out;
     for (StudiedEffect& effect : effects_) out.push_back(std::move(effect.power));
     return out;
@@ -130,12 +131,12 @@ class PowerStudy {
       if (!is_settled(effect))
         effect.change = change_at(effect.families.front(), *effect.effect, 1.);
       for (const SensorKind kind : sensor_kinds) {
-        Standing& standing = effect.power.on(kind);
+        Detectability& detectability = effect.power.on(kind);
         const EffectPower* before = known(effect.effect->id);
-        standing.nats = before != nullptr && before->on(kind).found
-                            ? before->on(kind).nats
-                            : nats_of(effect, effect.change, kind);
-        standing.found = standing.nats >= nats_to_find;
+        detectability.nats = before != nullptr && before->on(kind).found
+                                 ? before->on(kind).nats
+                                 : nats_of(effect, effect.change, kind);
+        detectability.found = detectability.nats >= detection_threshold_nats;
         if (options_.limits) set_limit(effect, kind);
       }
     }
@@ -146,8 +147,9 @@ class PowerStudy {
   /// Found before, and told from all that is shown now.
   bool is_settled(const StudiedEffect& effect) const {
     return std::all_of(sensor_kinds.begin(), sensor_kinds.end(), [&](SensorKind kind) {
-      return std::all_of(effects_.begin(), effects_.end(), [&](const StudiedEffect& rival) {
-        return &rival == &effect || !rival.power.shown || known_different(effect, rival, kind);
+      return std::all_of(effects_.begin(), effects_.end(), [&](const StudiedEffect& alternative) {
+        return &alternative == &effect || !alternative.power.shown ||
+               known_different(effect, alternative, kind);
       });
     });
   }
@@ -156,13 +158,13 @@ class PowerStudy {
     return point_.change(point_.x(), effect, family.values(share));
   }
 
-  /// Figures that are free besides the given effects.
-  std::vector<std::size_t> free_figures(SensorKind kind, const Effect* effect,
-                                        const Effect* rival = nullptr) const {
+  /// Parameters that are free besides the given effects.
+  std::vector<std::size_t> free_parameters(SensorKind kind, const Effect* effect,
+                                           const Effect* alternative = nullptr) const {
     std::vector<std::size_t> free;
-    for (std::size_t i = 0; i < point_.figures().size(); ++i) {
-      const Effect* own = point_.figures()[i].effect;
-      if (own == nullptr || (kind == SensorKind::as_built && own != effect && own != rival))
+    for (std::size_t i = 0; i < point_.fit_parameters().size(); ++i) {
+      const Effect* own = point_.fit_parameters()[i].effect;
+      if (own == nullptr || (kind == SensorKind::as_built && own != effect && own != alternative))
         free.push_back(i);
     }
     return free;
@@ -170,9 +172,9 @@ class PowerStudy {
 
   double nats_of(const StudiedEffect& effect, const Eigen::VectorXd& change,
                  SensorKind kind) const {
-    // Too strong to be foretold.
+    // Too strong to be predicted.
     if (!change.allFinite()) return std::numeric_limits<double>::infinity();
-    return follow(point_, change, free_figures(kind, effect.effect)).left +
+    return project(point_, change, free_parameters(kind, effect.effect)).left +
            std::max(0., point_.changes().beyond_square(change));
   }
 
@@ -181,11 +183,11 @@ class PowerStudy {
     constexpr double least_exponent = 0.5, largest_exponent = 6., near = 0.25, smallest = 1e-6;
     constexpr int n_steps = 12;
     const EffectFamily& family = effect.families.front();
-    Standing& standing = effect.power.on(kind);
+    Detectability& detectability = effect.power.on(kind);
     const double low = std::log(smallest), high = std::log(family.largest_share());
-    double at = 0., nats = standing.nats, exponent = 2.;
+    double at = 0., nats = detectability.nats, exponent = 2.;
     for (int i = 0; i < n_steps; ++i) {
-      const double short_of = std::log(nats_to_find / std::max(nats, 1e-12));
+      const double short_of = std::log(detection_threshold_nats / std::max(nats, 1e-12));
       if (std::abs(short_of) < near) break;
       if ((short_of > 0. && at >= high) || (short_of < 0. && at <= low)) break;
       const double move = std::isfinite(short_of) ? short_of / exponent : std::log(0.1);
@@ -198,10 +200,11 @@ class PowerStudy {
       at = next;
       nats = there;
     }
-    standing.any_size = at <= low && nats > nats_to_find;
-    if (!standing.any_size && nats > 0.) at += std::log(nats_to_find / nats) / exponent;
+    detectability.detected_at_any_size = at <= low && nats > detection_threshold_nats;
+    if (!detectability.detected_at_any_size && nats > 0.)
+      at += std::log(detection_threshold_nats / nats) / exponent;
     if (at > high) return;
-    standing.limit = family.values(std::exp(at))[family.parameter()];
+    detectability.limit = family.values(std::exp(at))[family.parameter()];
   }
 
   void set_faint(StudiedEffect& effect) const {
@@ -231,38 +234,39 @@ class PowerStudy {
     return out;
   }
 
-  bool known_different(const StudiedEffect& effect, const StudiedEffect& rival,
+  bool known_different(const StudiedEffect& effect, const StudiedEffect& alternative,
                        SensorKind kind) const {
-    const EffectPower *one = known(effect.effect->id), *other = known(rival.effect->id);
+    const EffectPower *one = known(effect.effect->id), *other = known(alternative.effect->id);
     return one != nullptr && other != nullptr && one->on(kind).found && other->shown &&
            !contains(one->on(kind).alike, other->effect);
   }
 
   bool are_alike(const OpenPair& pair) const {
-    const StudiedEffect &effect = effects_[pair.effect], &rival = effects_[pair.rival];
+    const StudiedEffect &effect = effects_[pair.effect], &alternative = effects_[pair.alternative];
     if (!effect.change.allFinite()) return false;
-    const std::vector<std::size_t> free = free_figures(pair.kind, effect.effect, rival.effect);
-    // Where the rival's directions leave this much, its curvature does not explain it either.
+    const std::vector<std::size_t> free =
+        free_parameters(pair.kind, effect.effect, alternative.effect);
+    // Where the alternative's directions leave this much, its curvature does not explain it either.
     constexpr double hopeless = 0.05;
-    if (left_by_directions(effect, rival, free) >
+    if (left_by_directions(effect, alternative, free) >
         std::max(nats_to_tell_apart, hopeless * effect.change.squaredNorm()))
       return false;
-    const std::optional<Rival> begin = nearest(effect.change, rival);
+    const std::optional<Alternative> begin = nearest(effect.change, alternative);
     if (!begin) return false;
-    const Following following = follow(point_, effect.change, free, begin);
-    const double form = rival.effect->form_error;
+    const Projection following = project(point_, effect.change, free, begin);
+    const double form = alternative.effect->model_form_error;
     const double hidden =
         std::min({most_hidden_by_form, most_share * effect.power.on(pair.kind).nats,
-                  form * form * following.rival_energy});
+                  form * form * following.alternative_energy});
     return following.left < std::max(nats_to_tell_apart, hidden);
   }
 
-  /// All figures and all starts of the effects that take part, as directions.
+  /// All parameters and all starts of the effects that take part, as directions.
   void set_directions() {
     std::vector<Eigen::VectorXd> columns = point_.columns();
     std::vector<double> half_priors;
-    for (const FreeFigure& figure : point_.figures())
-      half_priors.push_back(half_prior(figure, figure.description.prior.centre, 1.));
+    for (const FitParameter& fit_parameter : point_.fit_parameters())
+      half_priors.push_back(half_prior(fit_parameter, fit_parameter.description.prior.centre, 1.));
     for (StudiedEffect& effect : effects_) {
       effect.first_column = columns.size();
       for (const FaintStart& start : effect.faint) {
@@ -274,29 +278,33 @@ class PowerStudy {
     directions_ = FisherDirections(columns, half_priors);
   }
 
-  /// Of the effect's direction at its typical energy, when all of the rival's directions follow it.
-  double left_by_directions(const StudiedEffect& effect, const StudiedEffect& rival,
+  /// Of the effect's direction at its typical energy, when all of the alternative's directions
+  /// follow it.
+  double left_by_directions(const StudiedEffect& effect, const StudiedEffect& alternative,
                             const std::vector<std::size_t>& free) const {
     std::vector<bool> chosen(static_cast<std::size_t>(directions_.columns().cols()), false);
-    for (const std::size_t place : free) chosen[place] = true;
-    for (std::size_t i = 0; i < rival.faint.size(); ++i) chosen[rival.first_column + i] = true;
+    for (const std::size_t index : free) chosen[index] = true;
+    for (std::size_t i = 0; i < alternative.faint.size(); ++i)
+      chosen[alternative.first_column + i] = true;
     return directions_.left_of(static_cast<Eigen::Index>(effect.first_column),
                                effect.change.squaredNorm(), chosen);
   }
 
-  /// The rival at the start and size that follow a change best.
-  std::optional<Rival> nearest(const Eigen::VectorXd& change, const StudiedEffect& rival) const {
-    std::optional<Rival> best;
+  /// The alternative at the start and size that follow a change best.
+  std::optional<Alternative> nearest(const Eigen::VectorXd& change,
+                                     const StudiedEffect& alternative) const {
+    std::optional<Alternative> best;
     double most = 0.;
-    for (std::size_t s = 0; s < rival.faint.size(); ++s) {
-      const Eigen::VectorXd& faint = rival.faint[s].change;
+    for (std::size_t s = 0; s < alternative.faint.size(); ++s) {
+      const Eigen::VectorXd& faint = alternative.faint[s].change;
       const double own = faint.squaredNorm(), factor = change.dot(faint) / own;
       if (!(own > 0.) || !(factor > 0.) || factor * factor * own <= most) continue;
       most = factor * factor * own;
-      const EffectFamily& family = rival.families[s];
-      const double share = faint_share * (rival.faint[s].of_variance ? std::sqrt(factor) : factor);
-      best = Rival{rival.effect,
-                   family.values(std::clamp(share, faint_share, family.largest_share()))};
+      const EffectFamily& family = alternative.families[s];
+      const double share =
+          faint_share * (alternative.faint[s].of_variance ? std::sqrt(factor) : factor);
+      best = Alternative{alternative.effect,
+                         family.values(std::clamp(share, faint_share, family.largest_share()))};
     }
     return best;
   }

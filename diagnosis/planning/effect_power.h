@@ -14,23 +14,24 @@ namespace vibrissa::diagnosis {
 /// Expected log likelihood ratio against every sensor without the effect at which it counts as
 /// found: what naming one of thirty effects costs in the prior, and its parameter's Occam factor.
 /// Of one parameter in Gaussian noise: four standard deviations.
-inline constexpr double nats_to_find = 8.;
+inline constexpr double detection_threshold_nats = 8.;
 /// And below which two effects are alike (indistinguishable.h).
 inline constexpr double nats_to_tell_apart = 2.;
 
 /// What else may differ from the simulation: noise levels and joint alone, or, as built, the
-/// retunes too, a little (retune_choices.h: half of all sensors are either).
+/// calibrations too, a little (calibration_choices.h: half of all sensors are either).
 enum class SensorKind { exact, as_built };
 inline constexpr std::array sensor_kinds{SensorKind::exact, SensorKind::as_built};
 
 /// What an experiment would say of one effect on a sensor of one kind.
-struct Standing {
+struct Detectability {
   double nats = 0.;    // at typical strength
   bool found = false;  // at typical strength
   /// Value of the size parameter from which on the effect is found, the others as at the first
   /// start; nothing: nowhere up to the end of its range.
   std::optional<double> limit{};
-  bool any_size = false;  // however small: the effect does not go to nothing with its parameter
+  bool detected_at_any_size =
+      false;  // however small: the effect does not go to nothing with its parameter
   /// Effects that may be taken for this one at its typical strength, when it is found.
   std::vector<std::string> alike{};
 };
@@ -41,10 +42,12 @@ struct EffectPower {
   std::string needs{};  // what is missing when not
   std::string parameter{}, unit{};
   double typical = 0.;  // value of the size parameter at the effect's first start
-  Standing exact{}, as_built{};
+  Detectability exact{}, as_built{};
 
-  const Standing& on(SensorKind kind) const { return kind == SensorKind::exact ? exact : as_built; }
-  Standing& on(SensorKind kind) { return kind == SensorKind::exact ? exact : as_built; }
+  const Detectability& on(SensorKind kind) const {
+    return kind == SensorKind::exact ? exact : as_built;
+  }
+  Detectability& on(SensorKind kind) { return kind == SensorKind::exact ? exact : as_built; }
 };
 
 struct PowerOptions {
@@ -57,7 +60,7 @@ struct PowerOptions {
 
 /// Of every effect of the catalogue, for records of the nominal sensor with white noise.
 ///   found: the whitened change of mean and variance (fisher_changes.h) that is left when all that
-///   the sensor may have besides follows it, but the effect's own retune.
+///   the sensor may have besides follows it, but the effect's own calibration.
 ///   alike: what is left when the other effect's parameters follow it as well is less than two nats
 ///   or than the other's form error hides.
 /// Followers are refitted (follower.h): strong effects are more than their tangents. Proven by

@@ -30,8 +30,8 @@ double duration_of(const std::vector<PlannedInput>& inputs) {
 Pairs alike_pairs(const std::vector<EffectPower>& effects, SensorKind kind) {
   Pairs out;
   for (const EffectPower& effect : effects)
-    for (const std::string& rival : effect.on(kind).alike)
-      out.emplace(std::min(effect.effect, rival), std::max(effect.effect, rival));
+    for (const std::string& alternative : effect.on(kind).alike)
+      out.emplace(std::min(effect.effect, alternative), std::max(effect.effect, alternative));
   return out;
 }
 
@@ -157,9 +157,10 @@ double undecided_probability(const std::vector<EffectPower>& effects) {
   for (const SensorKind kind : sensor_kinds)
     for (const EffectPower& effect : effects) {
       const double own = weight(effect.effect);
-      double rivals = 0.;
-      for (const std::string& rival : effect.on(kind).alike) rivals += weight(rival);
-      undecided += effect.on(kind).found ? own * rivals / (own + rivals) : own;
+      double alternatives = 0.;
+      for (const std::string& alternative : effect.on(kind).alike)
+        alternatives += weight(alternative);
+      undecided += effect.on(kind).found ? own * alternatives / (own + alternatives) : own;
       all += own;
     }
   return all > 0. ? undecided / all : 0.;

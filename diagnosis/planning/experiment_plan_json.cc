@@ -13,13 +13,13 @@ namespace {
 using json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
 
-json standing_json(const EffectPower& effect, SensorKind kind) {
-  const Standing& standing = effect.on(kind);
-  return {{"nats_at_typical", effect.shown ? json_number(standing.nats) : json(nullptr)},
-          {"found_at_typical", standing.found},
-          {"limit", standing.limit ? json_number(*standing.limit) : json(nullptr)},
-          {"found_at_any_size", standing.any_size},
-          {"alike", standing.alike}};
+json detectability_json(const EffectPower& effect, SensorKind kind) {
+  const Detectability& detectability = effect.on(kind);
+  return {{"nats_at_typical", effect.shown ? json_number(detectability.nats) : json(nullptr)},
+          {"found_at_typical", detectability.found},
+          {"limit", detectability.limit ? json_number(*detectability.limit) : json(nullptr)},
+          {"found_at_any_size", detectability.detected_at_any_size},
+          {"alike", detectability.alike}};
 }
 
 json effect_json(const EffectPower& effect) {
@@ -29,8 +29,8 @@ json effect_json(const EffectPower& effect) {
           {"parameter", effect.parameter},
           {"unit", effect.unit},
           {"typical", json_number(effect.typical)},
-          {"exact", standing_json(effect, SensorKind::exact)},
-          {"as_built", standing_json(effect, SensorKind::as_built)}};
+          {"exact", detectability_json(effect, SensorKind::exact)},
+          {"as_built", detectability_json(effect, SensorKind::as_built)}};
 }
 
 json step_json(const PlannedStep& step) {
@@ -51,12 +51,12 @@ std::string with_unit(double value, const std::string& unit) {
 
 /// "delay 6.3e-06 s", "backlash gap 0.0003".
 std::string limit_words(const EffectPower& effect) {
-  const Standing& standing = effect.as_built;
-  if (!standing.limit) return effect.effect + " at no size";
-  if (standing.any_size) return effect.effect + " at any size";
+  const Detectability& detectability = effect.as_built;
+  if (!detectability.limit) return effect.effect + " at no size";
+  if (detectability.detected_at_any_size) return effect.effect + " at any size";
   const std::string name =
       effect.unit == "1" ? effect.effect + " " + effect.parameter : effect.effect;
-  return name + " " + with_unit(*standing.limit, effect.unit);
+  return name + " " + with_unit(*detectability.limit, effect.unit);
 }
 
 /// Words with commas on lines of at most 100 characters, the last one ending in dots when there are
@@ -185,7 +185,7 @@ std::string plan_json(const ExperimentPlan& plan) {
                       {"noise",
                        {{"moment_n_m", json_number(plan.noise.moment_n_m)},
                         {"acceleration_m_s2", json_number(plan.noise.acceleration_m_s2)}}},
-                      {"nats_to_find", nats_to_find},
+                      {"detection_threshold_nats", detection_threshold_nats},
                       {"nats_to_tell_apart", nats_to_tell_apart},
                       {"records", records},
                       {"undecided_probability", json_number(plan.undecided)},

@@ -25,7 +25,7 @@ struct PlannedInput {
   std::size_t period_samples = 0;            // 0: not periodic
 };
 
-/// The inputs of the fit records of a simulation that the nominal model can foretell. Channels that
+/// The inputs of the fit records of a simulation that the nominal model can predict. Channels that
 /// are zero throughout are none. Throws UserError when nothing is left.
 std::vector<PlannedInput> inputs_of(const NominalModel& nominal, const signals::Dataset& dataset);
 

@@ -10,18 +10,20 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-Eigen::VectorXd nominal_x(const std::vector<FreeFigure>& figures, const ChannelNoise& noise) {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(figures.size()));
-  for (std::size_t i = 0; i < figures.size(); ++i)
-    x(static_cast<Eigen::Index>(i)) = figures[i].description.prior.centre;
-  x(place_moment_noise) = std::log(noise.moment_n_m);
-  x(place_acceleration_noise) = std::log(noise.acceleration_m_s2);
+Eigen::VectorXd nominal_x(const std::vector<FitParameter>& fit_parameters,
+                          const ChannelNoise& noise) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(fit_parameters.size()));
+  for (std::size_t i = 0; i < fit_parameters.size(); ++i)
+    x(static_cast<Eigen::Index>(i)) = fit_parameters[i].description.prior.centre;
+  x(index_of_moment_noise) = std::log(noise.moment_n_m);
+  x(index_of_acceleration_noise) = std::log(noise.acceleration_m_s2);
   return x;
 }
 
-FisherChanges nominal_changes(const Experiment& experiment, const std::vector<FreeFigure>& figures,
+FisherChanges nominal_changes(const Experiment& experiment,
+                              const std::vector<FitParameter>& fit_parameters,
                               const Eigen::VectorXd& x) {
-  FitPosterior posterior(experiment, figures, Hypothesis{});
+  FitPosterior posterior(experiment, fit_parameters, Hypothesis{});
   const std::vector<Prediction> at = posterior.predict(x);
   posterior.renew_slow_variance(x, at);
   std::vector<double> deviation;
@@ -29,19 +31,20 @@ FisherChanges nominal_changes(const Experiment& experiment, const std::vector<Fr
     for (const double variance :
          posterior.variance(x, at[r], r, posterior.acceleration_variance(x)))
       deviation.push_back(std::sqrt(variance));
-  return {experiment, std::move(deviation), noisy_chain(experiment, figures, x)};
+  return {experiment, std::move(deviation), noisy_chain(experiment, fit_parameters, x)};
 }
 
 /// Nats left that are as good as none.
 constexpr double surely_followed = 0.5;
 
 /// Distance of what follows from a change, with its price.
-class Pursuit {
+class LeastSquaresProjection {
  public:
-  Pursuit(const NominalPoint& point, const Eigen::VectorXd& change,
-          const std::vector<std::size_t>& figures, const std::optional<Rival>& rival)
-      : point_(point), change_(change), figures_(figures), rival_(rival) {
-    const std::size_t n = figures.size() + (rival ? rival->values.size() : 0);
+  LeastSquaresProjection(const NominalPoint& point, const Eigen::VectorXd& change,
+                         const std::vector<std::size_t>& fit_parameters,
+                         const std::optional<Alternative>& alternative)
+      : point_(point), change_(change), fit_parameters_(fit_parameters), alternative_(alternative) {
+    const std::size_t n = fit_parameters.size() + (alternative ? alternative->values.size() : 0);
     z_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
     half_prior_ = z_;
     low_ = high_ = centre_ = z_;
@@ -51,51 +54,53 @@ class Pursuit {
     set_columns(true);
   }
 
-  Following run() {
+  Projection run() {
     constexpr int n_steps = 14;
     for (int i = 0; i < n_steps && !ended_; ++i) step();
-    if (!rival_) return {.left = cost_};
-    const Eigen::VectorXd alone = point_.change(figures_at(z_));
-    return {.left = cost_,
-            .rival_energy = std::min(point_.changes().mean_energy(change_),
-                                     point_.changes().mean_energy(change_ - residual_ - alone))};
+    if (!alternative_) return {.left = cost_};
+    const Eigen::VectorXd alone = point_.change(parameters_at(z_));
+    return {
+        .left = cost_,
+        .alternative_energy = std::min(point_.changes().mean_energy(change_),
+                                       point_.changes().mean_energy(change_ - residual_ - alone))};
   }
 
  private:
   const Parameter& description(std::size_t i) const {
-    return i < figures_.size() ? point_.figures()[figures_[i]].description
-                               : rival_->effect->parameters[i - figures_.size()];
+    return i < fit_parameters_.size()
+               ? point_.fit_parameters()[fit_parameters_[i]].description
+               : alternative_->effect->parameters[i - fit_parameters_.size()];
   }
 
   void set_coordinate(std::size_t i) {
-    const auto place = static_cast<Eigen::Index>(i);
+    const auto index = static_cast<Eigen::Index>(i);
     const Parameter& parameter = description(i);
-    low_(place) = parameter.prior.low;
-    high_(place) = parameter.prior.high;
-    if (i < figures_.size()) {
-      const FreeFigure& figure = point_.figures()[figures_[i]];
-      z_(place) = centre_(place) = point_.x()(static_cast<Eigen::Index>(figures_[i]));
-      half_prior_(place) = half_prior(figure, parameter.prior.centre, 1.);
+    low_(index) = parameter.prior.low;
+    high_(index) = parameter.prior.high;
+    if (i < fit_parameters_.size()) {
+      const FitParameter& fit_parameter = point_.fit_parameters()[fit_parameters_[i]];
+      z_(index) = centre_(index) = point_.x()(static_cast<Eigen::Index>(fit_parameters_[i]));
+      half_prior_(index) = half_prior(fit_parameter, parameter.prior.centre, 1.);
     } else {
-      z_(place) = std::clamp(parameter.coordinate(rival_->values[i - figures_.size()]), low_(place),
-                             high_(place));
+      z_(index) = std::clamp(parameter.coordinate(alternative_->values[i - fit_parameters_.size()]),
+                             low_(index), high_(index));
     }
   }
 
-  Eigen::VectorXd figures_at(const Eigen::VectorXd& z) const {
+  Eigen::VectorXd parameters_at(const Eigen::VectorXd& z) const {
     Eigen::VectorXd x = point_.x();
-    for (std::size_t i = 0; i < figures_.size(); ++i)
-      x(static_cast<Eigen::Index>(figures_[i])) = z(static_cast<Eigen::Index>(i));
+    for (std::size_t i = 0; i < fit_parameters_.size(); ++i)
+      x(static_cast<Eigen::Index>(fit_parameters_[i])) = z(static_cast<Eigen::Index>(i));
     return x;
   }
 
   Eigen::VectorXd residual(const Eigen::VectorXd& z) const {
-    const Eigen::VectorXd x = figures_at(z);
-    if (!rival_) return change_ - point_.change(x);
+    const Eigen::VectorXd x = parameters_at(z);
+    if (!alternative_) return change_ - point_.change(x);
     std::vector<double> values;
-    for (std::size_t i = figures_.size(); i < static_cast<std::size_t>(z.size()); ++i)
+    for (std::size_t i = fit_parameters_.size(); i < static_cast<std::size_t>(z.size()); ++i)
       values.push_back(description(i).value(z(static_cast<Eigen::Index>(i))));
-    return change_ - point_.change(x, *rival_->effect, values);
+    return change_ - point_.change(x, *alternative_->effect, values);
   }
 
   double cost(const Eigen::VectorXd& z, const Eigen::VectorXd& residual) const {
@@ -104,17 +109,17 @@ class Pursuit {
     return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
   }
 
-  /// Derivatives at z; those by the figures are known where the pursuit begins.
+  /// Derivatives at z; those by the parameters are known where the pursuit begins.
   void set_columns(bool at_start) {
     columns_.resize(residual_.size(), z_.size());
     for (Eigen::Index i = 0; i < z_.size(); ++i) {
-      const auto place = static_cast<std::size_t>(i);
-      if (at_start && place < figures_.size()) {
-        columns_.col(i) = point_.columns()[figures_[place]];
+      const auto index = static_cast<std::size_t>(i);
+      if (at_start && index < fit_parameters_.size()) {
+        columns_.col(i) = point_.columns()[fit_parameters_[index]];
         continue;
       }
       Eigen::VectorXd z = z_;
-      double h = description(place).step;
+      double h = description(index).step;
       if (z(i) + h > high_(i)) h = -h;
       z(i) += h;
       columns_.col(i) = (residual_ - residual(z)) / h;
@@ -154,13 +159,13 @@ class Pursuit {
       const Eigen::VectorXd part = move_of(free, held, uphill);
       std::vector<Eigen::Index> inside;
       for (std::size_t i = 0; i < free.size(); ++i) {
-        const Eigen::Index place = free[i];
-        const double to = z_(place) + part(static_cast<Eigen::Index>(i));
-        const double bounded = std::clamp(to, low_(place), high_(place));
+        const Eigen::Index index = free[i];
+        const double to = z_(index) + part(static_cast<Eigen::Index>(i));
+        const double bounded = std::clamp(to, low_(index), high_(index));
         if (bounded == to)
-          inside.push_back(place);
+          inside.push_back(index);
         else
-          held(place) = bounded - z_(place);
+          held(index) = bounded - z_(index);
       }
       if (inside.size() == free.size()) {
         held(free) = part;
@@ -171,15 +176,15 @@ class Pursuit {
     return held;
   }
 
-  /// One step of Levenberg's and Marquardt's; derivatives are renewed when they foretell badly.
+  /// One step of Levenberg's and Marquardt's; derivatives are renewed when they predict badly.
   void step() {
     constexpr double far = 200., worthwhile_when_far = 0.3;
     constexpr double worthwhile = 0.02, untrusted = 0.1, negligible = 0.2, most_damping = 1e3;
     const Eigen::VectorXd z = (z_ + damped_move()).cwiseMax(low_).cwiseMin(high_);
-    const Eigen::VectorXd foretold_residual = residual_ - columns_ * (z - z_);
-    const double foretold = cost(z, foretold_residual);
-    const double least_gain = foretold > far ? worthwhile_when_far : worthwhile;
-    if (cost_ - foretold < least_gain * cost_) {
+    const Eigen::VectorXd predicted_residual = residual_ - columns_ * (z - z_);
+    const double predicted = cost(z, predicted_residual);
+    const double least_gain = predicted > far ? worthwhile_when_far : worthwhile;
+    if (cost_ - predicted < least_gain * cost_) {
       renew_or_end();
       return;
     }
@@ -200,13 +205,13 @@ class Pursuit {
     cost_ = value;
     damping_ *= 0.2;
     fresh_ = false;
-    foretold_well_ = value - foretold < std::max(negligible, untrusted * foretold);
-    if (!ended_ && !foretold_well_) set_columns(false);
+    predicted_well_ = value - predicted < std::max(negligible, untrusted * predicted);
+    if (!ended_ && !predicted_well_) set_columns(false);
   }
 
   /// No step helps: because the place is the best, unless the derivatives are of elsewhere.
   void renew_or_end() {
-    if (fresh_ || foretold_well_)
+    if (fresh_ || predicted_well_)
       ended_ = true;
     else
       set_columns(false);
@@ -214,45 +219,46 @@ class Pursuit {
 
   const NominalPoint& point_;
   const Eigen::VectorXd& change_;
-  const std::vector<std::size_t>& figures_;
-  const std::optional<Rival>& rival_;
+  const std::vector<std::size_t>& fit_parameters_;
+  const std::optional<Alternative>& alternative_;
   Eigen::VectorXd z_, half_prior_, low_, high_, centre_, residual_;
   Eigen::MatrixXd columns_, information_;
   double cost_ = 0., damping_ = 1e-4;
-  bool fresh_ = false, foretold_well_ = false, ended_ = false;
+  bool fresh_ = false, predicted_well_ = false, ended_ = false;
 };
 
 }  // namespace
 
 NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noise)
     : experiment_(experiment),
-      figures_(make_figures(experiment, Hypothesis{})),
-      x_(nominal_x(figures_, noise)),
-      changes_(nominal_changes(experiment, figures_, x_)) {
-  for (std::size_t i = 0; i < figures_.size(); ++i) {
+      fit_parameters_(make_fit_parameters(experiment, Hypothesis{})),
+      x_(nominal_x(fit_parameters_, noise)),
+      changes_(nominal_changes(experiment, fit_parameters_, x_)) {
+  for (std::size_t i = 0; i < fit_parameters_.size(); ++i) {
     Eigen::VectorXd x = x_;
-    const auto place = static_cast<Eigen::Index>(i);
-    double h = figures_[i].description.step;
-    if (x(place) + h > figures_[i].description.prior.high) h = -h;
-    x(place) += h;
+    const auto index = static_cast<Eigen::Index>(i);
+    double h = fit_parameters_[i].description.step;
+    if (x(index) + h > fit_parameters_[i].description.prior.high) h = -h;
+    x(index) += h;
     columns_.push_back(change(x) / h);
   }
 }
 
 Eigen::VectorXd NominalPoint::change(const Eigen::VectorXd& x) const {
-  return changes_.of(noisy_chain(experiment_, figures_, x));
+  return changes_.of(noisy_chain(experiment_, fit_parameters_, x));
 }
 
 Eigen::VectorXd NominalPoint::change(const Eigen::VectorXd& x, const Effect& effect,
                                      const std::vector<double>& values) const {
-  NoisyChain moved = noisy_chain(experiment_, figures_, x);
+  NoisyChain moved = noisy_chain(experiment_, fit_parameters_, x);
   effect.extend(moved.chain, values, experiment_.scales);
   return changes_.of(moved);
 }
 
-Following follow(const NominalPoint& point, const Eigen::VectorXd& change,
-                 const std::vector<std::size_t>& figures, const std::optional<Rival>& rival) {
-  return Pursuit(point, change, figures, rival).run();
+Projection project(const NominalPoint& point, const Eigen::VectorXd& change,
+                   const std::vector<std::size_t>& fit_parameters,
+                   const std::optional<Alternative>& alternative) {
+  return LeastSquaresProjection(point, change, fit_parameters, alternative).run();
 }
 
 }  // namespace vibrissa::diagnosis

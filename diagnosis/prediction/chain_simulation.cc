@@ -31,17 +31,17 @@ double drag_per_velocity(const Chain& chain, const PreparedRecord& record) {
 Complex reading_of_source(const Chain& chain, const PreparedRecord& record, std::size_t k) {
   const Complex polled = record.acceleration[k];
   if (record.renewed.empty()) return polled;
-  return polled + chain.renewed_share * (record.renewed[k] - polled);
+  return polled + chain.new_sample_share * (record.renewed[k] - polled);
 }
 
 std::vector<Complex> bins_of_lines(const PreparedRecord& record,
                                    const std::vector<Complex>& whole) {
-  if (record.n_judged == record.n_samples) return {whole.begin() + 1, whole.end() - 1};
-  return judged_bins(record, samples_of(whole, record.n_samples));
+  if (record.n_evaluated == record.n_samples) return {whole.begin() + 1, whole.end() - 1};
+  return evaluated_bins(record, samples_of(whole, record.n_samples));
 }
 
-std::vector<std::vector<Complex>> judged_means(std::span<const PreparedRecord> records,
-                                               const std::vector<std::vector<Complex>>& readings) {
+std::vector<std::vector<Complex>> evaluated_means(
+    std::span<const PreparedRecord> records, const std::vector<std::vector<Complex>>& readings) {
   std::vector<std::vector<Complex>> out;
   for (std::size_t r = 0; r < records.size(); ++r)
     out.push_back(records[r].is_still() ? std::vector<Complex>(records[r].n_bins(), 0.)
@@ -82,7 +82,7 @@ ChainSimulator::Begun ChainSimulator::begin(std::span<const PreparedRecord> reco
   for (std::size_t r = 0; r < records.size(); ++r) {
     if (records[r].is_still() || !records[r].magnet || !is_dynamic(chain_, records[r])) continue;
     const std::vector<LinearPart>& lines = response_.lines(records[r]);
-    out.places.push_back(r);
+    out.indices.push_back(r);
     std::vector<Complex>& elastic =
         out.task.elastic.emplace_back(ElasticMoment{&records[r], out.moments[r]}).spectrum;
     for (std::size_t k = 0; k < lines.size(); ++k) elastic[k] *= lines[k].elastic;
@@ -110,9 +110,9 @@ std::vector<Complex> ChainSimulator::reading(const PreparedRecord& record,
 ChainSimulator::Spectra ChainSimulator::finish(std::span<const PreparedRecord> records, Begun begun,
                                                const std::vector<std::vector<double>>& dynamic) {
   Spectra moments = std::move(begun.moments);
-  for (std::size_t i = 0; i < begun.places.size(); ++i) {
+  for (std::size_t i = 0; i < begun.indices.size(); ++i) {
     const std::vector<Complex> added = spectrum_of(dynamic[i]);
-    std::vector<Complex>& moment = moments[begun.places[i]];
+    std::vector<Complex>& moment = moments[begun.indices[i]];
     for (std::size_t k = 0; k < added.size(); ++k) moment[k] += added[k];
   }
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -135,7 +135,7 @@ ChainSimulator::Spectra ChainSimulator::readings(std::span<const PreparedRecord>
 }
 
 std::vector<std::vector<Complex>> ChainSimulator::means(std::span<const PreparedRecord> records) {
-  return judged_means(records, readings(records));
+  return evaluated_means(records, readings(records));
 }
 
 std::vector<double> ChainSimulator::samples(const PreparedRecord& record) {
@@ -144,7 +144,7 @@ std::vector<double> ChainSimulator::samples(const PreparedRecord& record) {
 
 std::vector<Prediction> ChainSimulator::predictions(std::span<const PreparedRecord> records,
                                                     const Spectra& readings) {
-  std::vector<std::vector<Complex>> mean = judged_means(records, readings);
+  std::vector<std::vector<Complex>> mean = evaluated_means(records, readings);
   std::vector<Prediction> out;
   for (std::size_t r = 0; r < records.size(); ++r)
     out.push_back(with_noise(records[r], std::move(mean[r])));
@@ -160,7 +160,7 @@ void ChainSimulator::add_acceleration_noise(const PreparedRecord& record,
                                             std::span<double> variance) {
   // Both axes of an accelerometer are as noisy.
   const bool base = !record.acceleration.empty(), cross = !record.cross_acceleration.empty();
-  const double n = static_cast<double>(record.n_judged);
+  const double n = static_cast<double>(record.n_evaluated);
   const std::vector<LinearPart>& lines = response_.lines(record);
   // The whisker's own velocity in the wind stems from the same noisy acceleration.
   const double drag = base && chain_.relative_wind.on ? drag_per_velocity(chain_, record) : 0.;
@@ -178,13 +178,13 @@ void ChainSimulator::add_acceleration_noise(const PreparedRecord& record,
   }
 }
 
-std::vector<OwnUnknown> ChainSimulator::unknowns_of(const PreparedRecord& record) {
-  std::vector<OwnUnknown> out;
-  const double judged_s = static_cast<double>(record.n_judged) / record.sampling_rate_hz;
+std::vector<RecordNuisance> ChainSimulator::unknowns_of(const PreparedRecord& record) {
+  std::vector<RecordNuisance> out;
+  const double evaluated_s = static_cast<double>(record.n_evaluated) / record.sampling_rate_hz;
   if (chain_.ramp_variance_rate > 0.)
     out.push_back(
-        unknown_ramp(chain_.ramp_variance_rate * judged_s, record.n_judged, record.n_bins()));
-  const double age = chain_.renewed_share * record.unknown_age_s;
+        unknown_ramp(chain_.ramp_variance_rate * evaluated_s, record.n_evaluated, record.n_bins()));
+  const double age = chain_.new_sample_share * record.unknown_age_s;
   if (age > 0.) {
     const std::vector<LinearPart>& lines = response_.lines(record);
     // exp(s t) to second order; the mean of t^4 of a uniform t is 1.8 squares of its variance.
@@ -204,7 +204,7 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
   Prediction prediction;
   prediction.mean = std::move(mean);
   const std::size_t n_bins = record.n_bins();
-  const double n = static_cast<double>(record.n_judged);
+  const double n = static_cast<double>(record.n_evaluated);
   prediction.moment_noise.assign(n_bins, n);
   paint(prediction.moment_noise, record.colours.moment, record);
   prediction.acceleration_noise.assign(n_bins, 0.);
@@ -212,22 +212,22 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
     add_acceleration_noise(record, prediction.acceleration_noise);
     paint(prediction.acceleration_noise, record.colours.acceleration, record);
   }
-  prediction.own_noise.assign(n_bins, 0.);
+  prediction.process_noise.assign(n_bins, 0.);
   prediction.unknowns = unknowns_of(record);
   if (!chain_.noise.empty()) {
     const RecordView view{
         .base = record.excitation.base,
         .wind = record.excitation.wind,
         .sampling_rate_hz = record.sampling_rate_hz,
-        .n_samples = record.n_judged,
+        .n_samples = record.n_evaluated,
         .wind_speed = record.wind.empty()
                           ? std::span<const double>{}
-                          : std::span(record.wind).subspan(record.first, record.n_judged),
+                          : std::span(record.wind).subspan(record.first, record.n_evaluated),
         .wind_response = [&](std::size_t k) {
           const LinearPart& line = response_.lines(record)[record.whole_line(k - 1)];
           return line.wind * line.sensor;
         }};
-    for (const NoiseSource& source : chain_.noise) source(view, prediction.own_noise);
+    for (const NoiseSource& source : chain_.noise) source(view, prediction.process_noise);
   }
   return prediction;
 }

@@ -11,20 +11,20 @@
 
 namespace vibrissa::diagnosis {
 
-/// What a chain foretells of one prepared record, bins as PreparedRecord::moment.
+/// What a chain predicts of one prepared record, bins as PreparedRecord::moment.
 struct Prediction {
   std::vector<Complex> mean;
   /// Of white noise of unit standard deviation a sample at both channels, and of the effects' own.
   std::vector<double> moment_noise;        // times the moment's variance
   std::vector<double> acceleration_noise;  // times the accelerometer's variance
-  std::vector<double> own_noise;           // as it is
-  std::vector<OwnUnknown> unknowns;        // the rise of a drift, when a source was read
+  std::vector<double> process_noise;       // as it is
+  std::vector<RecordNuisance> unknowns;    // the rise of a drift, when a source was read
 };
 
-/// Foretells records under one chain, which must outlive it. Linear parts exactly for band-limited
+/// Predicts records under one chain, which must outlive it. Linear parts exactly for band-limited
 /// inputs, by transfer functions at the lines of the record (its start, where the circular
-/// continuation is wrong, is not judged); what the joint and the relative wind add is integrated in
-/// time.
+/// continuation is wrong, is not evaluated); what the joint and the relative wind add is integrated
+/// in time.
 class ChainSimulator {
  public:
   explicit ChainSimulator(const Chain& chain) : chain_(chain), response_(chain) {}
@@ -39,7 +39,7 @@ class ChainSimulator {
   /// Linear parts, and what is to be integrated of the dynamic ones of some records.
   struct Begun {
     Spectra moments;
-    std::vector<std::size_t> places{};  // of the task's records
+    std::vector<std::size_t> indices{};  // of the task's records
     DynamicTask task{};
   };
   friend std::vector<std::vector<Prediction>> predict_together(
@@ -53,7 +53,7 @@ class ChainSimulator {
                                       const Spectra& readings);
   Spectra linear_moments(std::span<const PreparedRecord> records);
   std::vector<Complex> reading(const PreparedRecord& record, std::vector<Complex> moment);
-  std::vector<OwnUnknown> unknowns_of(const PreparedRecord& record);
+  std::vector<RecordNuisance> unknowns_of(const PreparedRecord& record);
   void add_acceleration_noise(const PreparedRecord& record, std::span<double> variance);
   Prediction with_noise(const PreparedRecord& record, std::vector<Complex> mean);
 

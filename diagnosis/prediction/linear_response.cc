@@ -67,7 +67,7 @@ const std::vector<LinearPart>& LinearResponse::lines(const PreparedRecord& recor
   if (!lines.empty()) return lines;
   const std::size_t n = record.n_samples / 2 + 1;
   lines.reserve(n);
-  // At zero frequency filters may have poles; means are not judged.
+  // At zero frequency filters may have poles; means are not evaluated.
   for (std::size_t k = 0; k < n; ++k)
     lines.push_back(at(record.line_s(k), record.readout, record.magnet));
   return lines;

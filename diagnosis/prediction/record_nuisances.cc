@@ -8,9 +8,9 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-std::vector<const OwnUnknown*> those_there(const std::span<const OwnUnknown> unknowns) {
-  std::vector<const OwnUnknown*> out;
-  for (const OwnUnknown& unknown : unknowns)
+std::vector<const RecordNuisance*> those_there(const std::span<const RecordNuisance> unknowns) {
+  std::vector<const RecordNuisance*> out;
+  for (const RecordNuisance& unknown : unknowns)
     if (unknown.variance > 0.) out.push_back(&unknown);
   return out;
 }
@@ -30,9 +30,9 @@ Eigen::VectorXd whitened(const std::span<const Complex> values,
 
 }  // namespace
 
-OwnUnknown unknown_ramp(const double variance, const std::size_t n_samples,
-                        const std::size_t n_bins) {
-  OwnUnknown out{variance, std::vector<Complex>(n_bins)};
+RecordNuisance unknown_ramp(const double variance, const std::size_t n_samples,
+                            const std::size_t n_bins) {
+  RecordNuisance out{variance, std::vector<Complex>(n_bins)};
   for (std::size_t b = 0; b < n_bins; ++b) {
     const double angle =
         2. * std::numbers::pi * static_cast<double>(b + 1) / static_cast<double>(n_samples);
@@ -41,9 +41,9 @@ OwnUnknown unknown_ramp(const double variance, const std::size_t n_samples,
   return out;
 }
 
-IntegratedUnknowns::IntegratedUnknowns(const std::span<const OwnUnknown> unknowns,
-                                       const std::span<const Complex> error,
-                                       const std::span<const double> variance)
+IntegratedNuisances::IntegratedNuisances(const std::span<const RecordNuisance> unknowns,
+                                         const std::span<const Complex> error,
+                                         const std::span<const double> variance)
     : there_(those_there(unknowns)) {
   const auto n = static_cast<Eigen::Index>(there_.size());
   if (n == 0) return;
@@ -53,7 +53,7 @@ IntegratedUnknowns::IntegratedUnknowns(const std::span<const OwnUnknown> unknown
   Eigen::VectorXd deviation(n);
   for (Eigen::Index i = 0; i < n; ++i)
     deviation(i) = std::sqrt(there_[static_cast<std::size_t>(i)]->variance);
-  // In units of their deviations the figures are of any size.
+  // In units of their deviations the parameters are of any size.
   const Eigen::MatrixXd scaled = shapes_ * deviation.asDiagonal();
   const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd::Identity(n, n) +
                                         2. * scaled.transpose() * scaled);
@@ -63,17 +63,17 @@ IntegratedUnknowns::IntegratedUnknowns(const std::span<const OwnUnknown> unknown
   log_determinant_ = 2. * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
 }
 
-double IntegratedUnknowns::log_likelihood_gain() const {
+double IntegratedNuisances::log_likelihood_gain() const {
   if (there_.empty()) return 0.;
   return 0.5 * score_.dot(covariance_ * score_) - 0.5 * log_determinant_;
 }
 
-void IntegratedUnknowns::remove_from(const std::span<Complex> error) const {
+void IntegratedNuisances::remove_from(const std::span<Complex> error) const {
   if (there_.empty()) return;
-  const Eigen::VectorXd figures = mean();
+  const Eigen::VectorXd fit_parameters = mean();
   for (std::size_t i = 0; i < there_.size(); ++i)
     for (std::size_t b = 0; b < error.size(); ++b)
-      error[b] -= figures(static_cast<Eigen::Index>(i)) * there_[i]->shape[b];
+      error[b] -= fit_parameters(static_cast<Eigen::Index>(i)) * there_[i]->shape[b];
 }
 
 }  // namespace vibrissa::diagnosis

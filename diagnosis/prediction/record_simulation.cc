@@ -33,7 +33,7 @@ void close_circle(std::vector<double>& x, std::size_t n) {
 
 }  // namespace
 
-std::vector<double> simulate_moment(const MendedModel& model, const signals::Record& inputs,
+std::vector<double> simulate_moment(const UpdatedModel& model, const signals::Record& inputs,
                                     const Start start) {
   namespace channel = signals::channel;
   const bool base = model.nominal.has_base && inputs.has(channel::base_acceleration);
@@ -53,7 +53,7 @@ std::vector<double> simulate_moment(const MendedModel& model, const signals::Rec
     record.n_samples += tail_length(model.nominal, record.sampling_rate_hz);
     while (fast_length(record.n_samples) != record.n_samples) ++record.n_samples;
   }
-  record.n_judged = record.n_samples;
+  record.n_evaluated = record.n_samples;
   const auto continued = [&](const std::string& name) {
     const auto values = inputs.channel(name);
     std::vector<double> x(values.begin(), values.end());
@@ -70,7 +70,7 @@ std::vector<double> simulate_moment(const MendedModel& model, const signals::Rec
   return moment;
 }
 
-std::vector<double> simulate_vibration(const MendedModel& model, const signals::Record& inputs) {
+std::vector<double> simulate_vibration(const UpdatedModel& model, const signals::Record& inputs) {
   signals::Record base(inputs.sampling_rate_hz(), inputs.n_samples());
   for (const std::string& name :
        {signals::channel::base_acceleration, signals::channel::cross_acceleration})

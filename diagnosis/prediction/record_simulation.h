@@ -17,10 +17,10 @@ enum class Start {
 /// acceleration, cross acceleration and wind speed, in free simulation without noise, one value a
 /// sample. Channels that are absent are zero. Throws UserError when the record holds no input that
 /// the model knows. Proven by tests/diagnosis/model/updated_model_test.cc.
-std::vector<double> simulate_moment(const MendedModel& model, const signals::Record& inputs,
+std::vector<double> simulate_moment(const UpdatedModel& model, const signals::Record& inputs,
                                     Start start = Start::settled);
 
 /// The same under the base's motion alone, as if no wind blew: what a separator subtracts.
-std::vector<double> simulate_vibration(const MendedModel& model, const signals::Record& inputs);
+std::vector<double> simulate_vibration(const UpdatedModel& model, const signals::Record& inputs);
 
 }  // namespace vibrissa::diagnosis

@@ -14,8 +14,8 @@ NoiseLines all_lines(const std::span<const double> x) {
 
 NoiseLines noise_lines(const std::span<const double> reading, const double rate_hz,
                        const bool moves) {
-  if (is_polled(reading)) {
-    NoiseLines out = all_lines(renewed_series(reading));
+  if (is_held(reading)) {
+    NoiseLines out = all_lines(new_sample_series(reading));
     const double filled = 1. - repeat_share(reading);
     out.end = static_cast<std::size_t>(filled * static_cast<double>(out.end));
     out.of_source = true;

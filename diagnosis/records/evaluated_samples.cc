@@ -7,15 +7,15 @@
 
 namespace vibrissa::diagnosis {
 
-std::vector<double> judged_samples(const PreparedRecord& record, std::span<const Complex> bins) {
+std::vector<double> evaluated_samples(const PreparedRecord& record, std::span<const Complex> bins) {
   assert(bins.size() == record.n_bins());
-  std::vector<Complex> whole(record.n_judged / 2 + 1, 0.);
+  std::vector<Complex> whole(record.n_evaluated / 2 + 1, 0.);
   std::copy(bins.begin(), bins.end(), whole.begin() + 1);
-  return samples_of(whole, record.n_judged);
+  return samples_of(whole, record.n_evaluated);
 }
 
-std::vector<Complex> judged_bins(const PreparedRecord& record, std::span<const double> samples) {
-  const std::vector<Complex> lines = spectrum_of(samples.subspan(record.first, record.n_judged));
+std::vector<Complex> evaluated_bins(const PreparedRecord& record, std::span<const double> samples) {
+  const std::vector<Complex> lines = spectrum_of(samples.subspan(record.first, record.n_evaluated));
   return {lines.begin() + 1, lines.end() - 1};
 }
 

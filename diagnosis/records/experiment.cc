@@ -25,7 +25,7 @@ namespace channel = signals::channel;
 constexpr double n_time_constants = 7.;
 /// Samples at the end of an aperiodic record where its circular continuation rings.
 constexpr std::size_t end_margin = 24;
-constexpr std::size_t fewest_judged = 128;
+constexpr std::size_t fewest_evaluated = 128;
 
 bool is_periodic(const DatasetRecord& entry) {
   return entry.period_samples > 0 && entry.record.n_samples() % entry.period_samples == 0;
@@ -83,7 +83,7 @@ std::optional<std::size_t> period_of_drive(const DatasetRecord& entry, double no
 
 /// The longest part no longer than n: of whole periods of the drive, whose lines do not leak then,
 /// or else of a length that is quick to transform.
-std::size_t judged_length(std::size_t n, std::optional<std::size_t> period) {
+std::size_t evaluated_length(std::size_t n, std::optional<std::size_t> period) {
   if (!period) return fast_length(n);
   const std::size_t even = *period % 2 == 0 ? *period : 2 * *period;
   return n < even ? fast_length(n) : n - n % even;
@@ -212,18 +212,19 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   out.periodic = is_periodic(entry);
   const bool moved = entry.excitation.base || entry.excitation.wind;
   if (out.periodic || !moved) {
-    out.n_judged = out.n_samples - out.n_samples % 2;
+    out.n_evaluated = out.n_samples - out.n_samples % 2;
   } else {
     const std::size_t skip = transient_samples(nominal, out.sampling_rate_hz) + end_margin;
-    assert(out.n_samples >= skip + fewest_judged);
+    assert(out.n_samples >= skip + fewest_evaluated);
     out.first = skip - end_margin;
-    out.n_judged = judged_length(out.n_samples - skip, period_of_drive(entry, acceleration_noise));
+    out.n_evaluated =
+        evaluated_length(out.n_samples - skip, period_of_drive(entry, acceleration_noise));
   }
   const SensorFrame frame = in_sensor_frame(entry);
   if (!frame.axial.empty())
     prepare_acceleration(out, entry, frame.axial, acceleration_noise, excited, treatment);
   if (!out.noise_share.empty())
-    out.bin_noise_share = share_at_bins(out.noise_share, out.n_samples, out.n_judged);
+    out.bin_noise_share = share_at_bins(out.noise_share, out.n_samples, out.n_evaluated);
   if (!frame.cross.empty()) out.cross_acceleration = spectrum_of(frame.cross);
   if (entry.excitation.wind) {
     const auto wind = entry.record.channel(channel::wind_speed);
@@ -233,7 +234,7 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   const auto is_zero = [](Complex a) { return a == Complex(0.); };
   out.has_zero_inputs = out.cross_acceleration.empty() &&
                         std::all_of(out.acceleration.begin(), out.acceleration.end(), is_zero);
-  out.moment = judged_bins(out, entry.record.channel(channel::base_moment));
+  out.moment = evaluated_bins(out, entry.record.channel(channel::base_moment));
   return out;
 }
 
@@ -250,7 +251,7 @@ bool acts_without_modes(const Effect& effect) {
   return !(chain.reference.empty() && chain.mount.empty() && chain.parallel.empty() &&
            chain.wind.empty() && chain.drag_factor == 1. && chain.feedthrough.empty() &&
            chain.cross.empty() && chain.readout.empty() && chain.sensor.empty() &&
-           chain.clock_rate_error == 0. && chain.renewed_share == 0. &&
+           chain.clock_rate_error == 0. && chain.new_sample_share == 0. &&
            chain.reference_variance == 0. && chain.noise.empty() && chain.ramp_variance_rate == 0.);
 }
 
@@ -278,7 +279,7 @@ Scales scales_of(const Experiment& experiment) {
     scales.duration_s = std::max(scales.duration_s, n / record.sampling_rate_hz);
     double power = 0.;
     for (const Complex& m : record.moment) power += 2. * std::norm(m);
-    const double level = std::sqrt(power) / static_cast<double>(record.n_judged);
+    const double level = std::sqrt(power) / static_cast<double>(record.n_evaluated);
     scales.moment_rms_n_m = std::max(scales.moment_rms_n_m, level);
     scales.joint_moment_n_m = std::max(scales.joint_moment_n_m, 3. * level);
   }
@@ -290,7 +291,8 @@ Scales scales_of(const Experiment& experiment) {
 std::size_t fewest_samples(const NominalModel& nominal, const DatasetRecord& entry) {
   const bool moved = entry.excitation.base || entry.excitation.wind;
   if (!moved || is_periodic(entry)) return 0;
-  return transient_samples(nominal, entry.record.sampling_rate_hz()) + end_margin + fewest_judged;
+  return transient_samples(nominal, entry.record.sampling_rate_hz()) + end_margin +
+         fewest_evaluated;
 }
 
 bool is_simulated(const signals::BenchSetup& setup) {
@@ -323,8 +325,8 @@ bool shows(const Experiment& experiment, const Effect& effect) {
 }
 
 std::size_t PreparedRecord::whole_line(const std::size_t b) const {
-  if (n_samples == n_judged) return b + 1;
-  const double ratio = static_cast<double>(n_samples) / static_cast<double>(n_judged);
+  if (n_samples == n_evaluated) return b + 1;
+  const double ratio = static_cast<double>(n_samples) / static_cast<double>(n_evaluated);
   return std::min(n_samples / 2,
                   static_cast<std::size_t>(std::lround(static_cast<double>(b + 1) * ratio)));
 }
@@ -421,7 +423,7 @@ ChannelNoise channel_noise(const signals::Dataset& dataset) {
   return noise;
 }
 
-Experiment prepare_experiment(const MendedModel& simulation, const signals::Dataset& dataset,
+Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dataset& dataset,
                               const signals::Split split, const InputNoise treatment) {
   Experiment experiment;
   const NominalModel& nominal = simulation.nominal;

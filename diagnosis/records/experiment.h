@@ -11,7 +11,7 @@
 namespace vibrissa::diagnosis {
 
 /// One record made ready: what moved the sensor as spectra over the whole record, what was measured
-/// as the spectrum of the part that is judged. DFTs are unscaled.
+/// as the spectrum of the part that is evaluated. DFTs are unscaled.
 struct PreparedRecord {
   std::string name;
   signals::Excitation excitation;
@@ -20,10 +20,11 @@ struct PreparedRecord {
   bool magnet = true;      // without it the sensor reads nothing of the structure
   double wind_share = 1.;  // of the wind's force, in the plane that is read
   double sampling_rate_hz = 0.;
-  double clock_start_s = 0.;            // how long the clocks had run
-  std::size_t n_samples = 0;            // of the whole record
-  bool periodic = false;                // the whole record is whole periods
-  std::size_t first = 0, n_judged = 0;  // samples that are judged: the start may hold transients
+  double clock_start_s = 0.;  // how long the clocks had run
+  std::size_t n_samples = 0;  // of the whole record
+  bool periodic = false;      // the whole record is whole periods
+  std::size_t first = 0,
+              n_evaluated = 0;  // samples that are evaluated: the start may hold transients
 
   std::vector<Complex> acceleration;        // k = 0 .. n/2, noise reduced; empty: not measured
   std::vector<Complex> renewed;             // its source's; empty: not polled
@@ -32,16 +33,16 @@ struct PreparedRecord {
   std::vector<double> wind;                 // at the samples; empty: not measured
   /// Share of the accelerometer noise that is left at line k of the whole record.
   std::vector<double> noise_share;
-  /// The same at the judged bins.
+  /// The same at the evaluated bins.
   std::vector<double> bin_noise_share;
   ChannelColours colours{};              // of the noise of both channels
   double acceleration_noise_power = 0.;  // sum |A_k|^2 where nothing moved, for its variance
   std::size_t n_acceleration_noise = 0;  // lines in it
 
-  std::vector<Complex> moment;  // bins 1 .. of the judged part
+  std::vector<Complex> moment;  // bins 1 .. of the evaluated part
   std::size_t n_bins() const { return moment.size(); }
-  double bin_hz() const { return sampling_rate_hz / static_cast<double>(n_judged); }
-  /// Line of the whole record nearest to judged bin b (0 is the DFT's 1).
+  double bin_hz() const { return sampling_rate_hz / static_cast<double>(n_evaluated); }
+  /// Line of the whole record nearest to evaluated bin b (0 is the DFT's 1).
   std::size_t whole_line(std::size_t b) const;
   /// s = j 2 pi f of line k of the whole record.
   Complex line_s(std::size_t k) const;
@@ -64,7 +65,7 @@ struct Experiment {
   bool has_base = false, has_wind = false, has_cross = false, has_repeats = false;
 
   /// The simulation as it is.
-  Chain nominal_chain() const { return MendedModel(nominal, known).chain(); }
+  Chain nominal_chain() const { return UpdatedModel(nominal, known).chain(); }
 };
 
 /// An ADXL345 or its like at rest, a sample [m/s^2]: docs/theory.md (T15) gives 0.008 g as its
@@ -91,7 +92,7 @@ bool shows(const Experiment& experiment, const Effect& effect);
 
 /// Only comparable records of the given split. Throws UserError when fit records are asked for and
 /// none of them is moved.
-Experiment prepare_experiment(const MendedModel& simulation, const signals::Dataset& dataset,
+Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dataset& dataset,
                               signals::Split split, InputNoise noise);
 
 /// Standard deviations a sample of both channels, from records at rest and from what periods do not

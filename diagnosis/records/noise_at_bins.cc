@@ -15,11 +15,11 @@ double sinc_squared(const double x) {
 }  // namespace
 
 std::vector<double> share_at_bins(std::span<const double> share_at_lines,
-                                  const std::size_t n_samples, const std::size_t n_judged) {
-  if (n_judged + 1 >= n_samples) return {share_at_lines.begin() + 1, share_at_lines.end() - 1};
+                                  const std::size_t n_samples, const std::size_t n_evaluated) {
+  if (n_evaluated + 1 >= n_samples) return {share_at_lines.begin() + 1, share_at_lines.end() - 1};
   constexpr double reach = 12.;  // lines; what lies beyond is less than a hundredth
-  const double bin_per_line = static_cast<double>(n_judged) / static_cast<double>(n_samples);
-  std::vector<double> bins(n_judged / 2 - 1);
+  const double bin_per_line = static_cast<double>(n_evaluated) / static_cast<double>(n_samples);
+  std::vector<double> bins(n_evaluated / 2 - 1);
   for (std::size_t b = 0; b < bins.size(); ++b) {
     const double at_line = static_cast<double>(b + 1) / bin_per_line;
     const auto first = static_cast<std::size_t>(std::max(0., std::ceil(at_line - reach)));

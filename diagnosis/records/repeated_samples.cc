@@ -8,7 +8,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Places where runs of equal samples begin.
+/// Indices where runs of equal samples begin.
 std::vector<std::size_t> renewals(const std::span<const double> x) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -20,14 +20,14 @@ struct Line {
   double intercept = 0., slope = 1.;
 };
 
-/// Least squares of the places over their numbers.
-Line line_through(const std::vector<std::size_t>& places) {
-  const double n = static_cast<double>(places.size()), middle = 0.5 * (n - 1.);
+/// Least squares of the indices over their numbers.
+Line line_through(const std::vector<std::size_t>& indices) {
+  const double n = static_cast<double>(indices.size()), middle = 0.5 * (n - 1.);
   double sum = 0., moment = 0., square = 0.;
-  for (std::size_t j = 0; j < places.size(); ++j) {
+  for (std::size_t j = 0; j < indices.size(); ++j) {
     const double d = static_cast<double>(j) - middle;
-    sum += static_cast<double>(places[j]);
-    moment += d * static_cast<double>(places[j]);
+    sum += static_cast<double>(indices[j]);
+    moment += d * static_cast<double>(indices[j]);
     square += d * d;
   }
   const double slope = square > 0. ? moment / square : 1.;
@@ -41,18 +41,18 @@ double repeat_share(const std::span<const double> x) {
   return 1. - static_cast<double>(renewals(x).size()) / static_cast<double>(x.size());
 }
 
-bool is_polled(const std::span<const double> x) {
+bool is_held(const std::span<const double> x) {
   constexpr double many = 0.08;
   return repeat_share(x) > many && std::set<double>(x.begin(), x.end()).size() > x.size() / 4;
 }
 
-std::vector<double> renewed_series(const std::span<const double> x) {
-  std::vector<std::size_t> places = renewals(x);
-  if (places.size() % 2 != 0) places.pop_back();
-  if (places.empty()) return {x.begin(), x.end()};
+std::vector<double> new_sample_series(const std::span<const double> x) {
+  std::vector<std::size_t> indices = renewals(x);
+  if (indices.size() % 2 != 0) indices.pop_back();
+  if (indices.empty()) return {x.begin(), x.end()};
   std::vector<double> source;
-  for (const std::size_t place : places) source.push_back(x[place]);
-  const Line line = line_through(places);
+  for (const std::size_t index : indices) source.push_back(x[index]);
+  const Line line = line_through(indices);
   return resampled(spectrum_of(source), source.size(), x.size(), -line.intercept / line.slope,
                    1. / line.slope);
 }

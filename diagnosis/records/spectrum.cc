@@ -55,8 +55,8 @@ std::vector<double> resampled(const std::span<const Complex> spectrum, const std
   std::vector<double> out(n_out);
   const auto size = static_cast<std::ptrdiff_t>(fine.size());
   for (std::size_t i = 0; i < n_out; ++i) {
-    const double place = factor * (start + static_cast<double>(i) * step);
-    const double floor = std::floor(place), x = place - floor;
+    const double index = factor * (start + static_cast<double>(i) * step);
+    const double floor = std::floor(index), x = index - floor;
     const auto at = [&](std::ptrdiff_t d) {
       return fine[static_cast<std::size_t>(
           ((static_cast<std::ptrdiff_t>(floor) + d) % size + size) % size)];

@@ -17,7 +17,7 @@ std::vector<double> samples_of(std::span<const Complex> spectrum, std::size_t n)
 /// them.
 std::vector<double> upsampled(std::span<const Complex> spectrum, std::size_t n, std::size_t factor);
 
-/// n_out samples of the circular series of a spectrum, at places start + i step of its n samples:
+/// n_out samples of the circular series of a spectrum, at indices start + i step of its n samples:
 /// by cubic interpolation on a four times finer grid.
 std::vector<double> resampled(std::span<const Complex> spectrum, std::size_t n, std::size_t n_out,
                               double start, double step);
@@ -28,7 +28,7 @@ std::vector<Complex> difference(std::span<const Complex> a, std::span<const Comp
 /// |x|^2 of each entry.
 std::vector<double> powers(std::span<const Complex> x);
 
-/// Mean of each value and its neighbours up to reach places away, as far as there are.
+/// Mean of each value and its neighbours up to reach indices away, as far as there are.
 std::vector<double> neighbour_mean(std::span<const double> x, std::size_t reach);
 
 /// Largest even length up to n whose transform is fast (factors 2, 3, 5, 7).

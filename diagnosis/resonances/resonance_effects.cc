@@ -39,7 +39,7 @@ const Parameter& catalogue_parameter(const Effect& effect, const std::string& na
   return *found;
 }
 
-/// A figure of the catalogue, uniform over its usual range.
+/// A parameter of the catalogue, uniform over its usual range.
 ResonanceEffect catalogue_effect(const std::string& id, const std::string& parameter,
                                  const double usual_low, const double usual_high) {
   const Effect& effect = find_effect(id);
@@ -54,7 +54,7 @@ ResonanceEffect catalogue_effect(const std::string& id, const std::string& param
   return out;
 }
 
-/// The catalogue's effect with a figure and a prior of its own.
+/// The catalogue's effect with a parameter and a prior of its own.
 ResonanceEffect own_prior(const std::string& id, const Parameter& parameter, const double usual_low,
                           const double usual_high) {
   return {.effect = &find_effect(id),

@@ -47,7 +47,7 @@ struct UsualPrior {
   double highest() const { return beyond ? std::max(usual.high, beyond->high) : usual.high; }
 };
 
-/// An effect as far as it moves a resonance: one figure that acts on one part of the mode.
+/// An effect as far as it moves a resonance: one parameter that acts on one part of the mode.
 struct ResonanceEffect {
   enum class Part { joint, inertia, series, mount };
 

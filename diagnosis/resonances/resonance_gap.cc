@@ -19,20 +19,20 @@ void require(const bool good, const std::string& what, const double value,
   if (!good) throw signals::UserError(what + " is " + signals::to_text(value) + ": " + rule);
 }
 
-void check(const ResonanceFigures& figures, const std::string& whose) {
-  const double f = figures.frequency_hz, s = figures.relative_deviation;
+void check(const ResonanceData& fit_parameters, const std::string& whose) {
+  const double f = fit_parameters.frequency_hz, s = fit_parameters.relative_deviation;
   require(std::isfinite(f) && f > 0., whose + " frequency [Hz]", f, "give a positive number");
   require(s > 0. && s < 0.5, whose + " frequency's relative deviation", s,
           "give a share between 0 and 0.5");
-  const double d = figures.damping_relative_deviation;
+  const double d = fit_parameters.damping_relative_deviation;
   require(d > 0. && d < 0.5, whose + " damping ratio's relative deviation", d,
           "give a share between 0 and 0.5");
-  if (const auto& zeta = figures.damping_ratio)
+  if (const auto& zeta = fit_parameters.damping_ratio)
     require(*zeta > 0. && *zeta < 1., whose + " damping ratio", *zeta,
             "give a number between 0 and 1, a share of critical damping");
 }
 
-ResonanceGap gap_of(const ResonanceFigures& simulated, const ResonanceFigures& measured,
+ResonanceGap gap_of(const ResonanceData& simulated, const ResonanceData& measured,
                     const ResonanceModel& model) {
   ResonanceGap gap{
       .log_ratio = 2. * std::log(measured.frequency_hz / simulated.frequency_hz),
@@ -57,7 +57,7 @@ NeededValue needed(const ResonanceEffect& effect, const double value) {
           .inside = value >= effect.usual_low && value <= effect.usual_high};
 }
 
-/// Values that one effect takes at the ends of what the figures may be.
+/// Values that one effect takes at the ends of what the parameters may be.
 std::optional<std::array<double, 2>> interval(const ResonanceEffect& effect,
                                               const ResonanceGap& gap) {
   const auto at = [&](double z) {
@@ -217,7 +217,7 @@ void normalise(std::vector<ResonanceExplanation>& explanations) {
 }
 
 std::vector<ResonanceExplanation> all_explanations(const ResonanceGap& gap,
-                                                   const ResonanceFigures& simulated,
+                                                   const ResonanceData& simulated,
                                                    const ResonanceModel& model) {
   const std::vector<ResonanceEffect> known =
       resonance_effects(simulated.frequency_hz, model.silicone_modulus_pa);
@@ -243,8 +243,8 @@ std::string ResonanceExplanation::name() const {
   return joined_name(effects);
 }
 
-ResonanceDiagnosis explain_resonance_gap(const ResonanceFigures& simulated,
-                                         const ResonanceFigures& measured,
+ResonanceDiagnosis explain_resonance_gap(const ResonanceData& simulated,
+                                         const ResonanceData& measured,
                                          const ResonanceModel& model) {
   check(simulated, "the simulated");
   check(measured, "the measured");
@@ -260,7 +260,7 @@ ResonanceDiagnosis explain_resonance_gap(const ResonanceFigures& simulated,
   out.verdict = out.explanations.front().name();
   std::vector<Candidate> candidates;
   for (const ResonanceExplanation& e : out.explanations)
-    candidates.push_back({.name = e.name(), .retunes = {}, .probability = e.odds});
+    candidates.push_back({.name = e.name(), .calibrations = {}, .probability = e.odds});
   out.confidence_set = confidence_set(candidates, 0.95);
   out.next = next_experiment(candidates, out.confidence_set, {});
   return out;

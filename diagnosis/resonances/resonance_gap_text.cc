@@ -17,11 +17,11 @@ json optional(const std::optional<T>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
-json figures_json(const ResonanceFigures& figures) {
-  return {{"frequency_hz", figures.frequency_hz},
-          {"frequency_relative_deviation", figures.relative_deviation},
-          {"damping_ratio", optional(figures.damping_ratio)},
-          {"damping_relative_deviation", figures.damping_relative_deviation}};
+json figures_json(const ResonanceData& fit_parameters) {
+  return {{"frequency_hz", fit_parameters.frequency_hz},
+          {"frequency_relative_deviation", fit_parameters.relative_deviation},
+          {"damping_ratio", optional(fit_parameters.damping_ratio)},
+          {"damping_relative_deviation", fit_parameters.damping_relative_deviation}};
 }
 
 json value_json(const NeededValue& value) {
@@ -123,12 +123,12 @@ std::string impossible_line(const ResonanceDiagnosis& diagnosis) {
 }
 
 std::string figures_line(const ResonanceDiagnosis& diagnosis) {
-  const auto figures = [](const ResonanceFigures& f) {
+  const auto fit_parameters = [](const ResonanceData& f) {
     return signals::to_text(f.frequency_hz) + " Hz" +
            (f.damping_ratio ? " (zeta " + signals::to_text(*f.damping_ratio) + ")" : "");
   };
-  return "Resonance: simulated " + figures(diagnosis.simulated) + ", measured " +
-         figures(diagnosis.measured) + ": k/m x " + three_digits(diagnosis.modal_ratio);
+  return "Resonance: simulated " + fit_parameters(diagnosis.simulated) + ", measured " +
+         fit_parameters(diagnosis.measured) + ": k/m x " + three_digits(diagnosis.modal_ratio);
 }
 
 }  // namespace
@@ -165,7 +165,7 @@ std::string resonance_gap_text(const ResonanceDiagnosis& diagnosis) {
   const bool agree = diagnosis.verdict == "none" || diagnosis.verdict == "damping";
   add(head, agree ? "The frequencies agree within their deviation."
                   : "Likeliest: " + diagnosis.verdict +
-                        ". These figures alone cannot tell; odds by what is usual, damping left:");
+                        ". These values alone cannot tell; odds by what is usual, damping left:");
   add(tail, combinations_line(diagnosis));
   if (!agree) add(tail, impossible_line(diagnosis));
   add(tail, experiment_line(diagnosis));

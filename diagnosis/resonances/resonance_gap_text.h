@@ -7,7 +7,7 @@
 
 namespace vibrissa::diagnosis {
 
-/// Schema "vibrissa-resonance-gap-1": figures, every explanation with its values, odds, damping
+/// Schema "vibrissa-resonance-gap-1": parameters, every explanation with its values, odds, damping
 /// left and note, confidence set and next experiment. Proven by
 /// tests/diagnosis/resonances/resonance_gap_text_test.cc.
 nlohmann::ordered_json resonance_gap_json(const ResonanceDiagnosis& diagnosis);

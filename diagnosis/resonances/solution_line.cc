@@ -56,7 +56,7 @@ std::optional<Solution> solved(const ResonanceEffects& effects, const ResonanceG
 /// Calls visit for every cell of the effects but the last; points carry density times cell.
 template <typename Visit>
 void for_each_start(const ResonanceEffects& effects, const Visit& visit) {
-  // A mount's mass ratio, a second figure, smooths what the cells sample.
+  // A mount's mass ratio, a second parameter, smooths what the cells sample.
   constexpr int n_masses = 24;
   int n_cells = 600;
   std::vector<Solution> points{{.density = 1., .prior = 1.}};

@@ -8,7 +8,7 @@
 
 namespace vibrissa::diagnosis {
 
-/// What measured figures ask of the simulated first mode.
+/// What measured parameters ask of the simulated first mode.
 struct ResonanceGap {
   double log_ratio = 0., deviation = 0.;  // of (f / f0)^2
   double joint_share = 1.;
@@ -38,8 +38,8 @@ struct Solution {
 
 double normal_density(double x, double deviation);
 
-/// Density that one or two effects give the measured figures: the integral of their priors over the
-/// line of solutions and over the gap's deviation. Proven by
+/// Density that one or two effects give the measured parameters: the integral of their priors over
+/// the line of solutions and over the gap's deviation. Proven by
 /// tests/diagnosis/resonances/resonance_gap_test.cc with sampled priors.
 double evidence(const ResonanceEffects& effects, const ResonanceGap& gap);
 

@@ -13,7 +13,7 @@ inline constexpr double confidence_in_fits = 0.6;
 /// likelier than not stays as it is.
 double calibrated_odds(double odds_against, double confidence = confidence_in_fits);
 
-/// What an answer names; retunes count as effects.
+/// What an answer names; calibrations count as effects.
 enum class AnswerKind { none, single, several, outside };
 AnswerKind answer_kind(const std::string& answer);
 

@@ -30,14 +30,15 @@ std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates
     total += answers.back().probability;
   }
   // The verdict stays in front.
-  auto place = answers.begin();
+  auto index = answers.begin();
   if (candidates.front().name != outside_catalogue)
-    place = std::find_if(place + 1, answers.end(), [&](const Candidate& candidate) {
+    index = std::find_if(index + 1, answers.end(), [&](const Candidate& candidate) {
       return candidate.probability < probability_of_outside;
     });
-  answers.insert(
-      place,
-      {.name = outside_catalogue, .fit = 0, .retunes = {}, .probability = probability_of_outside});
+  answers.insert(index, {.name = outside_catalogue,
+                         .fit = 0,
+                         .calibrations = {},
+                         .probability = probability_of_outside});
   return confidence_set(answers, level * total);
 }
 

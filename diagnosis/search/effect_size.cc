@@ -49,7 +49,7 @@ bool vanishes(const Effect& effect, const std::vector<double>& values) {
   const Prediction without = simulate(nominal, record), with = simulate(chain, record);
   double difference = 0., power = 0.;
   for (std::size_t b = 0; b < with.mean.size(); ++b) {
-    difference += std::norm(with.mean[b] - without.mean[b]) + with.own_noise[b];
+    difference += std::norm(with.mean[b] - without.mean[b]) + with.process_noise[b];
     power += std::norm(without.mean[b]);
   }
   return difference < rounding * rounding * power;

@@ -8,10 +8,11 @@
 
 namespace vibrissa::diagnosis {
 
-NoisyChain noisy_chain(const Experiment& experiment, const std::vector<FreeFigure>& figures,
-                       const Eigen::VectorXd& x, const Effect* left_out) {
-  return {make_chain(experiment, figures, x, left_out), std::exp(2. * x(place_moment_noise)),
-          std::exp(2. * x(place_acceleration_noise))};
+NoisyChain noisy_chain(const Experiment& experiment,
+                       const std::vector<FitParameter>& fit_parameters, const Eigen::VectorXd& x,
+                       const Effect* left_out) {
+  return {make_chain(experiment, fit_parameters, x, left_out),
+          std::exp(2. * x(index_of_moment_noise)), std::exp(2. * x(index_of_acceleration_noise))};
 }
 
 FisherChanges::FisherChanges(const Experiment& experiment, std::vector<double> deviation,
@@ -60,14 +61,14 @@ void FisherChanges::evaluate(const NoisyChain& state, Eigen::VectorXd& mean,
       mean(2 * row) = there.mean[b].real() / deviation;
       mean(2 * row + 1) = there.mean[b].imag() / deviation;
       noise(row) = (state.moment_variance * there.moment_noise[b] +
-                    acceleration * there.acceleration_noise[b] + there.own_noise[b]) /
+                    acceleration * there.acceleration_noise[b] + there.process_noise[b]) /
                    (deviation * deviation);
     }
   }
 }
 
-double half_prior(const FreeFigure& figure, const double x, const double n_spreads) {
-  return 0.5 * figure.description.prior.curvature(x) / (n_spreads * n_spreads);
+double half_prior(const FitParameter& fit_parameter, const double x, const double n_spreads) {
+  return 0.5 * fit_parameter.description.prior.curvature(x) / (n_spreads * n_spreads);
 }
 
 FisherDirections::FisherDirections(const std::vector<Eigen::VectorXd>& columns,
@@ -96,13 +97,13 @@ double FisherDirections::left_of(const Eigen::Index column, const double energy,
 
 double FisherDirections::left(const double whole, const Eigen::VectorXd& overlap,
                               const std::vector<bool>& chosen) const {
-  std::vector<Eigen::Index> places;
+  std::vector<Eigen::Index> indices;
   for (std::size_t i = 0; i < chosen.size(); ++i)
     if (chosen[i] && gram_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) > 0.)
-      places.push_back(static_cast<Eigen::Index>(i));
-  if (places.empty()) return whole;
-  const Eigen::VectorXd right = overlap(places);
-  const Eigen::MatrixXd matrix = gram_(places, places);
+      indices.push_back(static_cast<Eigen::Index>(i));
+  if (indices.empty()) return whole;
+  const Eigen::VectorXd right = overlap(indices);
+  const Eigen::MatrixXd matrix = gram_(indices, indices);
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);

@@ -14,9 +14,10 @@ struct NoisyChain {
   double moment_variance = 0., acceleration_variance = 0.;
 };
 
-/// At coordinates x of the figures, without one effect.
-NoisyChain noisy_chain(const Experiment& experiment, const std::vector<FreeFigure>& figures,
-                       const Eigen::VectorXd& x, const Effect* left_out = nullptr);
+/// At coordinates x of the parameters, without one effect.
+NoisyChain noisy_chain(const Experiment& experiment,
+                       const std::vector<FitParameter>& fit_parameters, const Eigen::VectorXd& x,
+                       const Effect* left_out = nullptr);
 
 /// Changes of what an experiment measures against a reference, whitened so that half the Fisher
 /// information, a change's nats, is its square: real and imaginary part of the mean, log variance
@@ -47,8 +48,8 @@ class FisherChanges {
   Eigen::VectorXd mean_, noise_, at_rest_;
 };
 
-/// Nats of a unit of a free figure: within so many spreads of its prior.
-double half_prior(const FreeFigure& figure, double x, double n_spreads);
+/// Nats of a unit of a free parameter: within so many spreads of its prior.
+double half_prior(const FitParameter& fit_parameter, double x, double n_spreads);
 
 /// Directions in which a prediction can be moved, each with the nats that a unit of it costs.
 class FisherDirections {

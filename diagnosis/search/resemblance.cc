@@ -9,7 +9,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A bin's new noise over what is foretold there, and its residual's power over the same.
+/// A bin's new noise over what is predicted there, and its residual's power over the same.
 struct NoisyBin {
   double share = 0., power = 0.;
 };
@@ -66,7 +66,7 @@ Overlap overlap(const Experiment& experiment, const HypothesisFit& fit,
       const Complex d = (there.mean[b] - fit.records[r].mean[b]) / residual[r].deviation[b];
       sum.cross += (std::conj(d) * residual[r].error[b]).real();
       sum.own += std::norm(d);
-      const double v = (there.own_noise[b] + reference * there.acceleration_noise[b]) /
+      const double v = (there.process_noise[b] + reference * there.acceleration_noise[b]) /
                        (residual[r].deviation[b] * residual[r].deviation[b]);
       sum.noisy.push_back({v, std::norm(residual[r].error[b])});
     }

@@ -20,7 +20,7 @@ namespace {
 
 /// How many of each size are extended, and by how many partners.
 constexpr std::size_t n_extended = 4, n_partners = 5;
-/// The best of each size by so many more, of which retunes may have taken up what they do.
+/// The best of each size by so many more, of which calibrations may have taken up what they do.
 constexpr std::size_t n_hidden_partners = 5;
 /// Twice the log likelihood that a shape gains to first order where it is worth a fit.
 constexpr double least_resemblance = 6.;
@@ -38,34 +38,34 @@ void keep_first(std::vector<T>& list, std::size_t n) {
   if (list.size() > n) list.erase(list.begin() + static_cast<std::ptrdiff_t>(n), list.end());
 }
 
-double log_prior(const Hypothesis& hypothesis, std::size_t n_retunes, std::size_t n_testable) {
+double log_prior(const Hypothesis& hypothesis, std::size_t n_calibrations, std::size_t n_testable) {
   if (hypothesis.is_discrepancy()) return log_prior_of_outside_catalogue;
   double own = 0.;
   for (const Effect* effect : hypothesis.effects()) own += effect->log_prior;
-  const std::size_t n = hypothesis.effects().size() + n_retunes;
+  const std::size_t n = hypothesis.effects().size() + n_calibrations;
   return own + log_prior_of_number(n, n_testable);
 }
 
-double choice_posterior(const HypothesisFit& fit, const RetuneChoice& choice,
+double choice_posterior(const HypothesisFit& fit, const CalibrationChoice& choice,
                         std::size_t n_testable) {
   return choice.log_evidence + log_prior(fit.hypothesis, choice.named.size(), n_testable);
 }
 
 /// Log prior that an odd noise of the accelerometer costs a fit.
 double noise_strain(const HypothesisFit& fit) {
-  const Prior& prior = fit.figures[place_acceleration_noise].description.prior;
+  const Prior& prior = fit.fit_parameters[index_of_acceleration_noise].description.prior;
   return prior.log_density(prior.centre) -
-         prior.log_density(fit.x(static_cast<Eigen::Index>(place_acceleration_noise)));
+         prior.log_density(fit.x(static_cast<Eigen::Index>(index_of_acceleration_noise)));
 }
 
-Hypothesis without_retunes(Hypothesis hypothesis) {
+Hypothesis without_calibrations(Hypothesis hypothesis) {
   const std::vector<const Effect*> effects = hypothesis.effects();
   for (const Effect* effect : effects)
-    if (effect->retune) hypothesis = hypothesis.without(*effect);
+    if (effect->calibration) hypothesis = hypothesis.without(*effect);
   return hypothesis;
 }
 
-bool has_free_retunes(const HypothesisFit& fit) {
+bool has_free_calibrations(const HypothesisFit& fit) {
   return !fit.hypothesis.is_discrepancy() && !fit.as_simulated && !fit.choices.empty();
 }
 
@@ -75,37 +75,37 @@ bool tells_noise(const Effect& effect) {
 }
 
 /// What it calls the noise of an effect follows the wind: something else answers to the wind.
-bool foretells_its_noise(const HypothesisFit& fit) {
+bool predicts_its_noise(const HypothesisFit& fit) {
   constexpr double most_nats = 30., most_share = 0.05;
-  const ForetoldNoise& foretold = fit.goodness.foretold;
-  return !fit.hypothesis.is_discrepancy() && foretold.nats > most_nats &&
-         foretold.share > most_share;
+  const PredictedNoise& predicted = fit.goodness.predicted;
+  return !fit.hypothesis.is_discrepancy() && predicted.nats > most_nats &&
+         predicted.share > most_share;
 }
 
 /// An answer, none among them, whose residual stands out of the noise, the bounds of its form
 /// errors included, names the wrong cause or not all: something unknown is there. So does one that
-/// leaves much in places while its bounds are far too wide in others, one whose own noise has the
+/// leaves much in indices while its bounds are far too wide in others, one whose own noise has the
 /// wrong spectrum or follows the wind, and one that leaves a tone: it has taken up what it is not.
-bool leaves_too_much(const HypothesisFit& fit) {
+bool fails_residual_test(const HypothesisFit& fit) {
   constexpr double most_excess = 0.05, most_misshape_nats = 100., most_surplus = 0.3,
                    most_tone_nats = 20.;
   const GoodnessOfFit& goodness = fit.goodness;
   return goodness.excess > most_excess || goodness.misshape_nats > most_misshape_nats ||
          goodness.surplus_nats_per_bin > most_surplus || goodness.tone_nats > most_tone_nats ||
-         foretells_its_noise(fit);
+         predicts_its_noise(fit);
 }
 
 /// Stands a fit, for all that it holds, where a larger one does?
 bool stands_alike(const HypothesisFit& part, const HypothesisFit& whole) {
   constexpr double n_deviations = 2.;
-  for (std::size_t i = 0; i < part.figures.size(); ++i) {
-    const FreeFigure& figure = part.figures[i];
-    if (figure.effect == nullptr) continue;
-    const auto there = whole.place(figure.effect->id, figure.parameter);
+  for (std::size_t i = 0; i < part.fit_parameters.size(); ++i) {
+    const FitParameter& fit_parameter = part.fit_parameters[i];
+    if (fit_parameter.effect == nullptr) continue;
+    const auto there = whole.index(fit_parameter.effect->id, fit_parameter.parameter);
     if (!there) return false;
-    const auto place = static_cast<Eigen::Index>(i);
-    const double moved = whole.x(static_cast<Eigen::Index>(*there)) - part.x(place);
-    if (std::abs(moved) > n_deviations * std::sqrt(part.covariance(place, place))) return false;
+    const auto index = static_cast<Eigen::Index>(i);
+    const double moved = whole.x(static_cast<Eigen::Index>(*there)) - part.x(index);
+    if (std::abs(moved) > n_deviations * std::sqrt(part.covariance(index, index))) return false;
   }
   return true;
 }
@@ -170,7 +170,7 @@ class Searcher {
     return order;
   }
 
-  /// Each with free retunes; then each as simulated.
+  /// Each with free calibrations; then each as simulated.
   void fit_all(const std::vector<Task>& tasks) {
     const std::size_t first = fits_.size();
     fits_.resize(first + tasks.size());
@@ -199,7 +199,7 @@ class Searcher {
     weigh_hidden_gains();
   }
 
-  /// Those of which the fits from one on, with free retunes, do not lie hopelessly behind.
+  /// Those of which the fits from one on, with free calibrations, do not lie hopelessly behind.
   void fit_as_simulated_from(const std::size_t first) {
     std::vector<std::size_t> of;
     for (std::size_t i = first; i < fits_.size(); ++i)
@@ -270,26 +270,27 @@ class Searcher {
         order.push_back(i);
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return best_posterior(a) > best_posterior(b); });
-    // One fit of a hypothesis: with free retunes, or as simulated.
+    // One fit of a hypothesis: with free calibrations, or as simulated.
     std::set<std::string> names;
     std::erase_if(order,
                   [&](std::size_t i) { return !names.insert(fits_[i].hypothesis.name()).second; });
     return order;
   }
 
-  /// Fits that hold this one effect less. Retunes are free in all of them: one that they alone tell
-  /// apart has as much to gain as another.
+  /// Fits that hold this one effect less. Calibrations are free in all of them: one that they alone
+  /// tell apart has as much to gain as another.
   std::vector<std::size_t> fits_without(const Hypothesis& hypothesis, const Effect& effect) const {
     const Hypothesis fewer = hypothesis.without(effect);
     std::vector<std::size_t> out;
-    if (effect.retune) {
+    if (effect.calibration) {
       const auto found = known_.find(fewer.name());
       if (found != known_.end()) out.push_back(found->second);
       return out;
     }
-    const std::string wanted = without_retunes(fewer).name();
+    const std::string wanted = without_calibrations(fewer).name();
     for (std::size_t i = 0; i < fits_.size(); ++i)
-      if (has_free_retunes(fits_[i]) && without_retunes(fits_[i].hypothesis).name() == wanted)
+      if (has_free_calibrations(fits_[i]) &&
+          without_calibrations(fits_[i].hypothesis).name() == wanted)
         out.push_back(i);
     return out;
   }
@@ -306,11 +307,11 @@ class Searcher {
   }
 
   /// A fit with more effects may gain what the form errors of a part of it explain as well: the
-  /// part is given it, with free retunes and as simulated.
+  /// part is given it, with free calibrations and as simulated.
   void weigh_hidden_gains() {
     std::vector<std::pair<std::size_t, std::size_t>> steps;  // (fewer, more)
     for (std::size_t i = 0; i < fits_.size(); ++i)
-      if (has_free_retunes(fits_[i]))
+      if (has_free_calibrations(fits_[i]))
         for (const std::size_t fewer : parts_of(fits_[i].hypothesis)) steps.emplace_back(fewer, i);
     std::vector<double> gains(steps.size());
     for_each_parallel(steps.size(), options_.n_threads, [&](std::size_t i) {
@@ -323,13 +324,13 @@ class Searcher {
       if (fits_[i].as_simulated) hidden_[i] = hidden_[known_.at(fits_[i].hypothesis.name())];
   }
 
-  double posterior_of(std::size_t i, const RetuneChoice& choice) const {
+  double posterior_of(std::size_t i, const CalibrationChoice& choice) const {
     return choice_posterior(fits_[i], choice, testable_.size()) + hidden_[i];
   }
 
   double best_posterior(std::size_t i) const {
     double best = -std::numeric_limits<double>::infinity();
-    for (const RetuneChoice& choice : fits_[i].choices)
+    for (const CalibrationChoice& choice : fits_[i].choices)
       best = std::max(best, posterior_of(i, choice));
     return best;
   }
@@ -369,7 +370,7 @@ class Searcher {
     double gain = -1.;
     const Effect* effect = nullptr;
     std::optional<Further> further{};
-    bool hidden = false;  // by retunes
+    bool hidden = false;  // by calibrations
   };
 
   bool holds(const Hypothesis& hypothesis, std::size_t fit) const {
@@ -391,7 +392,7 @@ class Searcher {
 
   /// Is a fit far from one of its size that leaves nothing but noise?
   bool is_outdone(std::size_t base, std::size_t best) const {
-    return nats_behind(base) - nats_behind(best) > far_nats && !leaves_too_much(fits_[best]);
+    return nats_behind(base) - nats_behind(best) > far_nats && !fails_residual_test(fits_[best]);
   }
 
   /// Would a partner not help by far, to first order? gain: twice its log likelihood.
@@ -400,7 +401,7 @@ class Searcher {
     return nats_behind(base) > n_first_orders * 0.5 * gain;
   }
 
-  /// Those that the same fit as simulated lacks, where retunes make up for much of it.
+  /// Those that the same fit as simulated lacks, where calibrations make up for much of it.
   std::vector<Partner> hidden_partners(std::size_t base) {
     constexpr double much_nats = 5.;
     const std::string name = fits_[base].hypothesis.name();
@@ -408,7 +409,7 @@ class Searcher {
     const double free = fits_[known_.at(name)].log_likelihood;
     if (!there || free - fits_[*there].log_likelihood < much_nats) return {};
     std::vector<Partner> out = partners(*there, testable_.size());
-    std::erase_if(out, [](const Partner& partner) { return partner.effect->retune; });
+    std::erase_if(out, [](const Partner& partner) { return partner.effect->calibration; });
     keep_first(out, n_hidden_partners);
     for (Partner& partner : out) partner.hidden = true;
     return out;
@@ -446,14 +447,14 @@ class Searcher {
     constexpr double least_lead = 12.;
     double least = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < fits_.size(); ++i)
-      if (foretells_its_noise(fits_[i])) least = std::max(least, best_posterior(i) - least_lead);
+      if (predicts_its_noise(fits_[i])) least = std::max(least, best_posterior(i) - least_lead);
     return least;
   }
 
   /// Does even a far better answer, of which this one is a part, leave too much?
   bool is_part_of_too_little(std::size_t part) const {
     for (std::size_t whole = 0; whole < fits_.size(); ++whole)
-      if (leaves_too_much(fits_[whole]) && holds(fits_[whole].hypothesis, part) &&
+      if (fails_residual_test(fits_[whole]) && holds(fits_[whole].hypothesis, part) &&
           best_posterior(whole) - best_posterior(part) > far_nats)
         return true;
     return false;
@@ -461,7 +462,7 @@ class Searcher {
 
   bool is_refuted(std::size_t i, double least) const {
     if (fits_[i].hypothesis.is_discrepancy()) return false;
-    return leaves_too_much(fits_[i]) || best_posterior(i) < least || is_part_of_too_little(i);
+    return fails_residual_test(fits_[i]) || best_posterior(i) < least || is_part_of_too_little(i);
   }
 
   std::vector<Candidate> candidates(const Kept kept) const {
@@ -480,7 +481,7 @@ class Searcher {
 
   void add_choices(std::map<std::string, Candidate>& by_name, std::size_t i) const {
     const HypothesisFit& fit = fits_[i];
-    for (const RetuneChoice& choice : fit.choices) {
+    for (const CalibrationChoice& choice : fit.choices) {
       std::vector<std::string> ids = choice.named;
       if (fit.hypothesis.is_discrepancy()) ids.push_back(outside_catalogue);
       for (const Effect* effect : fit.hypothesis.effects()) ids.push_back(effect->id);

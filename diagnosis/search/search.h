@@ -8,11 +8,11 @@
 
 namespace vibrissa::diagnosis {
 
-/// One answer with its probability: effects of a hypothesis and retune effects named with it.
+/// One answer with its probability: effects of a hypothesis and calibration effects named with it.
 struct Candidate {
   std::string name;     // ids joined by '+', "none"
   std::size_t fit = 0;  // in SearchResult::fits
-  std::vector<std::string> retunes;
+  std::vector<std::string> calibrations;
   double log_posterior = 0.;
   double probability = 0.;
 };
@@ -34,8 +34,8 @@ struct SearchOptions {
 
 /// Fits none, every single effect, then combinations: the best ones of a size are each joined with
 /// the effects whose shape the residual resembles most. Each candidate is one hypothesis with one
-/// choice of retune effects; its prior pays for every effect named. Throws UserError where none has
-/// a likelihood that is a number.
+/// choice of calibration effects; its prior pays for every effect named. Throws UserError where
+/// none has a likelihood that is a number.
 SearchResult search(const Experiment& experiment, const SearchOptions& options = {});
 
 /// Probabilities of the candidates, the best of which comes first, from their posteriors; and the

@@ -31,16 +31,16 @@ ResponseComparison compare_response(const Experiment& experiment, const Hypothes
   if (record == nullptr) return out;
   out.record = record->name;
   const std::vector<Complex> nominal = simulate_mean(experiment.nominal_chain(), *record);
-  const auto place = static_cast<std::size_t>(record - experiment.records.data());
-  const FittedRecord& mended = fit.records[place];
+  const auto index = static_cast<std::size_t>(record - experiment.records.data());
+  const FittedRecord& updated = fit.records[index];
   for (std::size_t b = 0; b < record->n_bins(); ++b) {
     const double a = std::abs(record->acceleration[record->whole_line(b)]);
     if (a == 0.) continue;
     out.frequency_hz.push_back(static_cast<double>(b + 1) * record->bin_hz());
     out.measured.push_back(std::abs(record->moment[b]) / a);
     out.nominal.push_back(std::abs(nominal[b]) / a);
-    out.mended.push_back(std::abs(mended.mean[b]) / a);
-    out.deviation.push_back(std::sqrt(mended.variance[b]) / a);
+    out.updated.push_back(std::abs(updated.mean[b]) / a);
+    out.deviation.push_back(std::sqrt(updated.variance[b]) / a);
   }
   return out;
 }
@@ -51,9 +51,9 @@ TraceComparison compare_trace(const Experiment& fitted_on, const Experiment& hel
   for (const PreparedRecord& record : held_out.records) {
     if (!record.excitation.base && !record.excitation.wind) continue;
     out.record = record.name;
-    out.measured = judged_samples(record, record.moment);
-    out.nominal = judged_samples(record, simulate_mean(held_out.nominal_chain(), record));
-    out.mended = judged_samples(record, simulate_mean(fit.chain(fitted_on), record));
+    out.measured = evaluated_samples(record, record.moment);
+    out.nominal = evaluated_samples(record, simulate_mean(held_out.nominal_chain(), record));
+    out.updated = evaluated_samples(record, simulate_mean(fit.chain(fitted_on), record));
     for (std::size_t i = 0; i < out.measured.size(); ++i)
       out.time_s.push_back(static_cast<double>(record.first + i) / record.sampling_rate_hz);
     return out;

@@ -12,7 +12,7 @@ namespace vibrissa::diagnosis {
 struct ResponseComparison {
   std::string record{};
   std::vector<double> frequency_hz{};
-  std::vector<double> measured{}, nominal{}, mended{};
+  std::vector<double> measured{}, nominal{}, updated{};
   std::vector<double> deviation{};  // of the measured one, noise of both channels
 };
 
@@ -20,7 +20,7 @@ struct ResponseComparison {
 struct TraceComparison {
   std::string record{};
   std::vector<double> time_s{};
-  std::vector<double> measured{}, nominal{}, mended{};
+  std::vector<double> measured{}, nominal{}, updated{};
 };
 
 /// Empty without a periodic base record. The fit's experiment. Proven by

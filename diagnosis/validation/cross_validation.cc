@@ -19,23 +19,23 @@ constexpr std::size_t first_bin = 4;
 /// Of an effect's own noise the power is known so well: gusts and wakes differ from day to day.
 constexpr double own_noise_margin = 1.5;
 
-/// A fit's figures with the noise that was measured, and the whole bounds of form errors.
-Eigen::VectorXd sober_figures(const Experiment& experiment, const HypothesisFit& fit) {
+/// A fit's parameters with the noise that was measured, and the whole bounds of form errors.
+Eigen::VectorXd evaluation_parameters(const Experiment& experiment, const HypothesisFit& fit) {
   Eigen::VectorXd x = fit.x;
   const NoiseLevels levels = noise_levels(experiment, fit, fit.chain(experiment));
-  x(static_cast<Eigen::Index>(place_moment_noise)) = 0.5 * std::log(levels.moment.variance);
-  x(static_cast<Eigen::Index>(place_acceleration_noise)) =
+  x(static_cast<Eigen::Index>(index_of_moment_noise)) = 0.5 * std::log(levels.moment.variance);
+  x(static_cast<Eigen::Index>(index_of_acceleration_noise)) =
       0.5 * std::log(levels.acceleration.variance);
   if (!fit.hypothesis.effects().empty()) x(x.size() - 1) = 1.;
   return x;
 }
 
-LeftOver left_over(const PreparedRecord& record, const std::vector<Complex>& nominal,
-                   const Prediction& prediction, std::vector<double> variance) {
+ResidualExcess residual_excess(const PreparedRecord& record, const std::vector<Complex>& nominal,
+                               const Prediction& prediction, std::vector<double> variance) {
   for (std::size_t b = 0; b < variance.size(); ++b)
-    variance[b] += (own_noise_margin - 1.) * prediction.own_noise[b];
+    variance[b] += (own_noise_margin - 1.) * prediction.process_noise[b];
   std::vector<Complex> error = difference(record.moment, prediction.mean);
-  IntegratedUnknowns(prediction.unknowns, error, variance).remove_from(error);
+  IntegratedNuisances(prediction.unknowns, error, variance).remove_from(error);
   double power = 0., before = 0., allowed = 0., square = 0.;
   for (std::size_t b = first_bin; b < error.size(); ++b) {
     power += std::norm(error[b]);
@@ -49,32 +49,32 @@ LeftOver left_over(const PreparedRecord& record, const std::vector<Complex>& nom
 
 }  // namespace
 
-LeftOver left_over(const Experiment& fitted_on, const Experiment& held_out,
-                   const HypothesisFit& fit) {
+ResidualExcess residual_excess(const Experiment& fitted_on, const Experiment& held_out,
+                               const HypothesisFit& fit) {
   Experiment as_fitted = held_out;
   as_fitted.nominal = fitted_on.nominal;
   as_fitted.known = fitted_on.known;
   as_fitted.scales = fitted_on.scales;
-  const Eigen::VectorXd x = sober_figures(fitted_on, fit);
-  FitPosterior posterior(as_fitted, fit.figures, fit.hypothesis);
+  const Eigen::VectorXd x = evaluation_parameters(fitted_on, fit);
+  FitPosterior posterior(as_fitted, fit.fit_parameters, fit.hypothesis);
   const std::vector<Prediction> at = posterior.predict(x);
   posterior.renew_slow_variance(x, at);
   const double a_variance = posterior.acceleration_variance(x);
   const Chain nominal = fitted_on.nominal_chain();
-  LeftOver worst;
+  ResidualExcess worst;
   for (std::size_t r = 0; r < at.size(); ++r) {
     const PreparedRecord& record = as_fitted.records[r];
     if (record.n_bins() <= first_bin) continue;
-    const LeftOver left = left_over(record, simulate_mean(nominal, record), at[r],
-                                    posterior.variance(x, at[r], r, a_variance));
-    if (worst.record.empty() ||
-        std::pair(contradicts(left), left.excess) > std::pair(contradicts(worst), worst.excess))
+    const ResidualExcess left = residual_excess(record, simulate_mean(nominal, record), at[r],
+                                                posterior.variance(x, at[r], r, a_variance));
+    if (worst.record.empty() || std::pair(contradicted_by(left), left.excess) >
+                                    std::pair(contradicted_by(worst), worst.excess))
       worst = left;
   }
   return worst;
 }
 
-bool contradicts(const LeftOver& left) {
+bool contradicted_by(const ResidualExcess& left) {
   constexpr double most_excess = 0.2, most_deviations = 6., most_of_gap = 0.05;
   return left.excess > most_excess && left.n_deviations > most_deviations &&
          left.share_of_gap > most_of_gap;
@@ -85,21 +85,21 @@ void refute_contradicted(SearchResult& result, const Experiment& fitted_on,
   constexpr std::size_t most_fits = 5;
   constexpr double most_nats_behind = 4.6;  // one to a hundred
   std::set<std::size_t> contradicted;
-  bool borne_out = false;
+  bool confirmed = false;
   for (const Candidate& candidate : result.candidates) {
     const HypothesisFit& fit = result.fits[candidate.fit];
     const double behind = result.candidates.front().log_posterior - candidate.log_posterior;
     if (fit.hypothesis.is_discrepancy() || behind > most_nats_behind) break;
     if (contradicted.count(candidate.fit) != 0) continue;
     if (contradicted.size() == most_fits) break;
-    borne_out = !contradicts(left_over(fitted_on, held_out, fit));
-    if (borne_out) break;
+    confirmed = !contradicted_by(residual_excess(fitted_on, held_out, fit));
+    if (confirmed) break;
     contradicted.insert(candidate.fit);
   }
   if (contradicted.empty()) return;
   const auto is_refuted = [&](const Candidate& candidate) {
     if (result.fits[candidate.fit].hypothesis.is_discrepancy()) return false;
-    return !borne_out || contradicted.count(candidate.fit) != 0;
+    return !confirmed || contradicted.count(candidate.fit) != 0;
   };
   for (const Candidate& candidate : result.candidates)
     if (is_refuted(candidate)) result.refuted.push_back(candidate);

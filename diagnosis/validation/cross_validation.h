@@ -6,9 +6,9 @@
 
 namespace vibrissa::diagnosis {
 
-/// What a fit leaves of the record that contradicts it most, among those it has not seen; of the
-/// one it follows worst, where none does.
-struct LeftOver {
+/// What a fit leaves of the record that contradicted_by it most, among those it has not seen; of
+/// the one it follows worst, where none does.
+struct ResidualExcess {
   std::string record{};
   /// Power of the residual over all that the fit allows for, less one:
   ///   sum |M - mean|^2 / sum S - 1,
@@ -25,15 +25,15 @@ struct LeftOver {
 /// InputNoise::as_measured. Noise that was measured at rest is not taken for louder because the fit
 /// is poor. Nothing is fitted but the rise of a drift. Proven by
 /// tests/diagnosis/validation/cross_validation_test.cc.
-LeftOver left_over(const Experiment& fitted_on, const Experiment& held_out,
-                   const HypothesisFit& fit);
+ResidualExcess residual_excess(const Experiment& fitted_on, const Experiment& held_out,
+                               const HypothesisFit& fit);
 
 /// Does it contradict the fit? A cause, or none, that is right carries over to other levels and
 /// winds. One that closes nearly all of a gap is not contradicted by what finer causes leave.
-bool contradicts(const LeftOver& left);
+bool contradicted_by(const ResidualExcess& left);
 
-/// The most probable answers are asked in turn, up to the first that held-out records bear out: the
-/// others are refuted. Where nothing nearly as probable is borne out all known answers are.
+/// The most probable answers are asked in turn, up to the first that held-out records confirm: the
+/// others are refuted. Where nothing nearly as probable is confirmed all known answers are.
 void refute_contradicted(SearchResult& result, const Experiment& fitted_on,
                          const Experiment& held_out);
 

@@ -19,7 +19,7 @@ namespace {
 
 using Samples = std::vector<double>;
 
-/// Mean squares [(N m)^2] of what no model can foretell in one record.
+/// Mean squares [(N m)^2] of what no model can predict in one record.
 struct FloorParts {
   double moment = 0., acceleration = 0., own = 0.;
 };
@@ -27,12 +27,13 @@ struct FloorParts {
 FloorParts floor_parts(const PreparedRecord& record, const Prediction& prediction,
                        const Chain& chain, double moment_variance, double acceleration_variance) {
   FloorParts parts;
-  const double n = static_cast<double>(record.n_judged);
+  const double n = static_cast<double>(record.n_evaluated);
   for (std::size_t b = 0; b < record.n_bins(); ++b) {
     const double acceleration = prediction.acceleration_noise[b] * 2. / (n * n);
     parts.moment += moment_variance * prediction.moment_noise[b] * 2. / (n * n);
     parts.acceleration += acceleration_variance * acceleration;
-    parts.own += chain.reference_variance * acceleration + prediction.own_noise[b] * 2. / (n * n);
+    parts.own +=
+        chain.reference_variance * acceleration + prediction.process_noise[b] * 2. / (n * n);
   }
   return parts;
 }
@@ -78,12 +79,12 @@ Line strongest_line(std::span<const double> error, double rate_hz, double centre
 
 void take_hum_off(Samples& error, double rate_hz, const HypothesisFit& fit) {
   const std::size_t half = error.size() / 2;
-  const auto place = fit.place("hum", 1);
-  if (!place) return;
-  const auto at = static_cast<Eigen::Index>(*place);
+  const auto index = fit.index("hum", 1);
+  if (!index) return;
+  const auto at = static_cast<Eigen::Index>(*index);
   const double half_s = static_cast<double>(half) / rate_hz;
   const double reach_hz = std::max(0.6 / half_s, 3. * std::sqrt(fit.covariance(at, at)));
-  const double centre_hz = fit.figures[*place].description.value(fit.x(at));
+  const double centre_hz = fit.fit_parameters[*index].description.value(fit.x(at));
   const Line line = strongest_line(std::span(error).first(half), rate_hz, centre_hz, reach_hz);
   const double w = 2. * std::numbers::pi * line.frequency_hz / rate_hz;
   for (std::size_t i = 0; i < error.size(); ++i) {
@@ -110,7 +111,7 @@ double square_about_mean(std::span<const double> x, double slope) {
   return square - sum * sum / static_cast<double>(x.size());
 }
 
-/// Takes a ramp off when the first part of the first half foretells the rest of that half with it.
+/// Takes a ramp off when the first part of the first half predicts the rest of that half with it.
 bool take_drift_off(Samples& error) {
   const std::span<const double> half = std::span(error).first(error.size() / 2);
   const std::span<const double> part = half.first(half.size() / 2);
@@ -121,7 +122,7 @@ bool take_drift_off(Samples& error) {
   return true;
 }
 
-/// An offset tells nothing: the mean of what is judged goes.
+/// An offset tells nothing: the mean of what is evaluated goes.
 void take_mean_off(Samples& x, std::size_t first) {
   double mean = 0.;
   for (std::size_t i = first; i < x.size(); ++i)
@@ -244,24 +245,24 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
   HeldOutScore out;
   for (const Effect* effect : fit.hypothesis.effects())
     if (effect->irreducible)
-      (effect->id == "hum" ? out.foretold : out.not_foretold).push_back(effect->id);
+      (effect->id == "hum" ? out.predicted : out.not_predictable).push_back(effect->id);
   const bool halved = fit.hypothesis.contains("hum") || fit.hypothesis.contains("sensor_drift");
   bool ramp = false;
   std::vector<Block> all, of_base;
   for (const PreparedRecord& record : held_out.records) {
     if (!record.excitation.base && !record.excitation.wind) continue;
     const Prediction prediction = simulate(chain, record);
-    const std::size_t first = halved ? record.n_judged / 2 : 0;
+    const std::size_t first = halved ? record.n_evaluated / 2 : 0;
     Samples before =
-        judged_samples(record, difference(record.moment, simulate_mean(nominal, record)));
-    Samples after = judged_samples(record, difference(record.moment, prediction.mean));
-    Samples measured = judged_samples(record, record.moment);
+        evaluated_samples(record, difference(record.moment, simulate_mean(nominal, record)));
+    Samples after = evaluated_samples(record, difference(record.moment, prediction.mean));
+    Samples measured = evaluated_samples(record, record.moment);
     if (fit.hypothesis.contains("hum")) take_hum_off(after, record.sampling_rate_hz, fit);
     if (fit.hypothesis.contains("sensor_drift")) ramp |= take_drift_off(after);
     for (Samples* x : {&before, &after, &measured}) take_mean_off(*x, first);
     FloorParts floor = floor_parts(record, prediction, chain, levels.moment.variance,
                                    levels.acceleration.variance);
-    if (out.not_foretold.empty()) floor.own = 0.;
+    if (out.not_predictable.empty()) floor.own = 0.;
     const std::vector<Block> blocks =
         blocks_of(record, before, after, measured, first, floor, options.block_s);
     out.records.push_back(score(record.name, blocks, levels, options));
@@ -271,8 +272,8 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
   out.vibration_left = vibration_left(of_base);
   if (all.empty()) throw signals::UserError("every held_out record is at rest: nothing to score");
   if (ramp) {
-    std::erase(out.not_foretold, "sensor_drift");
-    out.foretold.push_back("sensor_drift");
+    std::erase(out.not_predictable, "sensor_drift");
+    out.predicted.push_back("sensor_drift");
   }
   out.overall = score("", all, levels, options);
   return out;

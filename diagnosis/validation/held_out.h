@@ -19,17 +19,17 @@ struct ErrorScore {
   /// Expected error of the true model: noise of the moment, noise of the accelerometer carried
   /// through the fit's chain.
   double noise_floor = 0.;
-  /// With the noise of the fit's irreducible effects added, unless they are foretold.
+  /// With the noise of the fit's irreducible effects added, unless they are predicted.
   double irreducible_floor = 0.;
   /// 1 - (after^2 - floor^2) / (before^2 - floor^2); nothing when before <= floor.
   std::optional<double> gap_closed{};
   std::optional<std::array<double, 2>> gap_closed_ci95{};
 };
 
-/// What subtraction of the foretold vibration leaves of it in records moved by the base alone
+/// What subtraction of the predicted vibration leaves of it in records moved by the base alone
 /// [dB of the measured moment].
 struct VibrationLeft {
-  double before_db = 0.;  // foretold by the nominal model
+  double before_db = 0.;  // predicted by the nominal model
   double after_db = 0.;   // by the fit's chain
 };
 
@@ -39,9 +39,9 @@ struct HeldOutScore {
   std::vector<ErrorScore> records{};
   /// Irreducible effects whose course was estimated on the first half of each record. With hum or
   /// sensor_drift in the fit only second halves are scored.
-  std::vector<std::string> foretold{};
-  /// Irreducible effects of which nothing can be foretold: their noise stays in nrmse_after.
-  std::vector<std::string> not_foretold{};
+  std::vector<std::string> predicted{};
+  /// Irreducible effects of which nothing can be predicted: their noise stays in nrmse_after.
+  std::vector<std::string> not_predictable{};
 };
 
 struct HeldOutOptions {
@@ -52,10 +52,10 @@ struct HeldOutOptions {
 
 /// Scores a fit on records that it has not seen, prepared with Split::held_out and
 /// InputNoise::as_measured. fitted_on: the experiment of the fit. The interval is a bootstrap over
-/// blocks of time, in which both noise levels vary as far as they are known. A hum is foretold by a
-/// line fitted to the first half; a drift by its slope, where its first quarter foretold the second
-/// with it: a random walk has nothing to foretell but its level, and the mean of what is judged
-/// counts nowhere. Throws UserError when there is no record. Proven by
+/// blocks of time, in which both noise levels vary as far as they are known. A hum is predicted by
+/// a line fitted to the first half; a drift by its slope, where its first quarter predicted the
+/// second with it: a random walk has nothing to predict but its level, and the mean of what is
+/// evaluated counts nowhere. Throws UserError when there is no record. Proven by
 /// tests/diagnosis/validation/held_out_test.cc.
 HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_out,
                             const HypothesisFit& fit, const HeldOutOptions& options = {});

@@ -20,13 +20,13 @@ FisherChanges changes_against(const Experiment& experiment, const HypothesisFit&
   std::vector<double> deviation;
   for (const WhitenedRecord& record : whitened_residual(experiment, fit))
     deviation.insert(deviation.end(), record.deviation.begin(), record.deviation.end());
-  return {experiment, std::move(deviation), noisy_chain(experiment, fit.figures, fit.x)};
+  return {experiment, std::move(deviation), noisy_chain(experiment, fit.fit_parameters, fit.x)};
 }
 
 /// One direction in which a prediction can be moved.
 struct Direction {
   const Effect* effect = nullptr;  // nothing: noise levels, joint share
-  bool rival = false;              // an effect that the fit does not hold
+  bool alternative = false;        // an effect that the fit does not hold
   double half_prior = 0.;          // nats of a unit of it
 };
 
@@ -39,7 +39,7 @@ class Directions {
       : changes_(changes_against(experiment, fit)) {
     std::vector<Eigen::VectorXd> columns;
     add_figures(experiment, fit, columns);
-    add_rivals(experiment, fit, columns);
+    add_alternatives(experiment, fit, columns);
     std::vector<double> half_priors;
     for (const Direction& direction : list_) half_priors.push_back(direction.half_prior);
     directions_ = FisherDirections(columns, half_priors);
@@ -53,14 +53,14 @@ class Directions {
                             const HypothesisFit& fit) const {
     Eigen::VectorXd along = Eigen::VectorXd::Zero(directions_.columns().rows());
     Eigen::Index column = 0;
-    for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-      const FreeFigure& figure = fit.figures[i];
-      if (figure.description.name == "form_error_share") continue;
-      if (figure.effect == &effect) {
-        const Parameter& parameter = figure.description;
+    for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
+      const FitParameter& fit_parameter = fit.fit_parameters[i];
+      if (fit_parameter.description.name == "model_form_error_share") continue;
+      if (fit_parameter.effect == &effect) {
+        const Parameter& parameter = fit_parameter.description;
         const double neutral = parameter.coordinate(parameter.neutral);
         if (!(neutral >= parameter.prior.low && neutral <= parameter.prior.high))
-          return changes_.of(noisy_chain(experiment, fit.figures, fit.x, &effect));
+          return changes_.of(noisy_chain(experiment, fit.fit_parameters, fit.x, &effect));
         along +=
             (neutral - fit.x(static_cast<Eigen::Index>(i))) * directions_.columns().col(column);
       }
@@ -77,25 +77,26 @@ class Directions {
  private:
   void add_figures(const Experiment& experiment, const HypothesisFit& fit,
                    std::vector<Eigen::VectorXd>& columns) {
-    for (std::size_t i = 0; i < fit.figures.size(); ++i) {
-      const FreeFigure& figure = fit.figures[i];
-      if (figure.description.name == "form_error_share") continue;
-      const auto place = static_cast<Eigen::Index>(i);
+    for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
+      const FitParameter& fit_parameter = fit.fit_parameters[i];
+      if (fit_parameter.description.name == "model_form_error_share") continue;
+      const auto index = static_cast<Eigen::Index>(i);
       Eigen::VectorXd x = fit.x;
-      double h = figure.description.step;
-      if (x(place) + h > figure.description.prior.high) h = -h;
-      x(place) += h;
-      columns.push_back(changes_.of(noisy_chain(experiment, fit.figures, x)) / h);
-      list_.push_back({figure.effect, false, half_prior(figure, x(place), n_spreads)});
+      double h = fit_parameter.description.step;
+      if (x(index) + h > fit_parameter.description.prior.high) h = -h;
+      x(index) += h;
+      columns.push_back(changes_.of(noisy_chain(experiment, fit.fit_parameters, x)) / h);
+      list_.push_back(
+          {fit_parameter.effect, false, half_prior(fit_parameter, x(index), n_spreads)});
     }
   }
 
-  void add_rivals(const Experiment& experiment, const HypothesisFit& fit,
-                  std::vector<Eigen::VectorXd>& columns) {
-    const NoisyChain state = noisy_chain(experiment, fit.figures, fit.x);
+  void add_alternatives(const Experiment& experiment, const HypothesisFit& fit,
+                        std::vector<Eigen::VectorXd>& columns) {
+    const NoisyChain state = noisy_chain(experiment, fit.fit_parameters, fit.x);
     for (const Effect& effect : effect_catalogue()) {
-      const bool held = std::any_of(fit.figures.begin(), fit.figures.end(),
-                                    [&](const FreeFigure& f) { return f.effect == &effect; });
+      const bool held = std::any_of(fit.fit_parameters.begin(), fit.fit_parameters.end(),
+                                    [&](const FitParameter& f) { return f.effect == &effect; });
       if (held || !shows(experiment, effect)) continue;
       const std::vector<std::size_t> sized = size_parameters(effect);
       for (const std::vector<double>& start : effect.starts) {
@@ -119,17 +120,17 @@ class Sets {
   Sets(const Directions& directions, const Effect& named, Eigen::VectorXd change)
       : directions_(directions), named_(named), change_(std::move(change)) {
     for (const Direction& direction : directions.list())
-      free_.push_back(!direction.rival && direction.effect != &named);
+      free_.push_back(!direction.alternative && direction.effect != &named);
   }
 
   std::vector<std::vector<std::string>> run() const {
     if (directions_.left(change_, free_) < enough_nats) return {with_nuisances()};
     std::vector<std::vector<std::string>> sets;
-    std::set<const Effect*> rivals;
+    std::set<const Effect*> alternatives;
     for (const Direction& direction : directions_.list())
-      if (direction.rival) rivals.insert(direction.effect);
-    for (const Effect* rival : rivals)
-      if (left_with(*rival, true) < enough_nats) sets.push_back({named_.id, rival->id});
+      if (direction.alternative) alternatives.insert(direction.effect);
+    for (const Effect* alternative : alternatives)
+      if (left_with(*alternative, true) < enough_nats) sets.push_back({named_.id, alternative->id});
     return sets;
   }
 
@@ -137,7 +138,7 @@ class Sets {
   std::set<const Effect*> held_effects() const {
     std::set<const Effect*> out;
     for (const Direction& direction : directions_.list())
-      if (!direction.rival && direction.effect != nullptr && direction.effect != &named_)
+      if (!direction.alternative && direction.effect != nullptr && direction.effect != &named_)
         out.insert(direction.effect);
     return out;
   }
@@ -164,51 +165,53 @@ class Sets {
 };
 
 /// Hypothesis with one effect in another's place.
-std::string exchanged(const Hypothesis& hypothesis, const Effect& effect, const Effect& rival) {
-  return hypothesis.without(effect).with(rival).name();
+std::string exchanged(const Hypothesis& hypothesis, const Effect& effect,
+                      const Effect& alternative) {
+  return hypothesis.without(effect).with(alternative).name();
 }
 
 /// Effects that do in a fit of their own what the named one does in the best fit.
 void add_refitted(const SearchResult& result, const HypothesisFit& best, const Effect& effect,
                   std::vector<std::vector<std::string>>& sets) {
-  for (const Effect& rival : effect_catalogue()) {
-    if (best.hypothesis.contains(rival.id)) continue;
-    const std::string name = exchanged(best.hypothesis, effect, rival);
+  for (const Effect& alternative : effect_catalogue()) {
+    if (best.hypothesis.contains(alternative.id)) continue;
+    const std::string name = exchanged(best.hypothesis, effect, alternative);
     for (const HypothesisFit& fit : result.fits)
       if (fit.hypothesis.name() == name && best.log_likelihood - fit.log_likelihood < enough_nats)
-        sets.push_back({effect.id, rival.id});
+        sets.push_back({effect.id, alternative.id});
   }
 }
 
-/// Log likelihood of a fit whose retunes but for the given ones are exactly nominal: in Gaussian
-/// approximation, tolerances taken out.
+/// Log likelihood of a fit whose calibrations but for the given ones are exactly nominal: in
+/// Gaussian approximation, tolerances taken out.
 double likelihood_at_nominal_but(const HypothesisFit& fit, const std::vector<std::string>& ids) {
-  const std::vector<Eigen::Index> all = retunes_but(fit, {});
-  const RetunedPosterior free = retuned_posterior(fit, all);
-  const auto nats_to = [&](const Eigen::VectorXd& x, const std::vector<Eigen::Index>& places) {
-    if (places.empty()) return 0.;
-    const Eigen::VectorXd way = free.x(places) - x(places);
-    const Eigen::MatrixXd covariance = free.covariance(places, places);
+  const std::vector<Eigen::Index> all = calibrations_but(fit, {});
+  const RecalibratedPosterior free = recalibrated_posterior(fit, all);
+  const auto nats_to = [&](const Eigen::VectorXd& x, const std::vector<Eigen::Index>& indices) {
+    if (indices.empty()) return 0.;
+    const Eigen::VectorXd way = free.x(indices) - x(indices);
+    const Eigen::MatrixXd covariance = free.covariance(indices, indices);
     return 0.5 * way.dot(covariance.ldlt().solve(way));
   };
   return fit.log_likelihood + nats_to(fit.x, all) -
-         nats_to(Eigen::VectorXd::Zero(fit.x.size()), retunes_but(fit, ids));
+         nats_to(Eigen::VectorXd::Zero(fit.x.size()), calibrations_but(fit, ids));
 }
 
-/// Effects that do in a fit of their own what a named retune does in the best fit.
-void add_refitted_for_retune(const SearchResult& result, const HypothesisFit& best,
-                             const std::vector<std::string>& retunes, const std::string& named,
-                             std::vector<std::vector<std::string>>& sets) {
-  std::vector<std::string> others = retunes;
+/// Effects that do in a fit of their own what a named calibration does in the best fit.
+void add_refitted_for_calibration(const SearchResult& result, const HypothesisFit& best,
+                                  const std::vector<std::string>& calibrations,
+                                  const std::string& named,
+                                  std::vector<std::vector<std::string>>& sets) {
+  std::vector<std::string> others = calibrations;
   std::erase(others, named);
-  const double of_best = likelihood_at_nominal_but(best, retunes);
-  for (const Effect& rival : effect_catalogue()) {
-    if (rival.id == named || best.hypothesis.contains(rival.id)) continue;
-    const std::string name = best.hypothesis.with(rival).name();
+  const double of_best = likelihood_at_nominal_but(best, calibrations);
+  for (const Effect& alternative : effect_catalogue()) {
+    if (alternative.id == named || best.hypothesis.contains(alternative.id)) continue;
+    const std::string name = best.hypothesis.with(alternative).name();
     for (const HypothesisFit& fit : result.fits)
-      if (fit.hypothesis.name() == name && fit.place(named, 0) &&
+      if (fit.hypothesis.name() == name && fit.index(named, 0) &&
           of_best - likelihood_at_nominal_but(fit, others) < enough_nats)
-        sets.push_back({named, rival.id});
+        sets.push_back({named, alternative.id});
   }
 }
 
@@ -226,11 +229,11 @@ std::vector<std::vector<std::string>> indistinguishable_sets(const Experiment& e
   const Candidate& candidate = result.candidates.front();
   const HypothesisFit& best = result.fits[candidate.fit];
   for (const Effect* effect : best.hypothesis.effects()) add_refitted(result, best, *effect, sets);
-  if (candidate.retunes.empty()) return sets;
+  if (candidate.calibrations.empty()) return sets;
   const Directions directions(experiment, best);
-  for (const std::string& id : candidate.retunes)
-    add_refitted_for_retune(result, best, candidate.retunes, id, sets);
-  for (const std::string& id : candidate.retunes) {
+  for (const std::string& id : candidate.calibrations)
+    add_refitted_for_calibration(result, best, candidate.calibrations, id, sets);
+  for (const std::string& id : candidate.calibrations) {
     const Effect& effect = find_effect(id);
     Eigen::VectorXd change = directions.change_of(effect, experiment, best);
     for (std::vector<std::string>& set : Sets(directions, effect, std::move(change)).run())

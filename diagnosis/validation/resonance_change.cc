@@ -46,7 +46,7 @@ std::optional<double> peak_hz(const ReadingPerAcceleration& reading, const doubl
 }  // namespace
 
 std::optional<ResonanceChange> resonance_change(const Experiment& experiment,
-                                                const MendedModel& fitted) {
+                                                const UpdatedModel& fitted) {
   const PreparedRecord* const record = moved_record(experiment);
   if (record == nullptr || experiment.nominal.modes.empty()) return std::nullopt;
   const Chain simulated_chain = experiment.nominal_chain(), measured_chain = fitted.chain();

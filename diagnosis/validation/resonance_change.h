@@ -18,6 +18,6 @@ struct ResonanceChange {
 /// without a mode, without base motion, or where nothing peaks there. Proven by
 /// tests/diagnosis/validation/resonance_change_test.cc.
 std::optional<ResonanceChange> resonance_change(const Experiment& experiment,
-                                                const MendedModel& fitted);
+                                                const UpdatedModel& fitted);
 
 }  // namespace vibrissa::diagnosis

@@ -17,8 +17,8 @@ bool tells(const signals::DatasetRecord& entry) {
          entry.record.has(channel::wind_moment);
 }
 
-/// What is left of the moment once the foretold vibration is taken off, after the first samples.
-void append_wind_estimate(const MendedModel& model, const signals::Record& record,
+/// What is left of the moment once the predicted vibration is taken off, after the first samples.
+void append_wind_estimate(const UpdatedModel& model, const signals::Record& record,
                           std::size_t first, std::vector<double>& out) {
   const std::vector<double> vibration = simulate_vibration(model, record);
   const auto measured = record.channel(channel::base_moment);
@@ -27,8 +27,8 @@ void append_wind_estimate(const MendedModel& model, const signals::Record& recor
 
 }  // namespace
 
-std::optional<SeparationQuality> separation_quality(const MendedModel& simulation,
-                                                    const MendedModel& mended,
+std::optional<SeparationQuality> separation_quality(const UpdatedModel& simulation,
+                                                    const UpdatedModel& updated,
                                                     const signals::Dataset& real) {
   // What the unknown start leaves is gone by then.
   constexpr double settling_s = 0.5;
@@ -41,7 +41,7 @@ std::optional<SeparationQuality> separation_quality(const MendedModel& simulatio
     const auto wind = entry.record.channel(channel::wind_moment).subspan(first);
     truth.insert(truth.end(), wind.begin(), wind.end());
     append_wind_estimate(simulation, entry.record, first, before);
-    append_wind_estimate(mended, entry.record, first, after);
+    append_wind_estimate(updated, entry.record, first, after);
   }
   if (truth.empty()) return std::nullopt;
   const SeparationQuality quality{separation::sdr_db(truth, before),

@@ -43,7 +43,7 @@ std::vector<EffectShare> effect_shares(const Experiment& fitted_on, const Experi
   const std::vector<const Effect*>& effects = fit.hypothesis.effects();
   if (effects.size() < 2) return {};
   bool defined = true;
-  double of_retunes = 0.;
+  double of_calibrations = 0.;
   const auto worth = [&](std::size_t set) {
     std::vector<const Effect*> part;
     for (std::size_t i = 0; i < effects.size(); ++i)
@@ -52,14 +52,14 @@ std::vector<EffectShare> effect_shares(const Experiment& fitted_on, const Experi
     const ErrorScore score =
         score_held_out(fitted_on, held_out, of_part, {.n_resamples = 0}).overall;
     defined = defined && score.gap_closed.has_value();
-    if (set == 0) of_retunes = score.gap_closed.value_or(0.);
+    if (set == 0) of_calibrations = score.gap_closed.value_or(0.);
     return score.gap_closed.value_or(0.);
   };
   const std::vector<double> values = shapley_values(effects.size(), worth);
   if (!defined) return {};
   std::vector<EffectShare> shares;
   for (std::size_t i = 0; i < effects.size(); ++i) shares.push_back({effects[i]->id, values[i]});
-  shares.push_back({"retunes", of_retunes});
+  shares.push_back({"calibrations", of_calibrations});
   return shares;
 }
 

@@ -19,9 +19,10 @@ struct EffectShare {
   double share = 0.;
 };
 
-/// Of each effect of a fit with two or more, and of the retunes that are free without any of them
-/// ("retunes", last); empty where no gap is to be closed. Fits of the parts that the search has not
-/// made are made.
+/// Of each effect of a fit with two or more, and of the calibrations that are free without any of
+/// them
+/// ("calibrations", last); empty where no gap is to be closed. Fits of the parts that the search
+/// has not made are made.
 std::vector<EffectShare> effect_shares(const Experiment& fitted_on, const Experiment& held_out,
                                        const SearchResult& result, const HypothesisFit& fit);
 

@@ -12,7 +12,7 @@ namespace {
 namespace channel = signals::channel;
 
 /// Moment of a steady wind over its u |u|, at the speed that sensors are made for [N m / (m/s)^2].
-double steady_drag(const MendedModel& model, double rate_hz) {
+double steady_drag(const UpdatedModel& model, double rate_hz) {
   constexpr std::size_t n = 256;
   constexpr double usual_m_s = 2.;
   signals::Record wind(rate_hz, n);
@@ -20,7 +20,7 @@ double steady_drag(const MendedModel& model, double rate_hz) {
   return simulate_moment(model, wind)[n / 2] / (usual_m_s * usual_m_s);
 }
 
-std::vector<double> foretold_vibration(const MendedModel& model, const signals::Record& record) {
+std::vector<double> predicted_vibration(const UpdatedModel& model, const signals::Record& record) {
   if (!model.nominal.has_base || !record.has(channel::base_acceleration))
     return std::vector<double>(record.n_samples(), 0.);
   return simulate_vibration(model, record);
@@ -47,10 +47,10 @@ std::vector<double> measured_speed(const signals::Record& record, std::size_t re
   return speed_of(neighbour_mean(square, reach));
 }
 
-std::vector<double> wind_speed(const MendedModel& model, const signals::Record& record,
+std::vector<double> wind_speed(const UpdatedModel& model, const signals::Record& record,
                                std::size_t reach) {
   const double drag = steady_drag(model, record.sampling_rate_hz());
-  const std::vector<double> vibration = foretold_vibration(model, record);
+  const std::vector<double> vibration = predicted_vibration(model, record);
   const auto measured = record.channel(channel::base_moment);
   std::vector<double> moment(measured.begin(), measured.end());
   for (std::size_t i = 0; i < moment.size(); ++i) moment[i] = (moment[i] - vibration[i]) / drag;
@@ -65,8 +65,8 @@ double square_error(std::span<const double> x, std::span<const double> truth, st
 
 }  // namespace
 
-std::optional<WindSpeedError> wind_speed_error(const MendedModel& simulation,
-                                               const MendedModel& mended,
+std::optional<WindSpeedError> wind_speed_error(const UpdatedModel& simulation,
+                                               const UpdatedModel& updated,
                                                const signals::Dataset& real) {
   // What the unknown start leaves is gone by then.
   constexpr double settling_s = 0.5;
@@ -82,7 +82,7 @@ std::optional<WindSpeedError> wind_speed_error(const MendedModel& simulation,
     const std::size_t window = reach(simulation.nominal, rate_hz);
     const std::vector<double> truth = measured_speed(entry.record, window);
     before += square_error(wind_speed(simulation, entry.record, window), truth, first);
-    after += square_error(wind_speed(mended, entry.record, window), truth, first);
+    after += square_error(wind_speed(updated, entry.record, window), truth, first);
     n += static_cast<double>(entry.record.n_samples() - first);
   }
   if (n == 0.) return std::nullopt;

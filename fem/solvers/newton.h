@@ -24,7 +24,7 @@ class BalanceProblem {
 struct NewtonOptions {
   double tolerance = 1e-11;  // out-of-balance force over the force to measure it by
   unsigned int max_iterations = 40;
-  std::size_t n_secants = 20;             // steps that a kept tangent is mended by
+  std::size_t n_secants = 20;             // steps that a kept tangent is updated by
   double tangent_worth_iterations = 15.;  // a new one costs about as much
 };
 
@@ -39,7 +39,7 @@ struct NewtonReport {
 };
 
 /// Newton's iteration from u, which it changes. A tangent, that of an earlier call too, is kept and
-/// mended by secants (secant_memory.h) until a new one pays; a new one is made at u with the
+/// updated by secants (secant_memory.h) until a new one pays; a new one is made at u with the
 /// stresses of in_balance (T13.2), the last state in balance. Steps are shortened until the force
 /// along them has fallen (T13.1), and out of states that have no energy; u is left at the last
 /// state that has one. Proven by tests/fem/solvers/newton_test.cc and static_solution_test.cc.

@@ -55,10 +55,10 @@ class Identification:
 
 class Diagnosis:
     """Why records differ from a simulation: `report` (diagnosis.json as a dict), `words` for people,
-    `mended`, the simulation with what was found."""
+    `updated`, the simulation with what was found."""
 
     def __init__(self, answer):
-        self.mended = answer.mended
+        self.updated = answer.updated
         self.words = answer.words
         self.report = _json.loads(answer.json)
 

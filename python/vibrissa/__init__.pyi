@@ -56,7 +56,7 @@ class Identification:
     report: dict[str, Any]
 
 class Diagnosis:
-    mended: Model
+    updated: Model
     words: str
     report: dict[str, Any]
     @property

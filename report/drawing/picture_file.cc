@@ -30,7 +30,7 @@ std::string without(std::string line, const std::string& attribute) {
 
 /// Mends what the exporter writes: its clip paths hide whole curves in some viewers, while all that
 /// is drawn is clipped already; and for no outline it asks for one of dashes without length.
-std::string mended(const std::string& line) {
+std::string updated(const std::string& line) {
   const std::string no_outline = " stroke-dasharray=\"0,10\"";
   const std::string unclipped = without(line, " clip-path=");
   if (unclipped.find(no_outline) == std::string::npos) return unclipped;
@@ -110,7 +110,7 @@ void write_svg(vtkRenderWindow& window, const std::filesystem::path& file, const
   if (lines.empty() || lines.back() != "</svg>")
     throw signals::UserError(file.string() + ": cannot be written; is the disk full?");
   signals::write_file(file, [&](std::ostream& out) {
-    for (const std::string& line : lines) out << mended(line) << '\n';
+    for (const std::string& line : lines) out << updated(line) << '\n';
   });
 }
 

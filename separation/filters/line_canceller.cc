@@ -12,7 +12,7 @@ std::size_t checked_delay(const LineCancellerOptions& options) {
   if (options.delay_samples == 0)
     throw signals::UserError(
         "line canceller: delay_samples = 0 must be at least 1; without a delay the moment "
-        "foretells "
+        "predicts "
         "itself and nothing is left");
   return options.delay_samples;
 }

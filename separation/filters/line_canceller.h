@@ -9,13 +9,13 @@ namespace vibrissa::separation {
 
 struct LineCancellerOptions {
   /// Of the moment against itself. Longer than the wind's correlation, so that only lines, which
-  /// correlate for ever, can be foretold.
+  /// correlate for ever, can be predicted.
   std::size_t delay_samples = 50;
   NlmsOptions lms = {.filter_length = 200, .step = 0.02};
 };
 
-/// Removes the lines of a periodic vibration without any accelerometer: foretells the moment from
-/// its own past, delay_samples ago, by normalised LMS, and hands on what could not be foretold
+/// Removes the lines of a periodic vibration without any accelerometer: predicts the moment from
+/// its own past, delay_samples ago, by normalised LMS, and hands on what could not be predicted
 /// (Widrow et al. 1975, the delay-based canceller of Routray et al. 2024, fig. 2a). A line of
 /// amplitude A in white noise of variance s^2 remains with s^2 / (s^2 + A^2 n_taps / 4) of its
 /// amplitude. Steady wind and wind lines look like vibration lines and are removed, too.

@@ -17,7 +17,7 @@ class OutputGuard {
   static constexpr double largest_share = 4.;
 
   void clear() { largest_moment_ = 0.; }
-  /// Takes the moments before the estimate that belongs to them is judged.
+  /// Takes the moments before the estimate that belongs to them is evaluated.
   void hear(const double* moment, std::size_t n) {
     largest_moment_ = std::max(largest_moment_, largest(moment, n));
   }

@@ -232,7 +232,7 @@ Eigen::VectorXd FrequencyProblem::with_best_gains(const std::vector<ModalTerm>& 
   if (direct_term_) columns.rightCols(1) = direct_column();
   const Eigen::VectorXd measured =
       residual(Eigen::VectorXd::Zero(direct_term_ ? 1 : 0));  // of a model without modes
-  // The columns differ by powers of the frequency; equal lengths let the rank be judged.
+  // The columns differ by powers of the frequency; equal lengths let the rank be evaluated.
   const Eigen::VectorXd length = columns.colwise().norm();
   columns.array().rowwise() /= length.transpose().array();
   const Eigen::VectorXd gain = columns.colPivHouseholderQr().solve(measured).cwiseQuotient(length);

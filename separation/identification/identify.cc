@@ -224,7 +224,7 @@ class Identifier {
 };
 
 // A mode that hardly decays within the records is none that they could show: it sits beside a line
-// of the input and foretells that line through the accelerometer's noise. It would ring for ever in
+// of the input and predicts that line through the accelerometer's noise. It would ring for ever in
 // a separator that starts at rest.
 std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
   const auto lasting = std::ranges::find_if(

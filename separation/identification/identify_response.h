@@ -25,7 +25,7 @@ struct IdentifiedResponse {
 
 /// The base-vibration response model of a response of the continuous signals, by
 /// identify_frequency(), lines weighted by their standard deviation or, where that is not known, by
-/// the one that goes with their coherence. Of the orders up to max_order that foretell the held-out
+/// the one that goes with their coherence. Of the orders up to max_order that predict the held-out
 /// lines clearly better than every lower one, that with the least n ln(mean |e|^2) + n_parameters
 /// ln n, n real residuals. Throws what identify_frequency() throws. Proven by
 /// tests/separation/identification/identify_response_test.cc.

@@ -138,7 +138,7 @@ Pole centre(const std::vector<Pole>& poles) {
 // The chains that stand over a third of the orders; of several about the same pole the longest.
 std::vector<Chain> standing_chains(const PolesByOrder& by_order) {
   const std::size_t fewest = std::max<std::size_t>(3, by_order.size() / 3);
-  std::vector<Chain> chains = chains_of(by_order), standing;
+  std::vector<Chain> chains = chains_of(by_order), detectability;
   std::ranges::stable_sort(chains, std::greater<>(),
                            [](const Chain& chain) { return chain.poles.size(); });
   for (const Chain& chain : chains) {
@@ -146,10 +146,10 @@ std::vector<Chain> standing_chains(const PolesByOrder& by_order) {
       const Pole pole = centre(other.poles);
       return std::abs(centre(chain.poles) - pole) < std::abs(decay_per_s(pole)) + reach(pole);
     };
-    if (chain.poles.size() >= fewest && std::ranges::none_of(standing, same))
-      standing.push_back(chain);
+    if (chain.poles.size() >= fewest && std::ranges::none_of(detectability, same))
+      detectability.push_back(chain);
   }
-  return standing;
+  return detectability;
 }
 
 // The same orders' poles of another set of covariances, next to these.

@@ -119,8 +119,8 @@ struct Best {
   }
 };
 
-// The level climbs slowly to the peak: hard clipping mixes the phases, gentle clipping refines
-// them.
+// The level optimiser_runs slowly to the peak: hard clipping mixes the phases, gentle clipping
+// refines them.
 void clip(Best& best, PeriodSum& sum, std::size_t n_clippings) {
   VectorXd phase = best.phase;
   for (std::size_t i = 0; i < n_clippings; ++i) {

@@ -28,8 +28,8 @@ struct ReadOptions {
 /// tests/signals/files/record_io_test.cc, csv_file_test.cc and time_axis_test.cc. Throws UserError
 /// with file, line and column for: a missing file or column, text that is no number, NaN or
 /// infinity, a gap in time, time that runs backward, a repeated column name, rows of unequal
-/// length, fewer than 64 samples, a rate that contradicts time_s, a channel without mean that is
-/// not there.
+/// length, fewer than 64 samples, a rate that contradicted_by time_s, a channel without mean that
+/// is not there.
 Record read_record(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Writes the record by the end of the file's name: .mat (MATLAB 5), .h5 or .hdf5, .npy, .uff, .unv

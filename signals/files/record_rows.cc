@@ -53,7 +53,7 @@ TimeAxis axis_of_column(const RecordTable& file, const std::string& path, const 
   if (!known) return axis;
   if (std::abs(*known - axis.sampling_rate_hz) > 1e-3 * axis.sampling_rate_hz)
     throw UserError(path + ": the rate " + to_text(*known) +
-                    " Hz that was given contradicts column '" + file.columns()[time.column] +
+                    " Hz that was given contradicted_by column '" + file.columns()[time.column] +
                     "', which says " + to_text(axis.sampling_rate_hz) +
                     " Hz; correct it (--rate, or sampling_rate_hz in dataset.json or in the file) "
                     "or the column" +

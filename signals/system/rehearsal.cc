@@ -17,7 +17,7 @@ namespace vibrissa::signals {
 
 namespace {
 
-constexpr int swollen = 71;  // exit status
+constexpr int memory_exceeded = 71;  // exit status
 
 std::size_t enough_mb(const std::size_t n_bytes) {
   return 512 + n_bytes / 10'000;
@@ -32,7 +32,7 @@ long peak_resident_kb() {
 volatile long most_resident_kb = 0;  // of the child
 
 void end_if_swollen(int) {
-  if (peak_resident_kb() > most_resident_kb) _exit(swollen);
+  if (peak_resident_kb() > most_resident_kb) _exit(memory_exceeded);
 }
 
 /// Looks at the memory that is held at every hundredth of a second of work. A limit of the system's
@@ -48,7 +48,7 @@ void bound_memory(const std::size_t n_bytes) {
 }
 
 /// Dies of a crash as if nobody had asked to be told, without a core file or a word.
-void make_mortal(const std::size_t n_bytes) {
+void set_crash_defaults(const std::size_t n_bytes) {
   for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
     std::signal(crash, SIG_DFL);
   const rlimit no_core{0, 0};
@@ -62,8 +62,8 @@ void make_mortal(const std::size_t n_bytes) {
   dup2(nowhere, STDERR_FILENO);
 }
 
-[[noreturn]] void be_the_child(const std::size_t n_bytes, const std::function<void()>& reading) {
-  make_mortal(n_bytes);
+[[noreturn]] void run_in_child(const std::size_t n_bytes, const std::function<void()>& reading) {
+  set_crash_defaults(n_bytes);
   bound_memory(n_bytes);
   try {
     reading();
@@ -79,7 +79,7 @@ void make_mortal(const std::size_t n_bytes) {
 void rehearse(const std::string& file, const std::size_t n_bytes,
               const std::function<void()>& reading) {
   const pid_t child = fork();
-  if (child == 0) be_the_child(n_bytes, reading);
+  if (child == 0) run_in_child(n_bytes, reading);
   if (child < 0) {
     const int reason = errno;
     throw UserError(
@@ -92,7 +92,7 @@ void rehearse(const std::string& file, const std::size_t n_bytes,
   } while (ended < 0 && errno == EINTR);
   // Where somebody else has waited for all children, or ignores them, nothing is known.
   if (ended != child || status == 0) return;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == swollen)
+  if (WIFEXITED(status) && WEXITSTATUS(status) == memory_exceeded)
     throw UserError(file + ": takes more than " + std::to_string(enough_mb(n_bytes)) +
                     " MB of memory to read its " + std::to_string(n_bytes) +
                     " bytes, as damaged files do; write it anew, or give its columns as CSV");

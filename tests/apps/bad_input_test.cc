@@ -135,7 +135,7 @@ TEST_F(BadCase, OptionsAboutARecordingThatIsNotReadAreRefused) {
         "--rows base_acceleration=1:100", "--range wind_speed=0:4", "--remove-mean wind_speed"})
     expect_refusal(vibrissa(simulate + option),
                    AllOf(HasSubstr(option), HasSubstr("--base-acceleration FILE")));
-  expect_refusal(vibrissa(simulate + "--periodic"), HasSubstr("mended model"));
+  expect_refusal(vibrissa(simulate + "--periodic"), HasSubstr("updated model"));
   EXPECT_EQ(folder.n_entries(), 0u);
 }
 

@@ -142,7 +142,7 @@ TEST(DiagnoseCommand, LeavesAModelThatTheOtherCommandsTake) {
                      "' --real '" + real + "' -o '" + folder.file("out") + "'")
                 .status,
             0);
-  const std::string model = folder.file("out/mended_model.json");
+  const std::string model = folder.file("out/updated_model.json");
   const auto dataset = nlohmann::json::parse(content(real + "/dataset.json"));
   std::string held_out;
   for (const auto& record : dataset["records"])
@@ -153,7 +153,7 @@ TEST(DiagnoseCommand, LeavesAModelThatTheOtherCommandsTake) {
   const auto separated =
       vibrissa("separate --json --model '" + model + "' '" + folder.file("simulated.csv") + "'");
   ASSERT_EQ(separated.status, 0) << separated.errors;
-  EXPECT_THAT(separated.output, HasSubstr("mended_model"));
+  EXPECT_THAT(separated.output, HasSubstr("updated_model"));
   const auto again =
       vibrissa("diagnose --json --max-effects 1 --model '" + model + "' --real '" + real + "'");
   ASSERT_EQ(again.status, 0) << again.errors;
@@ -217,17 +217,18 @@ TEST(DiagnoseCommand, TellsASofterSiliconeFromALighterFin) {
   EXPECT_NEAR(light["ranking"][0]["in_the_models_parameters"][0]["value"], 1050. / 1230., 0.03);
 }
 
-TEST(SimulateCommand, AsksForTheInputsOfAMendedModel) {
+TEST(SimulateCommand, AsksForTheInputsOfAUpdatedModel) {
   const Folder folder;
-  std::ofstream(folder.file("mended.json")) << R"({"schema": "vibrissa-mended-model-1"})";
-  const auto result = vibrissa("simulate '" + folder.file("mended.json") + "'");
+  std::ofstream(folder.file("updated.json")) << R"({"schema": "vibrissa-updated-model-1"})";
+  const auto result = vibrissa("simulate '" + folder.file("updated.json") + "'");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.errors, HasSubstr("--inputs"));
 }
 
-TEST(SimulateCommand, ChangesNoMendedModelByTheOptionsOfACaseFile) {
+TEST(SimulateCommand, ChangesNoUpdatedModelByTheOptionsOfACaseFile) {
   const Folder folder;
-  const std::string model = folder.write("mended.json", R"({"schema": "vibrissa-mended-model-1"})");
+  const std::string model =
+      folder.write("updated.json", R"({"schema": "vibrissa-updated-model-1"})");
   for (const std::string option : {"--duration 1", "--set Wind/Kind=steady", "--model m.json"}) {
     const auto result =
         vibrissa("simulate '" + model + "' --inputs '" + folder.file("in.csv") + "' " + option);

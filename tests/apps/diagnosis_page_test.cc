@@ -40,7 +40,7 @@ diagnosis::Diagnosis example() {
   d.trace = {.record = hostile};
   for (int i = 0; i < 4000; ++i) {
     d.trace.time_s.push_back(i / 1000.);
-    for (auto* list : {&d.trace.measured, &d.trace.nominal, &d.trace.mended})
+    for (auto* list : {&d.trace.measured, &d.trace.nominal, &d.trace.updated})
       list->push_back(1e-6 * std::sin(0.1 * i));
   }
   return d;
@@ -108,10 +108,10 @@ TEST(DiagnosisPage, HoldsADiagnosisOfSixtySecondsInSixMegabytes) {
   d.trace = {.record = "long"};
   for (int i = 0; i < 60000; ++i) {
     d.trace.time_s.push_back(i / 1000.);
-    for (auto* list : {&d.trace.measured, &d.trace.nominal, &d.trace.mended})
+    for (auto* list : {&d.trace.measured, &d.trace.nominal, &d.trace.updated})
       list->push_back(1e-6 *
                       std::sin(0.1 * i * static_cast<double>(list == &d.trace.nominal ? 2 : 1) +
-                               (list == &d.trace.mended ? 0.3 : 0.)));
+                               (list == &d.trace.updated ? 0.3 : 0.)));
   }
   const Folder folder;
   EXPECT_LT(report::to_html(views::diagnosis_page(d), folder.file("")).size(), 6000000u);

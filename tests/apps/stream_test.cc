@@ -63,12 +63,12 @@ TEST(Stream, RefusesFilesAndModelsThatAreWhole) {
       vibrissa("separate " + record + " --stream -o " + quoted(folder.file("s.mat")));
   EXPECT_EQ(mat.status, 2);
   EXPECT_THAT(mat.errors, HasSubstr("--stream writes CSV"));
-  const std::string mended = quoted(
-      folder.write("mended.json", R"({"schema": "vibrissa-mended-model-1", "effects": []})"));
-  const ProgramResult model = vibrissa("separate " + record + " --stream --model " + mended +
+  const std::string updated = quoted(
+      folder.write("updated.json", R"({"schema": "vibrissa-updated-model-1", "effects": []})"));
+  const ProgramResult model = vibrissa("separate " + record + " --stream --model " + updated +
                                        " -o " + quoted(folder.file("s.csv")));
   EXPECT_EQ(model.status, 2);
-  EXPECT_THAT(model.errors, HasSubstr("a mended model is simulated whole"));
+  EXPECT_THAT(model.errors, HasSubstr("an updated model is simulated whole"));
   EXPECT_EQ(folder.n_entries(), 2u);
 }
 

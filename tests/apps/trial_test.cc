@@ -103,7 +103,7 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
   add("single", delay, answer("sensor_lowpass", 0.9));
   add("single", small, answer("none", 0.7));
   add("none", json::array(), answer("none", 0.9));
-  add("retune_only", json::array(), answer("damping", 0.9));
+  add("calibration_only", json::array(), answer("damping", 0.9));
   add("nameless", {{{"id", "x"}, {"size", 1.}, {"limit", 0.1}}}, answer("hum", 0.95));
   const trial::TrialScore score = trial::score_trial(trial_, labels_);
   const auto share = [&](const std::string& name) {
@@ -119,7 +119,7 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
   // Behind one of the two wrong names stood no known effect.
   EXPECT_EQ(score.unknown.at("single").hits, 1u);
   EXPECT_EQ(score.unknown.at("single").of, 2u);
-  EXPECT_EQ(share("retune_only, false alarm"), Pair(0, 1));
+  EXPECT_EQ(share("calibration_only, false alarm"), Pair(0, 1));
   EXPECT_EQ(share("nameless, wrong name above 0.8"), Pair(1, 1));
   EXPECT_EQ(share("wrong name above 0.8"), Pair(1, 5));
   // The one delay that was found: 0.1 ms off, said to be known to 0.1 ms.
@@ -153,20 +153,21 @@ TEST_F(WrittenTrial, CountsWhatFurtherExperimentsResolve) {
   };
   json undecided = answer("sensor_lowpass", 0.6);
   // That no effect is known can never be ruled out.
-  undecided["recommended"] = after("delay", {"delay", "outside_catalogue"});
+  undecided["recomupdated"] = after("delay", {"delay", "outside_catalogue"});
   undecided["by_chance"] = after("delay", {"delay", "sensor_lowpass"});
   add("single", delay, undecided);
-  undecided["recommended"] = after("sensor_lowpass", {"sensor_lowpass"});
+  undecided["recomupdated"] = after("sensor_lowpass", {"sensor_lowpass"});
   undecided.erase("by_chance");
   add("single", delay, undecided);
   // An experiment that came to no answer resolved nothing.
-  undecided["recommended"] = {{"experiment", "wide_band"}, {"message", "no such file"}};
+  undecided["recomupdated"] = {{"experiment", "wide_band"}, {"message", "no such file"}};
   add("single", delay, undecided);
   const trial::TrialScore score = trial::score_trial(trial_, labels_);
-  const trial::Share recommended =
-                         score.shares.at("undecided, the recommended experiment resolves"),
+  const trial::Share recomupdated =
+                         score.shares.at("undecided, the recomupdated experiment resolves"),
                      by_chance = score.shares.at("undecided, another one resolves");
-  EXPECT_EQ(std::pair(recommended.hits, recommended.of), std::pair(std::size_t{1}, std::size_t{3}));
+  EXPECT_EQ(std::pair(recomupdated.hits, recomupdated.of),
+            std::pair(std::size_t{1}, std::size_t{3}));
   EXPECT_EQ(std::pair(by_chance.hits, by_chance.of), std::pair(std::size_t{0}, std::size_t{1}));
 }
 
@@ -195,13 +196,13 @@ TEST_F(WrittenTrial, CountsTheGapThatStandsOutOfTheNoiseOfItsOwnRecords) {
   json& held_out = closed["diagnosis"]["ranking"][0]["held_out"];
   // Of 0.24 above the floor 0.06 is left.
   held_out = {
-      {"not_foretold", json::array()},
+      {"not_predictable", json::array()},
       {"records", {record("held_out", 0.5, std::sqrt(0.07)), record("other_level", 0.11, 0.12)}}};
   add("single", delay, closed);
   held_out["records"] = {record("held_out", 0.11, 0.2), record("other_level", 0.5, 0.1)};
   add("single", delay, closed);
   json nameless = answer("outside_catalogue", 0.9);
-  nameless["diagnosis"]["ranking"][0]["held_out"] = {{"not_foretold", json::array()},
+  nameless["diagnosis"]["ranking"][0]["held_out"] = {{"not_predictable", json::array()},
                                                      {"records", {record("held_out", 0.5, 0.8)}}};
   add("nameless", {{{"id", "x"}, {"size", 1.}, {"limit", 0.1}}}, nameless);
   const trial::TrialScore score = trial::score_trial(trial_, labels_);

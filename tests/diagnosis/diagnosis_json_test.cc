@@ -152,11 +152,11 @@ TEST(VerdictText, TellsWhatComesNearest) {
             "delay+stiffness");
   EXPECT_THAT(verdict_text(diagnosis),
               HasSubstr("Nearest: delay+stiffness closes 98 % of the gap, but leaves more than"));
-  diagnosis.nearest_known->left_over = LeftOver{"other_level", 1.5, 30.};
+  diagnosis.nearest_known->residual_excess = ResidualExcess{"other_level", 1.5, 30.};
   EXPECT_THAT(verdict_text(diagnosis), HasSubstr("but leaves 2.5 times"));
-  EXPECT_EQ(
-      nlohmann::json::parse(diagnosis_json(diagnosis))["nearest_known"]["left_over"]["record"],
-      "other_level");
+  EXPECT_EQ(nlohmann::json::parse(
+                diagnosis_json(diagnosis))["nearest_known"]["residual_excess"]["record"],
+            "other_level");
 }
 
 TEST(DiagnosisJson, ProbabilitiesSumToOne) {

@@ -16,14 +16,14 @@ NominalModel solid() {
   return nominal;
 }
 
-/// A fit with nothing but this effect, its figures at these coordinates, each with a deviation of
-/// 0.01 and without correlation.
+/// A fit with nothing but this effect, its parameters at these coordinates, each with a deviation
+/// of 0.01 and without correlation.
 HypothesisFit fit_of(const std::string& id, const std::vector<double>& x) {
   HypothesisFit fit;
   const Effect& effect = find_effect(id);
   fit.x.resize(static_cast<Eigen::Index>(x.size()));
   for (std::size_t i = 0; i < x.size(); ++i) {
-    fit.figures.push_back({&effect, i, effect.parameters[i], false});
+    fit.fit_parameters.push_back({&effect, i, effect.parameters[i], false});
     fit.x(static_cast<Eigen::Index>(i)) = x[i];
   }
   fit.covariance = 1e-4 * Eigen::MatrixXd::Identity(fit.x.size(), fit.x.size());

@@ -113,7 +113,7 @@ class Module(unittest.TestCase):
                        "--max-effects", "1", "--json")
         self.assertEqual(found.report, json.loads(said))
         self.assertIn(found.verdict, str(found.report["ranking"][0]["effect"]))
-        np.testing.assert_array_equal(found.mended.simulate(record).shape, (len(record),))
+        np.testing.assert_array_equal(found.updated.simulate(record).shape, (len(record),))
 
     def test_takes_simulated_records_for_the_simulation(self):
         simulated = vibrissa.read_dataset(self.path / "r.csv")

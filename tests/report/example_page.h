@@ -17,7 +17,7 @@ inline constexpr const char* hostile_name =
 /// A response with its band, a cloud of points, gaps and both axes logarithmic.
 inline Figure example_response() {
   Curve band{.label = "measured, \u00b1 2 deviations", .style = CurveStyle::band};
-  Curve before{.label = "simulation"}, after{.label = "mended", .style = CurveStyle::dashed};
+  Curve before{.label = "simulation"}, after{.label = "updated", .style = CurveStyle::dashed};
   Curve points{.label = "other record", .style = CurveStyle::points};
   for (int i = 0; i < 200; ++i) {
     const double f = 1. * std::pow(200., i / 199.), r = f / 37.;

@@ -33,8 +33,8 @@ std::vector<double> sizes_of(const Unknown& unknown, const double limit) {
 
 }  // namespace
 
-std::vector<EffectLadder> climb_ladders(const UnexplainedChange& change,
-                                        const std::function<void()>& on_unknown) {
+std::vector<EffectLadder> optimise_ladders(const UnexplainedChange& change,
+                                           const std::function<void()>& on_unknown) {
   World quietest = change.plain();
   quietest.moment_noise = quietest_moment;
   quietest.acceleration_noise = quietest_accelerometer;

@@ -17,7 +17,7 @@ struct EffectLadder {
 };
 
 /// All named unknowns, some in several shapes. on_unknown: called after each.
-std::vector<EffectLadder> climb_ladders(const UnexplainedChange& change,
-                                        const std::function<void()>& on_unknown);
+std::vector<EffectLadder> optimise_ladders(const UnexplainedChange& change,
+                                           const std::function<void()>& on_unknown);
 
 }  // namespace vibrissa::trial

@@ -14,10 +14,10 @@ namespace {
 
 using enum CaseClass;
 /// Twenty turns; single effects are what most people come with.
-constexpr std::array turns{single,   pair,     none,           single,   nameless,
-                           single,   left_out, single,         pair,     single,
-                           triple,   single,   retune_only,    single,   none,
-                           left_out, single,   wrong_metadata, nameless, below_limit};
+constexpr std::array turns{single,           pair,       none, single,   nameless, single,
+                           left_out,         single,     pair, single,   triple,   single,
+                           calibration_only, single,     none, left_out, single,   wrong_metadata,
+                           nameless,         below_limit};
 
 /// Something else in the catalogue does the very same, or every hypothesis has it free: without its
 /// name it is not outside.
@@ -116,8 +116,8 @@ std::string to_string(const CaseClass kind) {
       return "triple";
     case none:
       return "none";
-    case retune_only:
-      return "retune_only";
+    case calibration_only:
+      return "calibration_only";
     case nameless:
       return "nameless";
     case left_out:
@@ -139,7 +139,7 @@ TrialCase draw_case(const std::uint64_t seed, const std::size_t number, const Ph
   out.session = {.takes = takes_of(physics), .seed = out.seed};
   out.world = plain_world(random);
   add_effects(out, number, random);
-  if (out.kind == retune_only) take_as_built(out.world, random);
+  if (out.kind == calibration_only) take_as_built(out.world, random);
   return out;
 }
 

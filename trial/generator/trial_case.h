@@ -16,11 +16,11 @@ enum class CaseClass {
   pair,
   triple,
   none,
-  retune_only,    // a little off in modulus, damping, gains and drag, as every built sensor
-  nameless,       // something that no catalogue has
-  left_out,       // one effect that the diagnoser's catalogue is told to lack
-  below_limit,    // a quarter of the detection limit
-  wrong_metadata  // a take that says wind was on, or another period
+  calibration_only,  // a little off in modulus, damping, gains and drag, as every built sensor
+  nameless,          // something that no catalogue has
+  left_out,          // one effect that the diagnoser's catalogue is told to lack
+  below_limit,       // a quarter of the detection limit
+  wrong_metadata     // a take that says wind was on, or another period
 };
 std::string to_string(CaseClass kind);
 

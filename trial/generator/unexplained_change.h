@@ -11,7 +11,7 @@ namespace vibrissa::trial {
 /// Solved structures are kept: few worlds differ in their solid.
 const Structure& structure_of(const SolidChange& change);
 
-/// What a world adds to the moment of the plain one beyond what the measured base motion foretells,
+/// What a world adds to the moment of the plain one beyond what the measured base motion predicts,
 /// on the lines of the fit takes: take after take, bins 1 .. n/2 - 1 each. Free of noise; the plain
 /// sensor is measured once. Proven by tests/trial/generator/detection_limit_test.cc.
 class UnexplainedChange {

@@ -133,42 +133,43 @@ std::vector<Unknown> of_the_wind() {
 }
 
 std::vector<Unknown> of_the_reference() {
-  return {
-      {.id = "reference_gain",
-       .unit = "of the gain",
-       .start = 0.01,
-       .largest = 0.2,
-       .either_sign = true,
-       .apply = [](World& w, double s, double) { w.reference_gain *= 1. + s; }},
-      {.id = "reference_noise",
-       .unit = "m/s^2",
-       .start = 0.05,
-       .largest = 1.,
-       .random = true,
-       .apply = [](World& w, double s, double) { w.reference_noise = s; },
-       // A quiet accelerometer that was made noisier, up to the loudest that is usual.
-       .hidden_below =
-           [](const World& plain) {
-             const double loudest = loudest_accelerometer, usual = plain.acceleration_noise;
-             return std::sqrt(std::max(0., loudest * loudest - usual * usual));
-           }},
-      {.id = "reference_highpass",
-       .unit = "Hz",
-       .start = 0.2,
-       .largest = 5.,
-       .apply = [](World& w, double s, double) { w.reference_highpass_hz = s; }},
-      {.id = "cross_axis",
-       .unit = "of the axial gain",
-       .start = 0.05,
-       .largest = 0.3,
-       .either_sign = true,
-       .apply = [](World& w, double s, double) { w.cross_axis = s; }},
-      {.id = "sample_repeat",
-       .unit = "there",
-       .start = 1.,
-       .largest = 1.,
-       .fixed_size = true,
-       .apply = [](World& w, double, double shape) { w.polled_hz = shape < 0.5 ? 400. : 800.; }}};
+  return {{.id = "reference_gain",
+           .unit = "of the gain",
+           .start = 0.01,
+           .largest = 0.2,
+           .either_sign = true,
+           .apply = [](World& w, double s, double) { w.reference_gain *= 1. + s; }},
+          {.id = "reference_noise",
+           .unit = "m/s^2",
+           .start = 0.05,
+           .largest = 1.,
+           .random = true,
+           .apply = [](World& w, double s, double) { w.reference_noise = s; },
+           // A quiet accelerometer that was made noisier, up to the loudest that is usual.
+           .hidden_below =
+               [](const World& plain) {
+                 const double loudest = loudest_accelerometer, usual = plain.acceleration_noise;
+                 return std::sqrt(std::max(0., loudest * loudest - usual * usual));
+               }},
+          {.id = "reference_highpass",
+           .unit = "Hz",
+           .start = 0.2,
+           .largest = 5.,
+           .apply = [](World& w, double s, double) { w.reference_highpass_hz = s; }},
+          {.id = "cross_axis",
+           .unit = "of the axial gain",
+           .start = 0.05,
+           .largest = 0.3,
+           .either_sign = true,
+           .apply = [](World& w, double s, double) { w.cross_axis = s; }},
+          {.id = "sample_repeat",
+           .unit = "there",
+           .start = 1.,
+           .largest = 1.,
+           .fixed_size = true,
+           .apply = [](World& w, double, double shape) {
+             w.read_rate_hz = shape < 0.5 ? 400. : 800.;
+           }}};
 }
 
 std::vector<Unknown> of_the_sensor() {

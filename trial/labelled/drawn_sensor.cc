@@ -19,7 +19,7 @@ namespace channel = signals::channel;
 
 DrawnSensor::DrawnSensor(const diagnosis::Experiment& experiment, unsigned seed) : random_(seed) {
   model_.nominal = experiment.nominal;
-  draw_retunes(experiment);
+  draw_calibrations(experiment);
   draw_effects(experiment);
 }
 
@@ -47,16 +47,16 @@ bool DrawnSensor::is_answered_by(const std::string& answer,
   const auto holds = [](const std::vector<std::string>& list, const std::string& id) {
     return std::ranges::find(list, id) != list.end();
   };
-  const std::vector<std::string>& retunes = diagnosis::nuisance_ids();
+  const std::vector<std::string>& calibrations = diagnosis::nuisance_ids();
   return std::ranges::all_of(expected, [&](const auto& id) { return holds(told, id); }) &&
          std::ranges::all_of(told, [&](const auto& id) {
-           return holds(expected, id) || (as_built_ && holds(retunes, id));
+           return holds(expected, id) || (as_built_ && holds(calibrations, id));
          });
 }
 
 /// Half of all sensors are as simulated but for what is named, the others a little off in all
-/// retunes.
-void DrawnSensor::draw_retunes(const diagnosis::Experiment& experiment) {
+/// calibrations.
+void DrawnSensor::draw_calibrations(const diagnosis::Experiment& experiment) {
   as_built_ = uniform(0., 1.) >= 0.5;
   if (!as_built_) return;
   for (const std::string& id : diagnosis::nuisance_ids()) {
@@ -69,8 +69,8 @@ void DrawnSensor::draw_retunes(const diagnosis::Experiment& experiment) {
   }
 }
 
-/// What is named of a retune may lie anywhere in its range.
-std::vector<double> DrawnSensor::retuned(const diagnosis::Effect& effect) {
+/// What is named of a calibration may lie anywhere in its range.
+std::vector<double> DrawnSensor::recalibrated(const diagnosis::Effect& effect) {
   std::vector<double> values;
   for (const diagnosis::Parameter& parameter : effect.parameters)
     values.push_back(values.empty()
@@ -99,8 +99,8 @@ void DrawnSensor::draw_effects(const diagnosis::Experiment& experiment) {
   for (const diagnosis::Effect* effect : effects) {
     ids.push_back(effect->id);
     std::erase_if(model_.effects, [&](const auto& known) { return known.id == effect->id; });
-    if (effect->retune) {
-      model_.effects.push_back({effect->id, retuned(*effect), experiment.scales});
+    if (effect->calibration) {
+      model_.effects.push_back({effect->id, recalibrated(*effect), experiment.scales});
       continue;
     }
     const auto& starts = effect->starts;

@@ -13,8 +13,8 @@
 namespace vibrissa::benchmarks {
 
 /// A sensor drawn by the priors of the nominal model's own catalogue: half of all are as simulated
-/// but for what is named, the others a little off in all retunes; a quarter have no effect, half
-/// have one, a quarter two, from a tenth of their first start up to it.
+/// but for what is named, the others a little off in all calibrations; a quarter have no effect,
+/// half have one, a quarter two, from a tenth of their first start up to it.
 class DrawnSensor {
  public:
   DrawnSensor(const diagnosis::Experiment& experiment, unsigned seed);
@@ -23,7 +23,7 @@ class DrawnSensor {
   /// Of its effects those that such records can show: a likelihood-ratio test that knows the form
   /// and size finds them more often than not at one false alarm in a hundred.
   std::string shown_name(const diagnosis::NominalPoint& point) const;
-  /// Does the answer name what is shown, and beyond it at most retunes that are a little off?
+  /// Does the answer name what is shown, and beyond it at most calibrations that are a little off?
   bool is_answered_by(const std::string& answer, const diagnosis::NominalPoint& point) const;
   double share() const { return share_; }
   /// Of an effect that it has.
@@ -33,9 +33,9 @@ class DrawnSensor {
                            const std::vector<diagnosis::PreparedRecord>& clean);
 
  private:
-  void draw_retunes(const diagnosis::Experiment& experiment);
+  void draw_calibrations(const diagnosis::Experiment& experiment);
   void draw_effects(const diagnosis::Experiment& experiment);
-  std::vector<double> retuned(const diagnosis::Effect& effect);
+  std::vector<double> recalibrated(const diagnosis::Effect& effect);
   double drawn(const diagnosis::Parameter& parameter);
   void add_own_noise(const diagnosis::Chain& chain, const signals::DatasetRecord& entry,
                      std::vector<double>& moment);
@@ -45,9 +45,9 @@ class DrawnSensor {
   }
 
   std::mt19937 random_;
-  diagnosis::MendedModel model_;
+  diagnosis::UpdatedModel model_;
   std::string name_;
-  bool as_built_ = false;  // a little off in all retunes
+  bool as_built_ = false;  // a little off in all calibrations
   double share_ = 0.;      // of the effects' first starts
 };
 

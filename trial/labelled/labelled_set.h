@@ -24,12 +24,13 @@ inline std::string sorted_name(const std::string& name) {
   return diagnosis::joined_name(diagnosis::effect_ids(name));
 }
 
-/// The name without retune effects, as sensors that are a little off everywhere are scored.
-inline std::string without_retunes(const std::string& name) {
-  const std::vector<std::string>& retunes = diagnosis::nuisance_ids();
+/// The name without calibration effects, as sensors that are a little off everywhere are scored.
+inline std::string without_calibrations(const std::string& name) {
+  const std::vector<std::string>& calibrations = diagnosis::nuisance_ids();
   std::vector<std::string> ids;
   for (const std::string& id : diagnosis::effect_ids(name))
-    if (std::find(retunes.begin(), retunes.end(), id) == retunes.end()) ids.push_back(id);
+    if (std::find(calibrations.begin(), calibrations.end(), id) == calibrations.end())
+      ids.push_back(id);
   return diagnosis::joined_name(ids);
 }
 

@@ -131,13 +131,13 @@ std::size_t n_bins(const Experiment& experiment) {
 /// The hypothesis of the least BIC.
 std::string by_bic(const Experiment& experiment, const HypothesisFit& none,
                    const std::vector<std::vector<std::string>>& hypotheses) {
-  double least = bic(none.log_likelihood, none.figures.size(), n_bins(experiment));
+  double least = bic(none.log_likelihood, none.fit_parameters.size(), n_bins(experiment));
   std::string name = "none";
   for (const std::vector<std::string>& ids : hypotheses) {
     std::vector<const Effect*> effects;
     for (const std::string& id : ids) effects.push_back(&find_effect(id));
     const HypothesisFit fit = fit_hypothesis(experiment, Hypothesis(effects));
-    const double score = bic(fit.log_likelihood, fit.figures.size(), n_bins(experiment));
+    const double score = bic(fit.log_likelihood, fit.fit_parameters.size(), n_bins(experiment));
     if (!(score < least)) continue;
     least = score;
     name = joined_name(ids);
@@ -186,15 +186,15 @@ int run(int argc, char** argv) {
     std::printf("%s %-30s", name.c_str(), label.c_str());
     for (std::size_t i = 0; i < names.size(); ++i) {
       right[i] += given[i] == label;
-      nearly[i] += without_retunes(given[i]) == without_retunes(label);
+      nearly[i] += without_calibrations(given[i]) == without_calibrations(label);
       std::printf(" | %s", given[i].c_str());
     }
     std::printf("\n");
     std::fflush(stdout);
   }
   for (std::size_t i = 0; i < names.size(); ++i)
-    std::printf("%-12s %d of %d right, %d when retunes are left out\n", names[i].c_str(), right[i],
-                n, nearly[i]);
+    std::printf("%-12s %d of %d right, %d when calibrations are left out\n", names[i].c_str(),
+                right[i], n, nearly[i]);
   return 0;
 }
 

@@ -166,9 +166,9 @@ void count_parameters(Coverage& coverage, const DrawnSensor& sensor,
                       const std::vector<diagnosis::ParameterEstimate>& estimates) {
   for (const diagnosis::ParameterEstimate& estimate : estimates) {
     const auto& described = diagnosis::find_effect(estimate.effect).parameters;
-    const auto place = std::ranges::find(described, estimate.name, &diagnosis::Parameter::name) -
+    const auto index = std::ranges::find(described, estimate.name, &diagnosis::Parameter::name) -
                        described.begin();
-    const double truth = sensor.values(estimate.effect)[static_cast<std::size_t>(place)];
+    const double truth = sensor.values(estimate.effect)[static_cast<std::size_t>(index)];
     const bool held = holds(estimate.ci95, truth);
     coverage.parameters.count(held);
     coverage.by_parameter[estimate.effect + " " + estimate.name].count(held);

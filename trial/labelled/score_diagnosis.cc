@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using namespace vibrissa;
 using namespace vibrissa::benchmarks;
 
-/// Figures of labels.json that are the same quantity as a parameter of ours.
+/// Parameters of labels.json that are the same quantity as a parameter of ours.
 struct SameQuantity {
   const char* label;
   const char* effect;
@@ -39,7 +39,7 @@ constexpr SameQuantity same_quantities[] = {
 };
 
 struct Score {
-  int n = 0, right = 0, right_without_retunes = 0, half = 0, wrong_and_sure = 0;
+  int n = 0, right = 0, right_without_calibrations = 0, half = 0, wrong_and_sure = 0;
   int nones = 0, nones_right = 0, links_right = 0, parameters = 0, parameters_covered = 0;
   std::vector<double> gaps_closed, seconds;
 };
@@ -100,11 +100,11 @@ void score_case(const fs::path& set, const std::string& name,
   const nlohmann::json entry = label_of(set, name);
   const std::string label = entry["effect"];
   const bool right = answer.verdict == sorted_name(label);
-  const bool nearly = without_retunes(answer.verdict) == without_retunes(label);
+  const bool nearly = without_calibrations(answer.verdict) == without_calibrations(label);
   const diagnosis::RankedAnswer& best = answer.ranking.front();
   score.n += 1;
   score.right += right;
-  score.right_without_retunes += nearly;
+  score.right_without_calibrations += nearly;
   score.half += !right && !nearly && shares_an_effect(label, answer.verdict);
   score.wrong_and_sure += !right && !nearly && best.probability > 0.8;
   score.nones += label == "none";
@@ -124,10 +124,10 @@ void score_case(const fs::path& set, const std::string& name,
 
 void print(const Score& score) {
   std::printf(
-      "%d cases: %d right, %d when retunes are left out, %d more with one of a pair named; "
+      "%d cases: %d right, %d when calibrations are left out, %d more with one of a pair named; "
       "none %d of %d; %d wrong with more than 0.8; links right %d\n",
-      score.n, score.right, score.right_without_retunes, score.half, score.nones_right, score.nones,
-      score.wrong_and_sure, score.links_right);
+      score.n, score.right, score.right_without_calibrations, score.half, score.nones_right,
+      score.nones, score.wrong_and_sure, score.links_right);
   const auto least = std::min_element(score.gaps_closed.begin(), score.gaps_closed.end());
   std::printf(
       "gap closed, reducible and named: median %.3f, least %.3f; parameters within their "

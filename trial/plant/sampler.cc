@@ -41,8 +41,8 @@ std::vector<double> acceleration_times(const World& world, const double rate_hz,
   const double phase = std::uniform_real_distribution<double>()(random);
   for (std::size_t k = 0; k < n; ++k) {
     const double t = static_cast<double>(k) / rate_hz;
-    out[k] = world.polled_hz > 0.
-                 ? (std::floor(t * world.polled_hz + phase) - phase) / world.polled_hz
+    out[k] = world.read_rate_hz > 0.
+                 ? (std::floor(t * world.read_rate_hz + phase) - phase) / world.read_rate_hz
                  : t;
   }
   return out;

@@ -10,11 +10,11 @@
 namespace vibrissa::trial {
 namespace {
 
-struct RigidFigures {
+struct RigidProperties {
   double mass, first_moment, inertia;
 };
 
-RigidFigures rigid_figures(const fem::Sensor& sensor) {
+RigidProperties rigid_properties(const fem::Sensor& sensor) {
   const fem::SolidSpace& space = sensor.space();
   fem::Vector momentum = space.make_vector();
   sensor.operators().mass->vmult(momentum, space.translation(0));
@@ -29,7 +29,7 @@ Structure reduced(const fem::Sensor& sensor) {
   shapes.push_back(&sensor.space().translation(0));
   shapes.push_back(&sensor.space().rotation(1));
   const std::vector<double> wind = sensor.wind_surface().coefficients({2.}, shapes).front();
-  const RigidFigures rigid = rigid_figures(sensor);
+  const RigidProperties rigid = rigid_properties(sensor);
   std::vector<std::size_t> planar;
   for (std::size_t k = 0; k < sensor.modes().size(); ++k) {
     const fem::Mode& mode = sensor.modes()[k];

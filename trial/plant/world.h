@@ -60,7 +60,7 @@ struct World {
   double hum = 0., hum_hz = 50.03;
 
   double delay_s = 0., conversion_s = 0., rate_error = 0.;
-  double polled_hz = 0.;  // of the accelerometer's own conversions; 0: sampled when asked
+  double read_rate_hz = 0.;  // of the accelerometer's own conversions; 0: sampled when asked
 
   double loose_gain = 0.;   // what the gain loses at a contact that opens and closes
   double wind_pickup = 0.;  // N m per m/s

@@ -34,19 +34,19 @@ json answer_after(const std::string& experiment, const fs::path& folder, signals
           {"confidence_set", said.confidence_set}};
 }
 
-/// Another one than the recommended; the same for the same name, on all machines.
-std::string by_chance(std::vector<std::string> experiments, const std::string& recommended,
+/// Another one than the recomupdated; the same for the same name, on all machines.
+std::string by_chance(std::vector<std::string> experiments, const std::string& recomupdated,
                       const std::string& name) {
-  std::erase(experiments, recommended);
+  std::erase(experiments, recomupdated);
   std::seed_seq seed(name.begin(), name.end());
   std::mt19937 random(seed);
   return experiments.empty() ? "" : experiments[random() % experiments.size()];
 }
 
-/// After the recommended experiment and after another one.
+/// After the recomupdated experiment and after another one.
 json answers_after(const TrialIndex& trial, const TrialEntry& entry, const signals::Dataset& real,
                    const diagnosis::NominalModel& nominal,
-                   const diagnosis::DiagnoseOptions& settings, const std::string& recommended) {
+                   const diagnosis::DiagnoseOptions& settings, const std::string& recomupdated) {
   const auto after = [&](const std::string& experiment) -> json {
     try {
       return answer_after(experiment, trial.folder / entry.name, real, nominal, settings);
@@ -54,8 +54,8 @@ json answers_after(const TrialIndex& trial, const TrialEntry& entry, const signa
       return {{"experiment", experiment}, {"message", error.what()}};
     }
   };
-  json out{{"recommended", after(recommended)}};
-  const std::string other = by_chance(trial.further_experiments, recommended, entry.name);
+  json out{{"recomupdated", after(recomupdated)}};
+  const std::string other = by_chance(trial.further_experiments, recomupdated, entry.name);
   if (!other.empty()) out["by_chance"] = after(other);
   return out;
 }

@@ -27,17 +27,18 @@ std::string truth_of(const std::string& kind, const json& effects) {
   return ids.empty() ? "none" : joined_name(ids);
 }
 
-std::string without_retunes(const std::string& name) {
+std::string without_calibrations(const std::string& name) {
   std::vector<std::string> ids;
   for (const std::string& id : effect_ids(name)) {
-    const auto& retunes = diagnosis::nuisance_ids();
-    if (std::find(retunes.begin(), retunes.end(), id) == retunes.end()) ids.push_back(id);
+    const auto& calibrations = diagnosis::nuisance_ids();
+    if (std::find(calibrations.begin(), calibrations.end(), id) == calibrations.end())
+      ids.push_back(id);
   }
   return joined_name(ids);
 }
 
 bool is_right(const std::string& kind, const std::string& truth, const std::string& verdict) {
-  return (kind == "retune_only" ? without_retunes(verdict) : verdict) == truth;
+  return (kind == "calibration_only" ? without_calibrations(verdict) : verdict) == truth;
 }
 
 bool within_a_set(const json& sets, const std::string& truth, const std::string& verdict) {
@@ -138,7 +139,7 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
   const json& held_out = ranking[0].at("held_out");
   // Noise of its own no answer closes, and without a name nothing is added to the model.
   if (out.right && out.verdict != diagnosis::outside_catalogue && !held_out.is_null() &&
-      held_out.at("not_foretold").empty()) {
+      held_out.at("not_predictable").empty()) {
     out.gap_closed = gap_closed(held_out, false);
     out.transfer_gap_closed = gap_closed(held_out, true);
   }
@@ -172,7 +173,7 @@ ScoredCase scored(const std::string& name, const json& label, const json& answer
   }
   out.seconds = answer.at("seconds");
   read_answer(out, answer.at("diagnosis"), effects);
-  out.resolved_as_recommended = resolved(out, answer, "recommended");
+  out.resolved_as_recomupdated = resolved(out, answer, "recomupdated");
   out.resolved_by_chance = resolved(out, answer, "by_chance");
   if (out.kind == "wrong_metadata")
     out.right = !answer.at("diagnosis").at("findings").empty() && out.verdict == "none";
@@ -184,7 +185,7 @@ constexpr double sure = 0.8;
 
 void count(TrialScore& out, const ScoredCase& c) {
   const bool named = c.kind == "single" || c.kind == "pair" || c.kind == "triple";
-  const bool in_catalogue = named || c.kind == "none" || c.kind == "retune_only";
+  const bool in_catalogue = named || c.kind == "none" || c.kind == "calibration_only";
   const bool outside = c.kind == "nameless" || c.kind == "left_out";
   if (c.kind == "single" && c.size_in_limits >= well_above) {
     out.shares["single at 3 limits, right"].add(c.right);
@@ -195,8 +196,8 @@ void count(TrialScore& out, const ScoredCase& c) {
   if (c.kind == "single") out.shares["single of all sizes, right"].add(c.right);
   if (in_catalogue) out.shares["top three"].add(c.in_top_three);
   if (c.kind == "pair" || c.kind == "triple") out.shares[c.kind + ", exact"].add(c.right);
-  if (c.kind == "none" || c.kind == "retune_only")
-    out.shares[c.kind + ", false alarm"].add(without_retunes(c.verdict) != "none");
+  if (c.kind == "none" || c.kind == "calibration_only")
+    out.shares[c.kind + ", false alarm"].add(without_calibrations(c.verdict) != "none");
   if (outside) {
     out.shares[c.kind + ", outside_catalogue"].add(c.right);
     out.shares[c.kind + ", wrong name above 0.8"].add(!c.right && c.verdict != "none" &&
@@ -211,8 +212,8 @@ void count(TrialScore& out, const ScoredCase& c) {
   }
   if (in_catalogue || outside) out.shares["95 % set holds the truth"].add(c.in_confidence_set);
   if (named) out.shares["links right"].add(c.links_right);
-  if (in_catalogue && c.resolved_as_recommended)
-    out.shares["undecided, the recommended experiment resolves"].add(*c.resolved_as_recommended);
+  if (in_catalogue && c.resolved_as_recomupdated)
+    out.shares["undecided, the recomupdated experiment resolves"].add(*c.resolved_as_recomupdated);
   if (in_catalogue && c.resolved_by_chance)
     out.shares["undecided, another one resolves"].add(*c.resolved_by_chance);
 }

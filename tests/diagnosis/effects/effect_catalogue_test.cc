@@ -86,7 +86,7 @@ TEST_P(EffectOfTheCatalogue, ReproducesTheNominalOutputAtItsNeutralValues) {
     for (std::size_t b = 0; b < found.mean.size(); ++b) {
       ASSERT_LE(std::abs(found.mean[b] - expected.mean[b]), 1e-12 * scale)
           << record.name << " bin " << b;
-      ASSERT_EQ(found.own_noise[b], 0.) << record.name << " bin " << b;
+      ASSERT_EQ(found.process_noise[b], 0.) << record.name << " bin " << b;
     }
   }
 }
@@ -103,7 +103,7 @@ TEST_P(EffectOfTheCatalogue, ChangesTheOutputAtEachOfItsStarts) {
     for (const PreparedRecord& record : experiment.records) {
       const Prediction expected = simulate(nominal, record), found = simulate(extended, record);
       for (std::size_t b = 0; b < found.mean.size(); ++b)
-        change += std::abs(found.mean[b] - expected.mean[b]) + found.own_noise[b];
+        change += std::abs(found.mean[b] - expected.mean[b]) + found.process_noise[b];
     }
     EXPECT_GT(change, 0.);
     EXPECT_TRUE(std::isfinite(change));

@@ -159,8 +159,8 @@ TEST(Hum, OfMainsThatAreALittleOffIsFoundToAHundredthOfAHertz) {
     ASSERT_EQ(result.candidates.front().name, "hum");
     const HypothesisFit& fit = result.fits[result.candidates.front().fit];
     const auto found = [&](std::size_t parameter) {
-      const std::size_t place = fit.place("hum", parameter).value();
-      return fit.figures[place].description.value(fit.x(static_cast<Eigen::Index>(place)));
+      const std::size_t index = fit.index("hum", parameter).value();
+      return fit.fit_parameters[index].description.value(fit.x(static_cast<Eigen::Index>(index)));
     };
     EXPECT_NEAR(found(1), frequency_hz, 0.01);
     EXPECT_NEAR(found(0), rig.hum, 0.1 * rig.hum) << frequency_hz;

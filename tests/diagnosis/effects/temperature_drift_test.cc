@@ -47,7 +47,7 @@ TEST(TemperatureDrift, ThatSettlesIsNamedWithTheRecordsItTakes) {
   const SearchResult result = search(experiment, {.max_effects = 1});
   ASSERT_EQ(result.candidates.front().name, "temperature_drift");
   const HypothesisFit& fit = result.fits[result.candidates.front().fit];
-  const auto settled = static_cast<Eigen::Index>(fit.place("temperature_drift", 3).value());
+  const auto settled = static_cast<Eigen::Index>(fit.index("temperature_drift", 3).value());
   EXPECT_THAT(std::exp(fit.x(settled)), AllOf(Gt(1.5), Lt(2.6)));
 }
 

@@ -21,7 +21,7 @@ HypothesisFit fit_of_gain(const double gain) {
 }
 
 double evidence(const HypothesisFit& fit, const std::vector<std::string>& named) {
-  for (const RetuneChoice& choice : fit.choices)
+  for (const CalibrationChoice& choice : fit.choices)
     if (choice.named == named) return choice.log_evidence;
   ADD_FAILURE() << "no such choice";
   return 0.;
@@ -34,13 +34,13 @@ double ratio(const HypothesisFit& fit, const std::string& name, const std::strin
   return 0.;
 }
 
-TEST(RetuneChoices, OneGainThatIsFarOffIsNamedAloneThoughThreeCouldShareIt) {
+TEST(CalibrationChoices, OneGainThatIsFarOffIsNamedAloneThoughThreeCouldShareIt) {
   for (const double gain : {1.25, 1.45}) {
     const HypothesisFit fit = fit_of_gain(gain);
     // Tolerances alone have shared it.
-    const auto place = fit.place("sensor_gain", 0);
-    ASSERT_TRUE(place.has_value());
-    EXPECT_LT(std::exp(fit.x(static_cast<Eigen::Index>(*place))), 1. + 0.8 * (gain - 1.));
+    const auto index = fit.index("sensor_gain", 0);
+    ASSERT_TRUE(index.has_value());
+    EXPECT_LT(std::exp(fit.x(static_cast<Eigen::Index>(*index))), 1. + 0.8 * (gain - 1.));
     EXPECT_EQ(fit.choices.front().named, std::vector<std::string>{"sensor_gain"});
     EXPECT_GT(evidence(fit, {"sensor_gain"}),
               evidence(fit, {"drag_error", "reference_gain", "sensor_gain"}));
@@ -48,7 +48,7 @@ TEST(RetuneChoices, OneGainThatIsFarOffIsNamedAloneThoughThreeCouldShareIt) {
   }
 }
 
-TEST(RetuneChoices, AGainBeyondItsRangeIsNotNamedAlone) {
+TEST(CalibrationChoices, AGainBeyondItsRangeIsNotNamedAlone) {
   // 1.6 at most.
   const HypothesisFit fit = fit_of_gain(1.9);
   EXPECT_GT(evidence(fit, {"drag_error", "reference_gain", "sensor_gain"}),
@@ -75,9 +75,9 @@ TEST(LogAnyMagnitude, OfWhatIsNotToldFromNominalGoesByItsDeviation) {
   EXPECT_NEAR(log_any_magnitude(1., 0., 0.09), log_any_magnitude(1., 0.3, 0.), 1e-12);
 }
 
-TEST(RetunedPosterior, OfNothingNamedIsTheFit) {
+TEST(RecalibratedPosterior, OfNothingNamedIsTheFit) {
   const HypothesisFit fit = fit_of_gain(1.1);
-  const RetunedPosterior same = retuned_posterior(fit, {});
+  const RecalibratedPosterior same = recalibrated_posterior(fit, {});
   EXPECT_EQ(same.log_evidence, fit.log_evidence);
   EXPECT_EQ((same.covariance - fit.covariance).norm(), 0.);
 }

@@ -22,14 +22,14 @@ BothFits both_fits(const Experiment& experiment, const Hypothesis& hypothesis) {
 }
 
 double value_of(const HypothesisFit& fit, const std::string& effect) {
-  const std::size_t place = fit.place(effect, 0).value();
-  return fit.figures[place].description.value(fit.x(static_cast<Eigen::Index>(place)));
+  const std::size_t index = fit.index(effect, 0).value();
+  return fit.fit_parameters[index].description.value(fit.x(static_cast<Eigen::Index>(index)));
 }
 
 const Hypothesis soft_base({&find_effect("base_compliance")});
 
-/// A retune does the same: with it free the base seems stiff.
-TEST(FitAsSimulated, FindsWhatFreeRetunesTakeUp) {
+/// A calibration does the same: with it free the base seems stiff.
+TEST(FitAsSimulated, FindsWhatFreeCalibrationsTakeUp) {
   test::OneModeRig rig = test::noisy_rig();
   rig.stiffness = 0.99;
   const Experiment experiment = experiment_of(rig);
@@ -37,25 +37,25 @@ TEST(FitAsSimulated, FindsWhatFreeRetunesTakeUp) {
   EXPECT_GT(value_of(fits.free, "base_compliance"), 200.);
   // 1 / 0.99 = 1 + 1 / 99.
   EXPECT_NEAR(value_of(fits.as_simulated, "base_compliance"), 99., 15.);
-  EXPECT_NEAR(fits.as_simulated.x(fits.as_simulated.place("stiffness", 0).value()), 0., 3e-4);
+  EXPECT_NEAR(fits.as_simulated.x(fits.as_simulated.index("stiffness", 0).value()), 0., 3e-4);
   const HypothesisFit none = both_fits(experiment, {}).as_simulated;
   EXPECT_GT(fits.as_simulated.log_evidence, none.log_evidence + 20.);
 }
 
-/// No base makes a whisker stiffer, whatever a parabola around a retuned one promises.
+/// No base makes a whisker stiffer, whatever a parabola around a recalibrated one promises.
 TEST(FitAsSimulated, PromisesNothingThatTheEffectCannotDo) {
   test::OneModeRig rig = test::noisy_rig();
   rig.stiffness = 1.01;
   const Experiment experiment = experiment_of(rig);
   const BothFits none = both_fits(experiment, {}), soft = both_fits(experiment, soft_base);
   EXPECT_LT(soft.as_simulated.log_evidence, none.as_simulated.log_evidence + 2.);
-  // Neither has a retune that does it in its place.
+  // Neither has a calibration that does it in its place.
   for (const BothFits& fits : {none, soft})
     EXPECT_LT(fits.as_simulated.log_likelihood, fits.free.log_likelihood - 20.)
         << fits.free.hypothesis.name();
 }
 
-TEST(FitAsSimulated, NamesNoRetune) {
+TEST(FitAsSimulated, NamesNoCalibration) {
   const BothFits fits = both_fits(experiment_of(test::noisy_rig()), {});
   ASSERT_EQ(fits.as_simulated.choices.size(), 1u);
   EXPECT_TRUE(fits.as_simulated.choices.front().named.empty());

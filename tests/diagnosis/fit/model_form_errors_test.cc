@@ -15,21 +15,21 @@ Experiment one_block() {
   experiment.scales.first_mode_rad_s = 2. * std::numbers::pi * 35.;
   PreparedRecord record;
   record.sampling_rate_hz = 1.;
-  record.n_judged = 100;
+  record.n_evaluated = 100;
   record.moment.resize(10);
   experiment.records = {record};
   return experiment;
 }
 
 HypothesisFit fit_of(const std::vector<const Effect*>& effects, Complex mean,
-                     const FormErrors& form_errors, double log_likelihood) {
+                     const FormErrors& model_form_errors, double log_likelihood) {
   HypothesisFit fit;
   fit.hypothesis = Hypothesis(effects);
   fit.log_likelihood = log_likelihood;
   fit.records = {{.mean = std::vector<Complex>(10, mean),
-                  .own_noise = std::vector<double>(10, 0.),
+                  .process_noise = std::vector<double>(10, 0.),
                   .variance = std::vector<double>(10, 2.),
-                  .form_errors = form_errors}};
+                  .model_form_errors = model_form_errors}};
   return fit;
 }
 

@@ -15,12 +15,12 @@ namespace {
 /// A fit to a rig that is a little too stiff, begun at nominal.
 struct Fit {
   Fit() {
-    begin.x.resize(static_cast<Eigen::Index>(figures.size()));
-    for (std::size_t i = 0; i < figures.size(); ++i)
-      begin.x(static_cast<Eigen::Index>(i)) = figures[i].description.prior.centre;
-    begin.x(place_moment_noise) = std::log(experiment.moment_noise);
-    begin.x(place_acceleration_noise) = std::log(experiment.acceleration_noise);
-    clamp(figures, begin.x);
+    begin.x.resize(static_cast<Eigen::Index>(fit_parameters.size()));
+    for (std::size_t i = 0; i < fit_parameters.size(); ++i)
+      begin.x(static_cast<Eigen::Index>(i)) = fit_parameters[i].description.prior.centre;
+    begin.x(index_of_moment_noise) = std::log(experiment.moment_noise);
+    begin.x(index_of_acceleration_noise) = std::log(experiment.acceleration_noise);
+    clamp(fit_parameters, begin.x);
     begin.predictions = posterior.predict(begin.x);
     posterior.renew_slow_variance(begin.x, begin.predictions);
     begin.log_posterior =
@@ -37,23 +37,23 @@ struct Fit {
       prepare_experiment(test::nominal_of(test::OneModeRig{}, false),
                          test::rig_dataset(stiff_rig()), signals::Split::fit, InputNoise::reduced);
   const Hypothesis hypothesis{{&find_effect("hardening")}};
-  const std::vector<FreeFigure> figures = make_figures(experiment, hypothesis);
-  FitPosterior posterior{experiment, figures, hypothesis};
-  Climb begin;
+  const std::vector<FitParameter> fit_parameters = make_fit_parameters(experiment, hypothesis);
+  FitPosterior posterior{experiment, fit_parameters, hypothesis};
+  OptimiserState begin;
 };
 
-/// As next to figures under which a joint runs away.
+/// As next to parameters under which a joint runs away.
 Derivatives no_numbers(Derivatives derivatives) {
   derivatives.mean.setConstant(std::numeric_limits<double>::quiet_NaN());
   return derivatives;
 }
 
-TEST(Climb, TakesNoStepThatIsNoNumber) {
+TEST(OptimiserState, TakesNoStepThatIsNoNumber) {
   Fit fit;
-  Climb plain = fit.begin, misled = fit.begin;
-  climb_on(fit.posterior, fit.figures, plain, FitOptions{}.max_iterations, {});
+  OptimiserState plain = fit.begin, misled = fit.begin;
+  optimise(fit.posterior, fit.fit_parameters, plain, FitOptions{}.max_iterations, {});
   misled.derivatives = no_numbers(fit.posterior.derivatives(misled.x, misled.predictions));
-  climb_on(fit.posterior, fit.figures, misled, FitOptions{}.max_iterations, {});
+  optimise(fit.posterior, fit.fit_parameters, misled, FitOptions{}.max_iterations, {});
   ASSERT_TRUE(misled.x.allFinite());
   EXPECT_GT(plain.log_posterior, fit.begin.log_posterior + 10.);
   EXPECT_NEAR(misled.log_posterior, plain.log_posterior, 0.2);

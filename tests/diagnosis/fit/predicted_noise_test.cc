@@ -18,7 +18,7 @@ struct Leftover {
   unsigned seed = 1;
 };
 
-class ForetoldNoiseTest : public testing::Test {
+class PredictedNoiseTest : public testing::Test {
  protected:
   Experiment experiment_ = prepare_experiment(test::nominal_of(test::OneModeRig{}, true),
                                               test::rig_dataset(test::noisy_rig(), {.wind = true}),
@@ -32,7 +32,7 @@ class ForetoldNoiseTest : public testing::Test {
     for (const PreparedRecord& record : experiment_.records) {
       const bool windy = record.excitation.wind;
       const std::vector<Complex> wind =
-          windy ? judged_bins(record, record.wind) : std::vector<Complex>(record.n_bins());
+          windy ? evaluated_bins(record, record.wind) : std::vector<Complex>(record.n_bins());
       double power = 0.;
       for (const Complex line : wind) power += std::norm(line);
       const double height = windy ? std::sqrt(static_cast<double>(record.n_bins()) / power) : 0.;
@@ -47,28 +47,28 @@ class ForetoldNoiseTest : public testing::Test {
     return out;
   }
 
-  ForetoldNoise found(const Leftover& leftover) const {
-    return foretold_noise(experiment_, residuals(leftover));
+  PredictedNoise found(const Leftover& leftover) const {
+    return predicted_noise(experiment_, residuals(leftover));
   }
 };
 
-TEST_F(ForetoldNoiseTest, FindsNothingInNoise) {
+TEST_F(PredictedNoiseTest, FindsNothingInNoise) {
   for (unsigned seed = 0; seed < 20; ++seed) {
-    const ForetoldNoise noise = found({.seed = seed});
+    const PredictedNoise noise = found({.seed = seed});
     EXPECT_LT(std::abs(noise.nats), 40.);
     EXPECT_LT(noise.share, 0.05);
   }
 }
 
-TEST_F(ForetoldNoiseTest, FindsWhatFollowsTheWind) {
-  const ForetoldNoise noise = found({.of_the_wind = 1.});
+TEST_F(PredictedNoiseTest, FindsWhatFollowsTheWind) {
+  const PredictedNoise noise = found({.of_the_wind = 1.});
   EXPECT_GT(noise.nats, 200.);
   // Half of the energy, and what the gusts' lines hold is in few blocks.
   EXPECT_GT(noise.share, 0.3);
   EXPECT_LT(noise.share, 0.7);
 }
 
-TEST_F(ForetoldNoiseTest, LooksOnlyWhereEffectsOfTheWindCallItNoise) {
+TEST_F(PredictedNoiseTest, LooksOnlyWhereEffectsOfTheWindCallItNoise) {
   EXPECT_EQ(found({.of_the_wind = 1., .own_share = 0.05}).nats, 0.) << "the sensor's noise";
   EXPECT_EQ(found({.of_the_wind = 1., .own_share_windless = 0.5}).nats, 0.)
       << "noise that needs no wind";

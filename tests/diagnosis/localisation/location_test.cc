@@ -138,18 +138,19 @@ TEST(Location, NoticesAGainThatDriftsWithinARecord) {
 
 TEST(Location, SumsProbabilitiesOfLinksOverCandidates) {
   SearchResult result;
-  result.candidates = {{.name = "delay+stiffness", .fit = 0, .retunes = {}, .probability = 0.5},
-                       {.name = "stiffness", .fit = 0, .retunes = {}, .probability = 0.35},
-                       {.name = "hum", .fit = 0, .retunes = {}, .probability = 0.05},
-                       {.name = "none", .fit = 0, .retunes = {}, .probability = 0.1}};
+  result.candidates = {
+      {.name = "delay+stiffness", .fit = 0, .calibrations = {}, .probability = 0.5},
+      {.name = "stiffness", .fit = 0, .calibrations = {}, .probability = 0.35},
+      {.name = "hum", .fit = 0, .calibrations = {}, .probability = 0.05},
+      {.name = "none", .fit = 0, .calibrations = {}, .probability = 0.1}};
   EXPECT_THAT(likely_links(result), ElementsAre("structure", "clock"));
 }
 
 TEST(LikelyLinks, AreNoneWhereNothingIsTheLikeliest) {
   SearchResult result;
-  result.candidates = {{.name = "none", .fit = 0, .retunes = {}, .probability = 0.5},
-                       {.name = "flow_lag", .fit = 0, .retunes = {}, .probability = 0.3},
-                       {.name = "turbulence", .fit = 0, .retunes = {}, .probability = 0.2}};
+  result.candidates = {{.name = "none", .fit = 0, .calibrations = {}, .probability = 0.5},
+                       {.name = "flow_lag", .fit = 0, .calibrations = {}, .probability = 0.3},
+                       {.name = "turbulence", .fit = 0, .calibrations = {}, .probability = 0.2}};
   EXPECT_TRUE(likely_links(result).empty());
 }
 

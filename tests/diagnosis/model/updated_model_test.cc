@@ -26,7 +26,7 @@ OneModeRig soft_rig() {
   return rig;
 }
 
-MendedModel soft_model(bool wind) {
+UpdatedModel soft_model(bool wind) {
   const Scales scales{.joint_moment_n_m = 1e-3,
                       .duration_s = 4.,
                       .first_mode_rad_s = 220.,
@@ -76,13 +76,13 @@ TEST(SimulateMoment, AsksForAnInputThatTheModelKnows) {
   }
 }
 
-class MendedModelFile : public testing::Test {
+class UpdatedModelFile : public testing::Test {
  protected:
   void write(const std::string& text) const { std::ofstream(file_) << text; }
   std::string message_of(const std::string& text) const {
     write(text);
     try {
-      read_mended_model(file_);
+      read_updated_model(file_);
     } catch (const signals::UserError& error) {
       return error.what();
     }
@@ -94,22 +94,22 @@ class MendedModelFile : public testing::Test {
   void TearDown() override { fs::remove(file_); }
 
   fs::path file_ = fs::temp_directory_path() /
-                   (std::string("mended_") +
+                   (std::string("updated_") +
                     testing::UnitTest::GetInstance()->current_test_info()->name() + ".json");
 };
 
-TEST_F(MendedModelFile, KeepsEveryFigure) {
-  const MendedModel model = soft_model(true);
-  write(mended_model_json(model));
-  EXPECT_TRUE(is_mended_model(file_));
-  EXPECT_EQ(mended_model_json(read_mended_model(file_)), mended_model_json(model));
+TEST_F(UpdatedModelFile, KeepsEveryFigure) {
+  const UpdatedModel model = soft_model(true);
+  write(updated_model_json(model));
+  EXPECT_TRUE(is_updated_model(file_));
+  EXPECT_EQ(updated_model_json(read_updated_model(file_)), updated_model_json(model));
   const signals::Record inputs = OneModeRig{}.record(
       700, 0., sines({11.}, 2., 1), [](double) { return 2.; }, 1, true);
-  EXPECT_EQ(simulate_moment(read_mended_model(file_), inputs), simulate_moment(model, inputs));
+  EXPECT_EQ(simulate_moment(read_updated_model(file_), inputs), simulate_moment(model, inputs));
 }
 
-MendedModel model_with_paths() {
-  MendedModel model = soft_model(true);
+UpdatedModel model_with_paths() {
+  UpdatedModel model = soft_model(true);
   const std::size_t n = model.nominal.modes.size();
   const auto exponents = [n](const double first) { return std::vector<double>(n, first); };
   model.nominal.paths["wire_modulus"] = {exponents(0.22), exponents(0.02), exponents(0.01)};
@@ -118,25 +118,25 @@ MendedModel model_with_paths() {
   return model;
 }
 
-TEST_F(MendedModelFile, KeepsWhatAFiniteElementModelTold) {
-  const MendedModel model = model_with_paths();
-  write(mended_model_json(model));
-  EXPECT_EQ(mended_model_json(read_mended_model(file_)), mended_model_json(model));
+TEST_F(UpdatedModelFile, KeepsWhatAFiniteElementModelTold) {
+  const UpdatedModel model = model_with_paths();
+  write(updated_model_json(model));
+  EXPECT_EQ(updated_model_json(read_updated_model(file_)), updated_model_json(model));
   const signals::Record inputs = OneModeRig{}.record(
       700, 0., sines({11.}, 2., 1), [](double) { return 3.; }, 1, true);
-  EXPECT_EQ(simulate_moment(read_mended_model(file_), inputs), simulate_moment(model, inputs));
+  EXPECT_EQ(simulate_moment(read_updated_model(file_), inputs), simulate_moment(model, inputs));
   EXPECT_NE(simulate_moment(model, inputs), simulate_moment(soft_model(true), inputs));
 }
 
-TEST_F(MendedModelFile, OfASimulationWithoutBaseMotionIsReadBack) {
-  MendedModel model = soft_model(true);
+TEST_F(UpdatedModelFile, OfASimulationWithoutBaseMotionIsReadBack) {
+  UpdatedModel model = soft_model(true);
   for (KnownEffect& known : model.effects) known.scales.static_gain = 0.;
-  write(mended_model_json(model));
-  EXPECT_EQ(mended_model_json(read_mended_model(file_)), mended_model_json(model));
+  write(updated_model_json(model));
+  EXPECT_EQ(updated_model_json(read_updated_model(file_)), updated_model_json(model));
 }
 
-TEST_F(MendedModelFile, RefusesPathsAndCurvesThatDoNotFit) {
-  const std::string good = mended_model_json(model_with_paths());
+TEST_F(UpdatedModelFile, RefusesPathsAndCurvesThatDoNotFit) {
+  const std::string good = updated_model_json(model_with_paths());
   EXPECT_THAT(message_of(replaced(good, "0.28", "0.28, 0.3")),
               testing::AllOf(HasSubstr("silicone_modulus/frequency"), HasSubstr("each mode")));
   EXPECT_THAT(message_of(replaced(good, "1.4,", "")), HasSubstr("number for each speed"));
@@ -144,27 +144,27 @@ TEST_F(MendedModelFile, RefusesPathsAndCurvesThatDoNotFit) {
               HasSubstr("must ascend"));
 }
 
-TEST_F(MendedModelFile, IsRefusedWithThePlaceOfWhatIsWrong) {
-  const std::string good = mended_model_json(soft_model(true));
+TEST_F(UpdatedModelFile, IsRefusedWithThePlaceOfWhatIsWrong) {
+  const std::string good = updated_model_json(soft_model(true));
   EXPECT_THAT(message_of(replaced(good, "\"stiffness\"", "\"stifness\"")),
               testing::AllOf(HasSubstr("/effects/0/id"), HasSubstr("stiffness")));
   EXPECT_THAT(message_of(replaced(good, "0.8", "80")), HasSubstr("/effects/0/parameters/0/value"));
   EXPECT_THAT(message_of(replaced(good, "joint_share\"", "share\"")),
               HasSubstr("/nominal/joint_share is missing"));
-  EXPECT_THAT(message_of(replaced(good, "mended-model-1", "mended-model-9")),
-              HasSubstr("vibrissa-mended-model-1"));
+  EXPECT_THAT(message_of(replaced(good, "updated-model-1", "updated-model-9")),
+              HasSubstr("vibrissa-updated-model-1"));
   EXPECT_THAT(message_of(replaced(good, "220", "-220")), HasSubstr("first_mode_rad_s"));
-  EXPECT_FALSE(is_mended_model("/no/such/file"));
+  EXPECT_FALSE(is_updated_model("/no/such/file"));
 }
 
-TEST(MendedModel, LeavesNothingToFindWhereItCameFrom) {
+TEST(UpdatedModel, LeavesNothingToFindWhereItCameFrom) {
   OneModeRig rig = noisy_rig();
   rig.stiffness = 0.8;
   const Diagnosis first = diagnose(nominal_of(rig, false), rig_dataset(rig), {});
   ASSERT_EQ(first.verdict, "stiffness");
-  EXPECT_EQ(diagnose(first.mended, rig_dataset(rig, {.seed = 90})).verdict, "none");
+  EXPECT_EQ(diagnose(first.updated, rig_dataset(rig, {.seed = 90})).verdict, "none");
   rig.delay_s = 1.5e-3;
-  const Diagnosis further = diagnose(first.mended, rig_dataset(rig));
+  const Diagnosis further = diagnose(first.updated, rig_dataset(rig));
   EXPECT_EQ(further.verdict, "delay");
   ASSERT_FALSE(further.ranking.front().parameters.empty());
   EXPECT_NEAR(further.ranking.front().parameters.front().value, 1.5e-3, 2e-4);

@@ -78,9 +78,9 @@ double delay_information() {
 
 TEST(EffectPower, LimitOfADelayIsFourTimesTheBoundOfCramerAndRao) {
   const auto powers = effect_powers(planned(false, moment_noise_alone), moment_noise_alone);
-  const Standing& delay = power_of(powers, "delay").as_built;
+  const Detectability& delay = power_of(powers, "delay").as_built;
   ASSERT_TRUE(delay.limit);
-  EXPECT_NEAR(*delay.limit / std::sqrt(nats_to_find / delay_information()), 1., 0.03);
+  EXPECT_NEAR(*delay.limit / std::sqrt(detection_threshold_nats / delay_information()), 1., 0.03);
 }
 
 TEST(EffectPower, TwiceTheNoiseIsTwiceTheLimit) {
@@ -133,13 +133,13 @@ TEST(EffectPower, AsBuiltHidesAtLeastWhatAnExactSensorHides) {
   EXPECT_FALSE(power_of(powers, "sensor_gain").as_built.found);
 }
 
-TEST(EffectPower, FitsGainWhatWasForetold) {
+TEST(EffectPower, FitsGainWhatWasPredicted) {
   // So much noise that one step of the rig's integration is about the limit.
   const double tau = 1. / (rig.rate_hz * test::OneModeRig::n_steps);
   const ChannelNoise noise{.moment_n_m = 8e-5, .acceleration_m_s2 = 0.05};
   const Experiment clean = planned(false, noise);
   const double limit = *power_of(effect_powers(clean, noise), "delay").as_built.limit;
-  const double nats = nats_to_find * tau * tau / (limit * limit);
+  const double nats = detection_threshold_nats * tau * tau / (limit * limit);
   ASSERT_GT(nats, 4.);
   ASSERT_LT(nats, 20.);
   test::OneModeRig real = rig;

@@ -49,7 +49,7 @@ TEST(PlanJson, HoldsRecordsEffectsAndExperiments) {
   EXPECT_TRUE(json["experiments"][1]["duration_s"].is_null());
 }
 
-TEST(PlanJson, SaysNullForWhatIsTooStrongToBeForetold) {
+TEST(PlanJson, SaysNullForWhatIsTooStrongToBePredicted) {
   ExperimentPlan plan = example();
   plan.effects[0].exact.nats = std::numeric_limits<double>::infinity();
   const auto json = nlohmann::json::parse(plan_json(plan));

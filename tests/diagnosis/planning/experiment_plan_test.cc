@@ -81,16 +81,16 @@ TEST(ExperimentPlan, RefusesNoiseThatIsNone) {
 }
 
 TEST(UndecidedProbability, CountsEffectsUnfoundAndMistaken) {
-  const auto standing = [](bool found, std::vector<std::string> alike) {
-    return Standing{.found = found, .alike = std::move(alike)};
+  const auto detectability = [](bool found, std::vector<std::string> alike) {
+    return Detectability{.found = found, .alike = std::move(alike)};
   };
-  const auto effect = [&](const std::string& id, const Standing& both) {
+  const auto effect = [&](const std::string& id, const Detectability& both) {
     return EffectPower{.effect = id, .shown = true, .exact = both, .as_built = both};
   };
   // Both have the same prior: delay is named right half of the time, hum always, mass never.
-  EXPECT_NEAR(undecided_probability({effect("delay", standing(true, {"sensor_lowpass"})),
-                                     effect("hum", standing(true, {})),
-                                     effect("mass", standing(false, {}))}),
+  EXPECT_NEAR(undecided_probability({effect("delay", detectability(true, {"sensor_lowpass"})),
+                                     effect("hum", detectability(true, {})),
+                                     effect("mass", detectability(false, {}))}),
               (0.5 + 0. + 1.) / 3., 1e-12);
 }
 

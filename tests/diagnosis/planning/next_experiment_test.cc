@@ -13,7 +13,7 @@ using testing::IsSupersetOf;
 std::vector<Candidate> candidates(std::vector<std::pair<std::string, double>> odds) {
   std::vector<Candidate> out;
   for (const auto& [name, probability] : odds)
-    out.push_back({.name = name, .fit = 0, .retunes = {}, .probability = probability});
+    out.push_back({.name = name, .fit = 0, .calibrations = {}, .probability = probability});
   return out;
 }
 

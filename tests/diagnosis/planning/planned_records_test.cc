@@ -82,7 +82,7 @@ TEST(PlannedMenu, AnotherRateKeepsTheMotion) {
     EXPECT_NEAR(after.acceleration[2 * i], before.acceleration[i], 1e-9);
 }
 
-TEST(PlannedMenu, ForetellsOnlyWhatTheSimulationKnows) {
+TEST(PlannedMenu, PredictsOnlyWhatTheSimulationKnows) {
   const NominalModel still = test::nominal_of(planned_rig, false),
                      windy = test::nominal_of(planned_rig, true);
   const std::vector<PlannedInput> inputs = rig_inputs(true);

@@ -172,7 +172,7 @@ TEST(SimulateChain, RotationOnACubicJointMeetsARungeKuttaIntegration) {
   }
 }
 
-TEST(SimulateChain, ASimulationOfTheRotationForetellsIt) {
+TEST(SimulateChain, ASimulationOfTheRotationPredictsIt) {
   NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
   nominal.readout = signals::Readout::rotation;
   nominal.modes.front().base_rate = 0.;
@@ -238,14 +238,14 @@ TEST(SimulateChain, CarriesTheNoiseOfBothChannels) {
   Chain chain{.structure = experiment.nominal};
   chain.reference = {[](Complex) -> Complex { return 2.; }};
   const Prediction prediction = simulate(chain, record);
-  const double n = static_cast<double>(record.n_judged);
+  const double n = static_cast<double>(record.n_evaluated);
   for (const std::size_t b : {std::size_t{10}, std::size_t{100}, std::size_t{400}}) {
     const Complex s(0., 2. * std::numbers::pi * record.bin_hz() * static_cast<double>(b + 1));
     EXPECT_DOUBLE_EQ(prediction.moment_noise[b], n);
     EXPECT_NEAR(prediction.acceleration_noise[b] /
                     (n * 4. * std::norm(experiment.nominal.base_response(s))),
                 1., 1e-9);
-    EXPECT_EQ(prediction.own_noise[b], 0.);
+    EXPECT_EQ(prediction.process_noise[b], 0.);
   }
 }
 
@@ -266,7 +266,7 @@ TEST(SimulateChain, CarriesTheAccelerometersNoiseIntoTheDragOfAMovingWhisker) {
   // Bins of 1 to 4 Hz, where velocity is most of what the noise does.
   const auto low = static_cast<std::size_t>(1. / record.bin_hz()),
              high = static_cast<std::size_t>(4. / record.bin_hz());
-  double scattered = 0., foretold = 0., linear = 0.;
+  double scattered = 0., predicted = 0., linear = 0.;
   constexpr int n_draws = 40;
   for (int draw = 0; draw < n_draws; ++draw) {
     std::vector<double> noise(record.n_samples);
@@ -277,13 +277,13 @@ TEST(SimulateChain, CarriesTheAccelerometersNoiseIntoTheDragOfAMovingWhisker) {
     const std::vector<Complex> mean = simulate_mean(chain, noisy);
     for (std::size_t b = low; b < high; ++b) {
       scattered += std::norm(mean[b] - prediction.mean[b]);
-      foretold += deviation * deviation * prediction.acceleration_noise[b];
-      linear += deviation * deviation * static_cast<double>(record.n_judged) *
+      predicted += deviation * deviation * prediction.acceleration_noise[b];
+      linear += deviation * deviation * static_cast<double>(record.n_evaluated) *
                 std::norm(chain.structure.base_response(0.));
     }
   }
   EXPECT_GT(scattered, 2. * linear) << "the drag must act";
-  EXPECT_NEAR(scattered / foretold, 1., 0.15);
+  EXPECT_NEAR(scattered / predicted, 1., 0.15);
 }
 
 TEST(SimulateChain, ARigidWhiskerOnAChangedJointIsAChangedOscillator) {
@@ -335,7 +335,7 @@ TEST(SimulateChain, ChainsPredictedTogetherAreAsEachAlone) {
     const auto alone = ChainSimulator(chains[i]).predict(experiment.records);
     for (std::size_t r = 0; r < alone.size(); ++r) {
       EXPECT_EQ(together[i][r].mean, alone[r].mean) << i << " " << experiment.records[r].name;
-      EXPECT_EQ(together[i][r].own_noise, alone[r].own_noise);
+      EXPECT_EQ(together[i][r].process_noise, alone[r].process_noise);
     }
   }
 }

@@ -11,7 +11,7 @@ namespace vibrissa::diagnosis {
 namespace {
 
 struct Drawn {
-  std::vector<OwnUnknown> unknowns;
+  std::vector<RecordNuisance> unknowns;
   std::vector<Complex> error;
   std::vector<double> variance;
 };
@@ -26,7 +26,7 @@ Drawn drawn(std::size_t n_unknowns) {
     out.variance.push_back(0.5 + std::abs(normal(random)));
   }
   for (std::size_t i = 0; i < n_unknowns; ++i) {
-    OwnUnknown unknown{0.3 + static_cast<double>(i), {}};
+    RecordNuisance unknown{0.3 + static_cast<double>(i), {}};
     for (std::size_t b = 0; b < n; ++b) unknown.shape.emplace_back(normal(random), normal(random));
     out.unknowns.push_back(std::move(unknown));
   }
@@ -39,7 +39,7 @@ Eigen::MatrixXd dense_covariance(const Drawn& d, bool with_unknowns) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     out(i, i) = 0.5 * d.variance[static_cast<std::size_t>(i / 2)];
-  for (const OwnUnknown& unknown : d.unknowns) {
+  for (const RecordNuisance& unknown : d.unknowns) {
     if (!with_unknowns) break;
     Eigen::VectorXd shape(n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -61,32 +61,32 @@ double log_normal(const Drawn& d, bool with_unknowns) {
   return -0.5 * (e.dot(covariance.ldlt().solve(e)) + std::log(covariance.determinant()));
 }
 
-TEST(IntegratedUnknowns, GainWhatTheWholeCovarianceDoes) {
+TEST(IntegratedNuisances, GainWhatTheWholeCovarianceDoes) {
   for (const std::size_t n_unknowns : {1u, 2u}) {
     const Drawn d = drawn(n_unknowns);
-    const IntegratedUnknowns unknowns(d.unknowns, d.error, d.variance);
+    const IntegratedNuisances unknowns(d.unknowns, d.error, d.variance);
     EXPECT_NEAR(unknowns.log_likelihood_gain(), log_normal(d, true) - log_normal(d, false), 1e-10)
         << n_unknowns;
   }
 }
 
-TEST(IntegratedUnknowns, AreFoundWhereTheyAreLoud) {
+TEST(IntegratedNuisances, AreFoundWhereTheyAreLoud) {
   Drawn d = drawn(2);
-  for (OwnUnknown& unknown : d.unknowns) unknown.variance = 1e8;
+  for (RecordNuisance& unknown : d.unknowns) unknown.variance = 1e8;
   for (std::size_t b = 0; b < d.error.size(); ++b)
     d.error[b] = 70. * d.unknowns[0].shape[b] - 30. * d.unknowns[1].shape[b];
-  const IntegratedUnknowns unknowns(d.unknowns, d.error, d.variance);
+  const IntegratedNuisances unknowns(d.unknowns, d.error, d.variance);
   EXPECT_NEAR(unknowns.mean()(0), 70., 1e-5);
   EXPECT_NEAR(unknowns.mean()(1), -30., 1e-5);
   unknowns.remove_from(d.error);
   for (const Complex& left : d.error) EXPECT_LT(std::abs(left), 1e-4);
 }
 
-TEST(IntegratedUnknowns, OfNoVarianceAreNothing) {
+TEST(IntegratedNuisances, OfNoVarianceAreNothing) {
   Drawn d = drawn(1);
   d.unknowns.front().variance = 0.;
   const std::vector<Complex> before = d.error;
-  const IntegratedUnknowns unknowns(d.unknowns, d.error, d.variance);
+  const IntegratedNuisances unknowns(d.unknowns, d.error, d.variance);
   EXPECT_EQ(unknowns.log_likelihood_gain(), 0.);
   unknowns.remove_from(d.error);
   EXPECT_EQ(d.error, before);
@@ -94,7 +94,7 @@ TEST(IntegratedUnknowns, OfNoVarianceAreNothing) {
 
 TEST(UnknownRamp, IsTheSpectrumOfALine) {
   constexpr std::size_t n = 64;
-  const OwnUnknown ramp = unknown_ramp(2., n, n / 2 - 1);
+  const RecordNuisance ramp = unknown_ramp(2., n, n / 2 - 1);
   for (std::size_t b = 0; b < ramp.shape.size(); ++b) {
     Complex sum = 0.;
     for (std::size_t k = 0; k < n; ++k)

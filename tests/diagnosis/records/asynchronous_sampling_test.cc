@@ -30,8 +30,8 @@ std::vector<double> read_from(double source_hz, double phase) {
   std::normal_distribution<double> normal(0., noise_deviation);
   std::vector<double> out;
   for (int k = 0; k < 4096; ++k) {
-    const double place = std::floor(k * source_hz / 500. + phase + 1e-9);
-    out.push_back(motion(place / source_hz) + normal(random));
+    const double index = std::floor(k * source_hz / 500. + phase + 1e-9);
+    out.push_back(motion(index / source_hz) + normal(random));
   }
   return out;
 }
@@ -65,7 +65,7 @@ TEST(EvenedSeries, IsNoneOfSamplesThatAreAsOldAsEachOther) {
 
 TEST(SampleRepeat, IsNamedWhereTheAccelerometersSamplesHaveUnevenAges) {
   test::OneModeRig rig = test::noisy_rig();
-  // Read by the rig at 4000 Hz, of which every eighth sample is judged.
+  // Read by the rig at 4000 Hz, of which every eighth sample is evaluated.
   rig.rate_hz = 4000.;
   const auto slower = [&](const signals::Record& fast, bool polled) {
     const auto a = fast.channel(signals::channel::base_acceleration),

@@ -60,14 +60,14 @@ test::OneModeRig::Signal band(double low_hz, double high_hz, double power_over_n
 TEST(PrepareExperiment, JudgesWholePeriodsOfTonesThatShareOne) {
   // Multiples of 1 Hz: they repeat after 500 samples.
   const PreparedRecord record = prepared({12., 15., 19., 23., 26., 29.});
-  EXPECT_EQ(record.n_judged % 500, 0u);
-  EXPECT_GT(record.n_judged, 3500u);
+  EXPECT_EQ(record.n_evaluated % 500, 0u);
+  EXPECT_GT(record.n_evaluated, 3500u);
 }
 
 TEST(PrepareExperiment, JudgesAQuickLengthOfADriveThatDoesNotRepeat) {
   const PreparedRecord record = prepared({12.3, 15.1, 19.7, 23.9, 26.2, 29.8});
-  EXPECT_NE(record.n_judged % 500, 0u);
-  EXPECT_GT(record.n_judged, 3500u);
+  EXPECT_NE(record.n_evaluated % 500, 0u);
+  EXPECT_GT(record.n_evaluated, 3500u);
 }
 
 TEST(PrepareExperiment, LeavesToNoiseWhatNoDriveStandsBehind) {

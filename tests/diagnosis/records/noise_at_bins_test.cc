@@ -28,24 +28,24 @@ TEST(ShareAtBins, IsOneForWhiteNoise) {
 
 /// Noise at few lines, cut, transformed, and its power averaged over 4000 draws.
 TEST(ShareAtBins, IsThePowerOfNoiseAtFewLines) {
-  constexpr std::size_t n = 256, n_judged = 210;
+  constexpr std::size_t n = 256, n_evaluated = 210;
   std::vector<double> lines(n / 2 + 1, 0.);
   lines[20] = lines[21] = lines[60] = 1.;
   lines[90] = 0.3;
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
-  std::vector<double> power(n_judged / 2 - 1, 0.);
+  std::vector<double> power(n_evaluated / 2 - 1, 0.);
   constexpr int n_draws = 4000;
   for (int draw = 0; draw < n_draws; ++draw) {
     std::vector<Complex> spectrum(n / 2 + 1);
     for (std::size_t k = 1; k < n / 2; ++k)
       spectrum[k] = std::sqrt(0.5 * n * lines[k]) * Complex(normal(random), normal(random));
     const std::vector<double> samples = samples_of(spectrum, n);
-    const auto bins = spectrum_of(std::span(samples).subspan(31, n_judged));
+    const auto bins = spectrum_of(std::span(samples).subspan(31, n_evaluated));
     for (std::size_t b = 0; b < power.size(); ++b)
-      power[b] += std::norm(bins[b + 1]) / (n_draws * static_cast<double>(n_judged));
+      power[b] += std::norm(bins[b + 1]) / (n_draws * static_cast<double>(n_evaluated));
   }
-  const std::vector<double> expected = share_at_bins(lines, n, n_judged);
+  const std::vector<double> expected = share_at_bins(lines, n, n_evaluated);
   for (std::size_t b = 0; b < power.size(); ++b)
     EXPECT_NEAR(power[b], expected[b], 0.04 + 0.06 * expected[b]) << b;
 }

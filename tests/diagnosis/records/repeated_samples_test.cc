@@ -21,17 +21,17 @@ double tone(double t_s) {
 std::vector<double> polled(const std::function<double(double)>& x, std::size_t n, double age_s) {
   std::vector<double> out;
   for (std::size_t k = 0; k < n; ++k) {
-    const double place = std::floor(static_cast<double>(k) * 400. / 500. + 1e-9);
-    out.push_back(x(place / 400. - age_s));
+    const double index = std::floor(static_cast<double>(k) * 400. / 500. + 1e-9);
+    out.push_back(x(index / 400. - age_s));
   }
   return out;
 }
 
 TEST(RenewedSeries, IsTheSourceAtTheTimesOfThePolls) {
-  const std::vector<double> x = polled(tone, 2500, 0.), renewed = renewed_series(x);
+  const std::vector<double> x = polled(tone, 2500, 0.), renewed = new_sample_series(x);
   ASSERT_EQ(renewed.size(), x.size());
   EXPECT_NEAR(repeat_share(x), 0.2, 0.01);
-  EXPECT_TRUE(is_polled(x));
+  EXPECT_TRUE(is_held(x));
   // A run begins up to one sample after its value: the fit lies between.
   double best = 1e300, as_read = 0.;
   for (double late_s = 0.; late_s < 2.5e-3; late_s += 5e-5) {
@@ -59,7 +59,7 @@ TEST(IsPolled, TakesNoConverterForASource) {
   std::vector<double> x;
   for (int i = 0; i < 2000; ++i) x.push_back(0.25 * std::round(4. * tone(i / 500.)));
   EXPECT_GT(repeat_share(x), 0.08);
-  EXPECT_FALSE(is_polled(x));
+  EXPECT_FALSE(is_held(x));
 }
 
 TEST(SampleRepeat, IsNamedWhereTheAccelerometerIsPolledFromASlowerSource) {

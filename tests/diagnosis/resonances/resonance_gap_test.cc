@@ -181,7 +181,7 @@ TEST(ResonanceGap, EveryExplanationBringsTheResonanceThere) {
   }
 }
 
-/// Mean density of the measured figures over samples of the priors.
+/// Mean density of the measured parameters over samples of the priors.
 struct Sampled {
   std::mt19937_64 random{7};
   std::student_t_distribution<double> student{6.};
@@ -256,8 +256,8 @@ TEST(ResonanceGap, OddsWithDampingAreThoseOfSampledPriors) {
 TEST(ResonanceGap, FiguresThatAgreeNeedNoCause) {
   for (const double deviation : {0.002, 0.01, 0.03})
     for (const double gap_in_deviations : {-1.9, -1., 0., 1., 1.9}) {
-      const ResonanceFigures simulated{.frequency_hz = 37.32, .relative_deviation = deviation};
-      ResonanceFigures measured = simulated;
+      const ResonanceData simulated{.frequency_hz = 37.32, .relative_deviation = deviation};
+      ResonanceData measured = simulated;
       measured.frequency_hz *= std::exp(gap_in_deviations * std::sqrt(2.) * deviation);
       EXPECT_EQ(explain_resonance_gap(simulated, measured).verdict, "none")
           << deviation << " " << gap_in_deviations;
@@ -306,7 +306,7 @@ TEST(ResonanceGap, AModulusThatIsNotKnownMayBeWrongEitherWay) {
 }
 
 TEST(ResonanceGap, RefusesFiguresThatCannotBe) {
-  const ResonanceFigures good{.frequency_hz = 37.32};
+  const ResonanceData good{.frequency_hz = 37.32};
   for (const double bad : {0., -1., double(NAN), double(INFINITY)})
     EXPECT_THAT([&] { explain_resonance_gap(good, {.frequency_hz = bad}); },
                 ThrowsMessage<signals::UserError>(HasSubstr("the measured frequency [Hz] is")));

@@ -11,7 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 
 Candidate candidate(const std::string& name, double probability) {
-  return {.name = name, .fit = 0, .retunes = {}, .probability = probability};
+  return {.name = name, .fit = 0, .calibrations = {}, .probability = probability};
 }
 
 TEST(ConfidenceSet, IsTheShortestThatReachesTheLevel) {

@@ -37,13 +37,13 @@ TEST(Search, ASensorThatIsALittleOffEverywhereIsAsBuilt) {
   EXPECT_EQ(search(experiment_of(rig, {.wind = true})).candidates.front().name, "none");
 }
 
-TEST(Search, NamesARetuneThatIsFarOff) {
+TEST(Search, NamesACalibrationThatIsFarOff) {
   test::OneModeRig rig = test::noisy_rig();
   rig.drag *= 1.5;
   EXPECT_EQ(search(experiment_of(rig, {.wind = true})).candidates.front().name, "drag_error");
 }
 
-TEST(Search, PrefersASmallRetuneToWhatImitatesIt) {
+TEST(Search, PrefersASmallCalibrationToWhatImitatesIt) {
   // 0.15 %. On a softer base, a little heavier or with play the sensor does
   // nearly the same: none of that is to be likelier for the range it has.
   test::OneModeRig rig = test::noisy_rig();
@@ -68,9 +68,9 @@ TEST(Search, FindsAWeakNarrowModeWhereverItLies) {
     const SearchResult result = search(experiment_of(rig), {.max_effects = 1});
     EXPECT_EQ(result.candidates.front().name, "extra_mode") << hz;
     const HypothesisFit& fit = result.fits[result.candidates.front().fit];
-    const auto place = fit.place("extra_mode", 0);
-    ASSERT_TRUE(place.has_value()) << hz;
-    EXPECT_NEAR(std::exp(fit.x(static_cast<Eigen::Index>(*place))), hz, 0.01 * hz);
+    const auto index = fit.index("extra_mode", 0);
+    ASSERT_TRUE(index.has_value()) << hz;
+    EXPECT_NEAR(std::exp(fit.x(static_cast<Eigen::Index>(*index))), hz, 0.01 * hz);
   }
 }
 
@@ -92,7 +92,7 @@ TEST(Search, ASensorThatIsMerelyOffIsNoAnswerWhereMuchIsLeft) {
   rig.cubic = 1e7;
   std::vector<std::string> all;
   for (const Effect& effect : effect_catalogue())
-    if (!effect.retune) all.push_back(effect.id);
+    if (!effect.calibration) all.push_back(effect.id);
   EXPECT_EQ(search(experiment_of(rig), {.left_out = all}).candidates.front().name,
             outside_catalogue);
 }

@@ -10,39 +10,39 @@ namespace {
 using signals::Split;
 
 /// A fit of one rig's records, and what it leaves of another's held-out record.
-LeftOver left_of(const test::OneModeRig& held_out_rig, const test::OneModeRig& rig,
-                 const std::vector<const Effect*>& effects) {
+ResidualExcess left_of(const test::OneModeRig& held_out_rig, const test::OneModeRig& rig,
+                       const std::vector<const Effect*>& effects) {
   const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
   const Experiment fit_records =
       prepare_experiment(nominal, test::rig_dataset(rig), Split::fit, InputNoise::reduced);
   const Experiment held_out = prepare_experiment(nominal, test::rig_dataset(held_out_rig),
                                                  Split::held_out, InputNoise::as_measured);
-  return left_over(fit_records, held_out, fit_hypothesis(fit_records, Hypothesis(effects)));
+  return residual_excess(fit_records, held_out, fit_hypothesis(fit_records, Hypothesis(effects)));
 }
 
-TEST(LeftOver, IsChanceWhereTheCauseIsRight) {
+TEST(ResidualExcess, IsChanceWhereTheCauseIsRight) {
   test::OneModeRig rig = test::noisy_rig();
   EXPECT_LT(std::abs(left_of(rig, rig, {}).n_deviations), 4.);
   rig.delay_s = 1e-3;
-  const LeftOver left = left_of(rig, rig, {&find_effect("delay")});
+  const ResidualExcess left = left_of(rig, rig, {&find_effect("delay")});
   EXPECT_LT(left.n_deviations, 4.);
-  EXPECT_FALSE(contradicts(left));
+  EXPECT_FALSE(contradicted_by(left));
 }
 
-TEST(LeftOver, ContradictsACauseThatDoesNotCarryOver) {
+TEST(ResidualExcess, ContradictsACauseThatDoesNotCarryOver) {
   test::OneModeRig rig = test::noisy_rig(), other = rig;
   rig.delay_s = 1e-3;
   other.delay_s = 3e-3;
-  const LeftOver left = left_of(other, rig, {&find_effect("delay")});
+  const ResidualExcess left = left_of(other, rig, {&find_effect("delay")});
   EXPECT_EQ(left.record, "held_out");
-  EXPECT_TRUE(contradicts(left));
+  EXPECT_TRUE(contradicted_by(left));
 }
 
-TEST(LeftOver, ContradictsNothingThatIsTooLittleOrMayBeChance) {
-  EXPECT_FALSE(contradicts({.excess = 0.1, .n_deviations = 50.}));
-  EXPECT_FALSE(contradicts({.excess = 2., .n_deviations = 2.}));
-  EXPECT_TRUE(contradicts({.excess = 2., .n_deviations = 50., .share_of_gap = 0.3}));
-  EXPECT_FALSE(contradicts({.excess = 2., .n_deviations = 50., .share_of_gap = 0.02}));
+TEST(ResidualExcess, ContradictsNothingThatIsTooLittleOrMayBeChance) {
+  EXPECT_FALSE(contradicted_by({.excess = 0.1, .n_deviations = 50.}));
+  EXPECT_FALSE(contradicted_by({.excess = 2., .n_deviations = 2.}));
+  EXPECT_TRUE(contradicted_by({.excess = 2., .n_deviations = 50., .share_of_gap = 0.3}));
+  EXPECT_FALSE(contradicted_by({.excess = 2., .n_deviations = 50., .share_of_gap = 0.02}));
 }
 
 /// Two known answers of fits of their own, and outside_catalogue.
@@ -52,9 +52,9 @@ SearchResult result_of(const Experiment& experiment, double behind_nats) {
   result.fits.push_back(fit_hypothesis(experiment, Hypothesis({&find_effect("delay")})));
   result.fits.push_back(fit_hypothesis(experiment, Hypothesis::discrepancy()));
   result.candidates = {
-      {.name = "none", .fit = 0, .retunes = {}, .log_posterior = 0.},
-      {.name = "delay", .fit = 1, .retunes = {}, .log_posterior = -behind_nats},
-      {.name = "outside_catalogue", .fit = 2, .retunes = {}, .log_posterior = -90.}};
+      {.name = "none", .fit = 0, .calibrations = {}, .log_posterior = 0.},
+      {.name = "delay", .fit = 1, .calibrations = {}, .log_posterior = -behind_nats},
+      {.name = "outside_catalogue", .fit = 2, .calibrations = {}, .log_posterior = -90.}};
   set_probabilities(result);
   return result;
 }

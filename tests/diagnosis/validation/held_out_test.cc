@@ -50,11 +50,11 @@ TEST(HeldOut, FloorIsTheErrorOfTheTrueModel) {
   }
 }
 
-TEST(HeldOut, ForetellsTheSecondHalfOfAHum) {
+TEST(HeldOut, PredictsTheSecondHalfOfAHum) {
   test::OneModeRig rig = test::noisy_rig();
   rig.hum = 2e-5;
   const Scored hum = scored(rig, {&find_effect("hum")});
-  EXPECT_THAT(hum.score.foretold, testing::ElementsAre("hum"));
+  EXPECT_THAT(hum.score.predicted, testing::ElementsAre("hum"));
   ASSERT_TRUE(hum.score.overall.gap_closed);
   EXPECT_GT(*hum.score.overall.gap_closed, 0.9);
 }

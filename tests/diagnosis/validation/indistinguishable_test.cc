@@ -9,8 +9,8 @@ namespace {
 
 using Sets = std::vector<std::vector<std::string>>;
 
-/// Sets of the first of the given hypotheses, with some retunes named, among their fits.
-Sets sets_of(const test::OneModeRig& rig, const std::vector<std::string>& retunes,
+/// Sets of the first of the given hypotheses, with some calibrations named, among their fits.
+Sets sets_of(const test::OneModeRig& rig, const std::vector<std::string>& calibrations,
              const std::vector<Hypothesis>& hypotheses) {
   const Experiment experiment =
       prepare_experiment(test::nominal_of(test::OneModeRig{}, false), test::rig_dataset(rig),
@@ -18,9 +18,9 @@ Sets sets_of(const test::OneModeRig& rig, const std::vector<std::string>& retune
   SearchResult result;
   for (const Hypothesis& hypothesis : hypotheses)
     result.fits.push_back(fit_hypothesis(experiment, hypothesis));
-  std::vector<std::string> ids = retunes;
+  std::vector<std::string> ids = calibrations;
   for (const Effect* effect : hypotheses.front().effects()) ids.push_back(effect->id);
-  result.candidates = {{.name = joined_name(ids), .fit = 0, .retunes = retunes}};
+  result.candidates = {{.name = joined_name(ids), .fit = 0, .calibrations = calibrations}};
   return indistinguishable_sets(experiment, result);
 }
 
@@ -47,12 +47,12 @@ TEST(Indistinguishable, OneModeCannotTellASofterWhiskerFromASpringInSeriesOrMass
 
 TEST(Indistinguishable, ATinyDelayIsALowpassButALongOneIsNot) {
   test::OneModeRig rig = test::noisy_rig();
-  const std::vector<Hypothesis> rivals{only("delay"), only("sensor_lowpass"), only("hum")};
+  const std::vector<Hypothesis> alternatives{only("delay"), only("sensor_lowpass"), only("hum")};
   rig.delay_s = 1.25e-4;
   rig.moment_noise = 2e-5;
-  EXPECT_TRUE(holds(sets_of(rig, {}, rivals), "delay", "sensor_lowpass"));
+  EXPECT_TRUE(holds(sets_of(rig, {}, alternatives), "delay", "sensor_lowpass"));
   rig.delay_s = 2e-3;
-  EXPECT_TRUE(sets_of(rig, {}, rivals).empty());
+  EXPECT_TRUE(sets_of(rig, {}, alternatives).empty());
 }
 
 TEST(Indistinguishable, AGainOfTheAccelerometerIsAStageThatRocksBelowItsResonance) {

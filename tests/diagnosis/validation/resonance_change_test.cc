@@ -17,7 +17,7 @@ Experiment bench() {
 
 TEST(ResonanceChange, IsNoneOfTheSimulationItself) {
   const Experiment experiment = bench();
-  const auto change = resonance_change(experiment, MendedModel(experiment.nominal, {}));
+  const auto change = resonance_change(experiment, UpdatedModel(experiment.nominal, {}));
   ASSERT_TRUE(change);
   const double zeta = test::OneModeRig{}.damping_ratio;
   EXPECT_NEAR(change->simulated_hz, 35. * std::sqrt(1. - 2. * zeta * zeta), 0.05);
@@ -31,7 +31,7 @@ TEST(ResonanceChange, FollowsStiffnessAndGainApart) {
   StructuralMode& mode = softer.modes.front();
   mode.frequency_rad_s *= 0.8;
   for (double* gain : {&mode.base_gain, &mode.base_rate}) *gain *= 1.5;
-  const auto change = resonance_change(experiment, MendedModel(softer, {}));
+  const auto change = resonance_change(experiment, UpdatedModel(softer, {}));
   ASSERT_TRUE(change);
   EXPECT_NEAR(change->measured_hz / change->simulated_hz, 0.8, 1e-3);
   // At a fifth of the old resonance, a quarter of the new one.
@@ -41,7 +41,7 @@ TEST(ResonanceChange, FollowsStiffnessAndGainApart) {
 
 TEST(ResonanceChange, IsNotThereWithoutAModeOrBaseMotion) {
   Experiment experiment = bench();
-  const MendedModel same(experiment.nominal, {});
+  const UpdatedModel same(experiment.nominal, {});
   experiment.nominal.modes.clear();
   EXPECT_FALSE(resonance_change(experiment, same));
   Experiment still = bench();

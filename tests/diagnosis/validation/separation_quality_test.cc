@@ -27,18 +27,18 @@ signals::Dataset told_truth(const OneModeRig& rig) {
 TEST(SeparationQualityTest, ATrueModelSeparatesWhatAWrongOneLeaves) {
   OneModeRig rig;
   rig.stiffness = 0.8;
-  MendedModel nominal = test::nominal_of(OneModeRig{}, true);
+  UpdatedModel nominal = test::nominal_of(OneModeRig{}, true);
   nominal.nominal.joint_share = 1.;
-  MendedModel mended = nominal;
-  mended.effects = {{.id = "stiffness", .values = {0.8, 0., 0.5}}};
-  const auto quality = separation_quality(nominal, mended, told_truth(rig));
+  UpdatedModel updated = nominal;
+  updated.effects = {{.id = "stiffness", .values = {0.8, 0., 0.5}}};
+  const auto quality = separation_quality(nominal, updated, told_truth(rig));
   ASSERT_TRUE(quality);
   EXPECT_LT(quality->before_db, 3.);
   EXPECT_GT(quality->after_db, 40.);
 }
 
 TEST(SeparationQualityTest, IsNothingWithoutTruth) {
-  const MendedModel nominal = test::nominal_of(OneModeRig{}, true);
+  const UpdatedModel nominal = test::nominal_of(OneModeRig{}, true);
   EXPECT_FALSE(
       separation_quality(nominal, nominal, test::rig_dataset(test::noisy_rig(), {.wind = true})));
 }

@@ -7,14 +7,14 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-MendedModel with(const KnownEffect& effect) {
+UpdatedModel with(const KnownEffect& effect) {
   return {test::nominal_of(test::OneModeRig{}, true), {effect}};
 }
 
-TEST(WindSpeedErrorTest, FallsWhenTheDragIsMended) {
+TEST(WindSpeedErrorTest, FallsWhenTheDragIsUpdated) {
   test::OneModeRig rig = test::noisy_rig();
   rig.drag *= 1.44;
-  const MendedModel nominal = test::nominal_of(test::OneModeRig{}, true);
+  const UpdatedModel nominal = test::nominal_of(test::OneModeRig{}, true);
   const auto error = wind_speed_error(nominal, with({.id = "drag_error", .values = {1.44}}),
                                       test::rig_dataset(rig, {.wind = true}));
   ASSERT_TRUE(error);
@@ -27,7 +27,7 @@ TEST(WindSpeedErrorTest, FallsWhenTheDragIsMended) {
 TEST(WindSpeedErrorTest, CountsTheVibrationThatIsLeft) {
   test::OneModeRig rig = test::noisy_rig();
   rig.stiffness = 0.8;
-  const MendedModel nominal = test::nominal_of(test::OneModeRig{}, true);
+  const UpdatedModel nominal = test::nominal_of(test::OneModeRig{}, true);
   const signals::Dataset real = test::rig_dataset(rig, {.wind = true, .high_level = 20.});
   const auto error =
       wind_speed_error(nominal, with({.id = "stiffness", .values = {0.8, 0., 0.5}}), real);
@@ -36,7 +36,7 @@ TEST(WindSpeedErrorTest, CountsTheVibrationThatIsLeft) {
 }
 
 TEST(WindSpeedErrorTest, IsNothingWithoutWind) {
-  const MendedModel nominal = test::nominal_of(test::OneModeRig{}, false);
+  const UpdatedModel nominal = test::nominal_of(test::OneModeRig{}, false);
   EXPECT_FALSE(wind_speed_error(nominal, nominal, test::rig_dataset(test::noisy_rig())));
 }
 

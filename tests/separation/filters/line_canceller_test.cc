@@ -64,7 +64,7 @@ TEST(LineCanceller, KeepsNoiseThatForgetsItselfWithinTheDelay) {
            test::rms(wind);
   };
   EXPECT_LT(remaining(20), 0.35);
-  EXPECT_GT(remaining(1), 0.6) << "the wind foretells itself within its own correlation";
+  EXPECT_GT(remaining(1), 0.6) << "the wind predicts itself within its own correlation";
 }
 
 TEST(LineCanceller, TakesNothingFromTheAcceleration) {

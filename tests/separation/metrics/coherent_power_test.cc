@@ -52,17 +52,17 @@ TEST(CoherentPower, OfWhatHasNothingToDoWithTheBaseScattersAboutZeroAsItSays) {
   constexpr std::size_t n = 8192;  // eight whole segments: as few averages as there can be
   // Many lines count in white noise, where a bias adds up, and few in a resonance.
   for (const bool resonates : {false, true}) {
-    double mean = 0., square = 0., foretold = 0.;
+    double mean = 0., square = 0., predicted = 0.;
     for (unsigned trial = 0; trial < n_trials; ++trial) {
       const Signal other = white(n, 2 * trial + 1);
       const auto found =
           coherent_power(white(n, 2 * trial), resonates ? resonant(other) : other, rate_hz);
       mean += found.value_n2_m2 / n_trials;
       square += found.value_n2_m2 * found.value_n2_m2 / n_trials;
-      foretold += found.deviation_n2_m2 / n_trials;
+      predicted += found.deviation_n2_m2 / n_trials;
     }
-    EXPECT_NEAR(mean / foretold, 0., 0.2) << resonates;
-    EXPECT_NEAR(std::sqrt(square) / foretold, 1., 0.25) << resonates;
+    EXPECT_NEAR(mean / predicted, 0., 0.2) << resonates;
+    EXPECT_NEAR(std::sqrt(square) / predicted, 1., 0.25) << resonates;
   }
 }
 

@@ -195,8 +195,8 @@ TEST_F(ReadRecord, RefusesARateThatContradictsTime) {
   EXPECT_EQ(read(content, {.sampling_rate_hz = 500.4}).sampling_rate_hz(), 500.4);
   EXPECT_THAT(
       reading(content, {.sampling_rate_hz = 501.}),
-      ThrowsMessage<UserError>(AllOf(HasSubstr("501 Hz"), HasSubstr("contradicts column 'time_s'"),
-                                     HasSubstr("500 Hz"))));
+      ThrowsMessage<UserError>(AllOf(
+          HasSubstr("501 Hz"), HasSubstr("contradicted_by column 'time_s'"), HasSubstr("500 Hz"))));
 }
 
 TEST_F(ReadRecord, RecognizesTimeInMilliseconds) {

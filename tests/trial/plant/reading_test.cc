@@ -15,7 +15,7 @@ TEST(ReadOut, AnAccelerometerThatIsReadAgainRepeatsItsNoiseToo) {
   for (std::size_t i = 0; i < still.size(); ++i)
     moves.push_back(std::sin(2. * std::numbers::pi * 12. * static_cast<double>(i) / fine_hz));
   World world;
-  world.polled_hz = 400.;
+  world.read_rate_hz = 400.;
   world.acceleration_noise = 0.05;
   world.moment_noise = 1e-6;
   const signals::Record record =

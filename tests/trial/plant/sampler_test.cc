@@ -42,7 +42,7 @@ TEST(Clocks, AreAsTheWorldSays) {
 TEST(Clocks, AnAccelerometerOf400HzRepeatsEveryFifthSampleAt500) {
   std::mt19937_64 random(1);
   World world;
-  world.polled_hz = 400.;
+  world.read_rate_hz = 400.;
   const std::vector<double> times = acceleration_times(world, 500., 1000, random);
   int repeats = 0;
   for (std::size_t i = 1; i < times.size(); ++i) repeats += times[i] == times[i - 1];

@@ -1,4 +1,4 @@
-// Any bytes as a mended model: one that is written back the same, or a UserError; nothing else.
+// Any bytes as an updated model: one that is written back the same, or a UserError; nothing else.
 #include <cstdlib>
 #include <string>
 
@@ -11,12 +11,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::FileOfBytes file(data, size);
   std::string text;
   try {
-    text = diagnosis::mended_model_json(diagnosis::read_mended_model(file.path()));
+    text = diagnosis::updated_model_json(diagnosis::read_updated_model(file.path()));
   } catch (const signals::UserError&) {
     return 0;
   }
   const fuzz::FileOfBytes written(text);
-  if (diagnosis::mended_model_json(diagnosis::read_mended_model(written.path())) != text)
+  if (diagnosis::updated_model_json(diagnosis::read_updated_model(written.path())) != text)
     std::abort();
   return 0;
 }
