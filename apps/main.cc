@@ -18,14 +18,18 @@
 #include "fem/linalg/processes.h"
 #include "fem/linalg/solver_session.h"
 #include "signals/base/error.h"
+#include "signals/base/exit_status.h"
 #include "signals/system/kept_memory.h"
 
 namespace {
 
-constexpr int bad_input = 2, too_poor_data = 3, internal_error = 70, interrupted = 130;
+namespace exit_status = vibrissa::signals::exit_status;
 
 int run(int argc, char** argv) {
   const std::unique_ptr<CLI::App> app = vibrissa::apps::command_tree();
+  // --help behind it would hide that there is no such command.
+  if (const std::string advice = vibrissa::apps::command_advice(*app, argc, argv); !advice.empty())
+    throw vibrissa::signals::UserError(advice);
   try {
     app->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -34,7 +38,7 @@ int run(int argc, char** argv) {
           !advice.empty())
         std::cerr << "vibrissa: " << advice << "\n";
     }
-    return app->exit(error) == 0 ? 0 : bad_input;
+    return app->exit(error) == 0 ? 0 : exit_status::bad_input;
   }
   return 0;
 }
@@ -43,16 +47,16 @@ int run(int argc, char** argv) {
 constexpr std::array<std::string_view, 5> of_several = {"run", "modes", "simulate", "transient",
                                                         "trial"};
 
-/// Only the first process is heard, but where each has its own to say.
-class Voice {
+/// Only the first process prints, but where each has its own work.
+class OutputMute {
  public:
-  explicit Voice(const bool is_heard)
-      : output_(is_heard ? nullptr : std::cout.rdbuf(nullptr)),
-        errors_(is_heard ? nullptr : std::cerr.rdbuf(nullptr)) {}
-  ~Voice() { raise(); }
-  Voice(const Voice&) = delete;
-  Voice& operator=(const Voice&) = delete;
-  void raise() {
+  explicit OutputMute(const bool is_muted)
+      : output_(is_muted ? std::cout.rdbuf(nullptr) : nullptr),
+        errors_(is_muted ? std::cerr.rdbuf(nullptr) : nullptr) {}
+  ~OutputMute() { restore(); }
+  OutputMute(const OutputMute&) = delete;
+  OutputMute& operator=(const OutputMute&) = delete;
+  void restore() {
     if (output_ != nullptr) std::cout.rdbuf(std::exchange(output_, nullptr));
     if (errors_ != nullptr) std::cerr.rdbuf(std::exchange(errors_, nullptr));
   }
@@ -75,37 +79,40 @@ Failure attempt(int argc, char** argv, const std::string_view command) {
                                          "' is work for one process; start it without mpirun");
     return {run(argc, argv), ""};
   } catch (const vibrissa::signals::UserError& error) {
-    return {bad_input, error.what()};
-  } catch (const vibrissa::diagnosis::TooPoorData& error) {
-    return {too_poor_data, error.what()};
+    return {exit_status::bad_input, error.what()};
+  } catch (const vibrissa::diagnosis::TooLittleData& error) {
+    return {exit_status::too_little_data, error.what()};
+  } catch (const vibrissa::signals::ResourceError& error) {
+    return {exit_status::no_resource, error.what()};
   } catch (const vibrissa::apps::Interrupted& error) {
-    return {interrupted, error.what()};
+    return {exit_status::interrupted, error.what()};
   } catch (const std::exception& error) {
     if (vibrissa::fem::is_out_of_memory(error))
       return {
-          bad_input,
+          exit_status::no_resource,
           "not enough memory; shorter records or a coarser mesh (Model/Mesh resolution) need less"};
-    return {internal_error, std::string("internal error: ") + error.what() +
-                                "\nThis is a fault of the program; please report it with the "
-                                "command that you gave."};
+    return {exit_status::fault, std::string("internal error: ") + error.what() +
+                                    "\nThis is a fault of the program; please report it with the "
+                                    "command that you gave."};
   }
 }
 
 /// What was printed must have arrived: a full disk behind a redirection is a failure.
 Failure with_output_written(Failure failure) {
   if (failure.status == 0 && !std::cout.flush())
-    failure = {bad_input, "the standard output cannot be written; is the disk full?"};
+    failure = {exit_status::no_resource,
+               "the standard output cannot be written; is the disk full?"};
   return failure;
 }
 
 // A failure of all is told once; one that is a single process's own ends the others, who would wait
 // for it for ever.
-void settle(const Failure& failure, Voice& voice) {
+void settle(const Failure& failure, OutputMute& mute) {
   namespace fem = vibrissa::fem;
   if (failure.status == 0) return;
   const bool several = fem::n_processes() > 1;
   const bool is_alone = several && !fem::all_processes_failed();
-  if (is_alone) voice.raise();
+  if (is_alone) mute.restore();
   if (!failure.message.empty()) std::cerr << "vibrissa: " << failure.message << std::endl;
   if (is_alone) fem::end_all_processes(failure.status);
   if (several) fem::all_processes_failed();
@@ -123,10 +130,10 @@ int main(int argc, char** argv) {
   if (fem::is_launched_as_several() && command != "draw") session.emplace();
   // A file that grows beyond a limit is an error like a full disk, not the end without a word.
   std::signal(SIGXFSZ, SIG_IGN);
-  const bool is_heard = fem::is_first_process() || command == "trial";
-  Voice voice(is_heard);
+  const bool is_muted = !fem::is_first_process() && command != "trial";
+  OutputMute mute(is_muted);
   Failure failure = attempt(argc, argv, command);
-  if (is_heard) failure = with_output_written(std::move(failure));
-  settle(failure, voice);
+  if (!is_muted) failure = with_output_written(std::move(failure));
+  settle(failure, mute);
   return failure.status;
 }

@@ -155,7 +155,7 @@ SeparationParameters parse_separation(ParameterHandler& prm) {
 void declare_output(ParameterHandler& prm) {
   prm.enter_subsection("Output");
   prm.declare_entry("Folder", "", Patterns::Anything(),
-                    "Results; must not exist yet. Empty: a free name below runs/.");
+                    "Results; must not exist yet. Empty: a free name below results/.");
   prm.declare_entry("VTK", "true", Patterns::Bool(), "Whether .vtu and .pvd files are written.");
   prm.declare_entry("Pictures", "true", Patterns::Bool(), "Whether figures are drawn.");
   prm.declare_entry("Full-order duration", "0.06", Patterns::Double(0., 1e4),

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "case/case_entries.h"
+#include "case/embedded_cases.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::sensor_case {
@@ -17,14 +18,33 @@ std::string trimmed(const std::string& text) {
   return dealii::Utilities::trim(text);
 }
 
-std::vector<std::string> read_lines(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw UserError(file.string() + ": cannot be read; name an existing case file (.prm)");
-  }
+std::vector<std::string> lines_of(std::istream& in) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
+}
+
+/// The built-in case of this name, for those who are in another folder than the one with cases/.
+std::optional<std::string_view> built_in_case(const std::filesystem::path& file) {
+  if (!file.parent_path().empty() && file.parent_path() != "cases") return std::nullopt;
+  if (file.filename() == "flow_sensor.prm") return flow_sensor_case();
+  if (file.filename() == "whisker_sensor.prm") return whisker_sensor_case();
+  return std::nullopt;
+}
+
+std::vector<std::string> read_lines(const std::filesystem::path& file) {
+  const auto built_in = built_in_case(file);
+  if (built_in && !std::filesystem::exists(file)) {
+    std::istringstream in{std::string(*built_in)};
+    return lines_of(in);
+  }
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file)) {
+    throw UserError(file.string() +
+                    ": cannot be read; name an existing case file (.prm), or the built-in "
+                    "cases/flow_sensor.prm or cases/whisker_sensor.prm");
+  }
+  return lines_of(in);
 }
 
 std::optional<std::string> text_after(const std::string& line, const std::string& keyword) {

@@ -69,7 +69,9 @@ struct Case {
 /// values out of range are refused with file, line and the known names or the range.
 class CaseFile {
  public:
-  /// Throws UserError when the file is missing or has such an entry.
+  /// Throws UserError when the file is missing or has such an entry. cases/flow_sensor.prm and
+  /// cases/whisker_sensor.prm are built in for those who have no such file. Proven by
+  /// tests/apps/results_test.cc.
   explicit CaseFile(const std::filesystem::path& file);
   ~CaseFile();
   CaseFile(CaseFile&&) noexcept;

@@ -35,7 +35,8 @@ endfunction()
 
 # vibrissa_tests(ROOM LINK ... [SOURCES ...]): the GoogleTest program of one room, of every *_test.cc of
 # the folder and SOURCES beside them. One CTest test a case; in rooms that load deal.II one CTest test for
-# the program, whose start takes longer than most cases.
+# the program, whose start takes longer than most cases. Suites whose name begins with Long, and tests named
+# long_, are left to "./check --long".
 function(vibrissa_tests room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   file(GLOB_RECURSE tests CONFIGURE_DEPENDS *_test.cc)
@@ -52,8 +53,9 @@ function(vibrissa_tests room)
     VIBRISSA_SOURCE_DIR="${VIBRISSA_ROOT}"
     VIBRISSA_BINARY_DIR="${PROJECT_BINARY_DIR}")
   if(room MATCHES "^(materials|meshes|flow|fem)$")
-    add_test(NAME ${room} COMMAND test_${room})
-    set_tests_properties(${room} PROPERTIES LABELS ${room} TIMEOUT 1500)
+    add_test(NAME ${room} COMMAND test_${room} --gtest_filter=-Long*)
+    add_test(NAME long_${room} COMMAND test_${room} --gtest_filter=Long*)
+    set_tests_properties(${room} long_${room} PROPERTIES LABELS ${room} TIMEOUT 1500)
   else()
     include(GoogleTest)
     gtest_discover_tests(test_${room} TEST_PREFIX "${room}." DISCOVERY_TIMEOUT 60

@@ -44,7 +44,7 @@ void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
     if (!finding.record.empty()) text.append(finding.record).append(": ");
     text += finding.message;
   }
-  throw TooPoorData(text);
+  throw TooLittleData(text);
 }
 
 bool has_moving(const Experiment& experiment) {

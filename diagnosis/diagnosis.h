@@ -24,7 +24,7 @@ namespace vibrissa::diagnosis {
 
 /// The data are too poor to say anything; the message says what is missing. Programs end with exit
 /// status 3.
-class TooPoorData : public std::runtime_error {
+class TooLittleData : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -101,7 +101,7 @@ struct DiagnoseOptions {
 };
 
 /// Compares a simulation with records: noise, where, what, how far, how sure and what next. Throws
-/// UserError for data that spoil everything (finding.h), TooPoorData when no fit record can be
+/// UserError for data that spoil everything (finding.h), TooLittleData when no fit record can be
 /// compared.
 /// Proven by tests/diagnosis/diagnosis_test.cc.
 Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& real,

@@ -9,8 +9,9 @@
 PYBIND11_MODULE(_core, module) {
   namespace py = pybind11;
   py::register_exception<vibrissa::signals::UserError>(module, "UserError", PyExc_ValueError);
-  py::register_exception<vibrissa::diagnosis::TooPoorData>(module, "TooPoorData",
-                                                           PyExc_RuntimeError);
+  py::register_exception<vibrissa::signals::ResourceError>(module, "ResourceError", PyExc_OSError);
+  py::register_exception<vibrissa::diagnosis::TooLittleData>(module, "TooLittleData",
+                                                             PyExc_RuntimeError);
   vibrissa::python::add_records(module);
   vibrissa::python::add_methods(module);
 }

@@ -32,7 +32,7 @@ void CaseOptions::add_folder_to(CLI::App& command) {
   command.add_option(
       "-o,--output,--out", output_folder,
       "Results folder; must not exist yet (default: Output/Folder of the case, else a "
-      "new one in runs/)");
+      "free name below results/)");
 }
 
 }  // namespace vibrissa::apps

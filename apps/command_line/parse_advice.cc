@@ -28,12 +28,18 @@ CLI::App* innermost(CLI::App& app, const int argc, const char* const* argv, int&
 
 }  // namespace
 
-std::string parse_advice(CLI::App& app, const int argc, const char* const* argv) {
+std::string command_advice(CLI::App& app, const int argc, const char* const* argv) {
   int at = 1;
   CLI::App* const command = innermost(app, argc, argv, at);
   const bool expects_command = !command_names(*command).empty();
   if (at < argc && expects_command && argv[at][0] != '-')
     return signals::unknown_name("command", argv[at], command_names(*command));
+  return {};
+}
+
+std::string parse_advice(CLI::App& app, const int argc, const char* const* argv) {
+  int at = 1;
+  CLI::App* const command = innermost(app, argc, argv, at);
   const std::vector<std::string> options = option_names(*command);
   for (; at < argc; ++at) {
     const std::string word = argv[at];

@@ -63,7 +63,8 @@ void benchmark_separation(const SuiteOptions& options) {
   const bool quiet = options.common.quiet || options.common.json;
   std::vector<std::string> left_out;
   const auto scenarios = scenarios_of(options, !quiet, left_out);
-  const auto folder = report::RunFolder::given_or_free(options.folder, "runs/benchmark_separation");
+  const auto folder =
+      report::RunFolder::given_or_free(options.folder, "results/benchmark_separation");
   folder.write_run({given_command_line(), {}, {}});
   signals::Progress progress("scenarios", scenarios.size(), !quiet);
   std::vector<suite::ScenarioResult> results;
@@ -105,8 +106,9 @@ void add_benchmark_command(CLI::App& app) {
                       "Record file that becomes a scenario of its own (may be repeated)");
   command->add_option("--truth-column", options->truth_column,
                       "Column of the datasets that holds the true wind moment [N m]");
-  command->add_option("-o,--output,--out", options->folder,
-                      "Results folder; must be new or empty (default: runs/benchmark_separation)");
+  command->add_option(
+      "-o,--output,--out", options->folder,
+      "Results folder; must be new or empty (default: results/benchmark_separation)");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
   command->footer(

@@ -6,6 +6,7 @@
 #include "apps/command_line/case_options.h"
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/results.h"
 #include "apps/jobs/measured_response.h"
 #include "fem/linalg/solver_session.h"
 #include "fem/sensor/reduction.h"
@@ -96,11 +97,15 @@ void bode(const BodeOptions& options) {
   if (options.response_file)
     signals::formats::write_response(*options.response_file, measured.curve.response,
                                      measured.curve.label);
-  if (options.folder) {
-    write_folder(*options.folder, measured);
-    const auto pictures = report::draw_pictures(*options.folder);
+  const bool is_told = options.folder || options.response_file || options.common.json;
+  const std::optional<std::string> folder =
+      is_told ? options.folder : free_results_folder("bode").string();
+  if (folder) {
+    write_folder(*folder, measured);
+    const auto pictures = report::draw_pictures(*folder);
     if (!options.common.json) {
-      std::cout << pictures.message << "\n"
+      std::cout << "response: " << *folder << "/response.csv\n"
+                << pictures.message << "\n"
                 << measured.words << (measured.words.empty() ? "" : "\n");
     }
   }
@@ -108,12 +113,9 @@ void bode(const BodeOptions& options) {
     print_json(response_json(measured));
     return;
   }
-  if (options.common.quiet && (options.response_file || options.folder)) return;
-  if (options.response_file)
+  if (options.response_file && !options.common.quiet)
     std::cout << "wrote " << *options.response_file << ": "
               << measured.curve.response.frequency_hz.size() << " frequencies\n";
-  else if (!options.folder)
-    std::cout << response_table(measured).to_csv();
 }
 
 }  // namespace
@@ -126,7 +128,8 @@ void add_bode_command(CLI::App& app) {
       ->required();
   options->chosen.add_settings_to(*command);
   command->add_option("-o,--output,--out", options->folder,
-                      "New folder for figure, picture and response.csv");
+                      "New folder for plot, picture and response.csv (default: a free name "
+                      "results/bode; none with --json or --response)");
   command->add_option("--response", options->response_file,
                       "Also write the response for other programs: .uff, .unv, .uf58 (Universal "
                       "File, type 58), .mat or .csv");

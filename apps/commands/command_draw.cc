@@ -41,7 +41,7 @@ void add_draw_command(CLI::App& app) {
   add_common_options(*command, *common);
   command->footer(
       "Example:\n"
-      "  vibrissa draw runs/flow_sensor");
+      "  vibrissa draw results/flow_sensor");
   command->callback([folder, common] { draw(*folder, *common); });
 }
 

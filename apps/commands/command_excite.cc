@@ -12,6 +12,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/results.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
 #include "signals/base/unit.h"
@@ -116,8 +117,6 @@ void check_options(const ExciteOptions& options) {
   const double rate = options.design.sampling_rate_hz;
   if (std::set<double>(levels.begin(), levels.end()).size() != levels.size())
     throw signals::UserError("--levels: a level is given twice");
-  if (options.wav && !options.folder)
-    throw signals::UserError("--wav: name the folder for the files with -o");
   if (options.wav && rate != std::floor(rate))
     throw signals::UserError("--wav: a sound file's rate is a whole number of hertz, not " +
                              signals::to_text(rate) + "; choose another --rate");
@@ -131,8 +130,7 @@ void check_options(const ExciteOptions& options) {
 }
 
 void write_files(const ExciteOptions& options, const signals::DesignedExcitation& excitation,
-                 nlohmann::json& document) {
-  const fs::path folder(*options.folder);
+                 const fs::path& folder, nlohmann::json& document) {
   const std::string channel = channel_of(options);
   const WavFormat format = chosen(formats, options.wav_format, "--wav-format");
   signals::make_new_folder(folder);
@@ -179,7 +177,8 @@ void print_lines(const signals::DesignedExcitation& excitation) {
   }
 }
 
-void print_text(const ExciteOptions& options, const signals::DesignedExcitation& excitation) {
+void print_text(const ExciteOptions& options, const signals::DesignedExcitation& excitation,
+                const fs::path& folder) {
   const auto& design = excitation.design;
   std::cout << signals::name_of(design.kind) << ", " << design.low_hz << " .. " << design.high_hz
             << " Hz, " << design.n_lead_in_periods << " + " << design.n_periods << " periods of "
@@ -190,21 +189,26 @@ void print_text(const ExciteOptions& options, const signals::DesignedExcitation&
     std::cout << drive_name(excitation, drive) << ": level " << drive.level << ", realisation "
               << drive.realisation << ", peak " << drive.level * design.peak << " " << design.unit
               << ", crest factor " << std::setprecision(4) << drive.crest_factor << "\n";
-  if (options.wav && options.folder)
+  if (options.wav)
     std::cout << "1.0 in the WAV files is " << signals::to_text(excitation.full_scale()) << " "
               << design.unit << "\n";
-  if (options.folder) std::cout << "written to " << *options.folder << "\n";
+  std::cout << "written to " << folder.string() << "\n";
 }
 
 void excite(const ExciteOptions& options) {
   check_options(options);
   const auto excitation = signals::design_excitation(resolved(options));
   nlohmann::json document = signals::to_json(excitation);
-  if (options.folder) write_files(options, excitation, document);
+  std::optional<fs::path> folder;
+  if (options.folder)
+    folder = *options.folder;
+  else if (options.wav || !options.common.json)
+    folder = free_results_folder("excite");
+  if (folder) write_files(options, excitation, *folder, document);
   if (options.common.json)
     print_json(document);
   else
-    print_text(options, excitation);
+    print_text(options, excitation, *folder);
 }
 
 void add_signal_options(CLI::App& command, ExciteOptions& options) {
@@ -256,7 +260,8 @@ void add_excite_command(CLI::App& app) {
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("-o,--output,--out", options->folder,
-                      "New folder for the drives (CSV, WAV) and excitation.json");
+                      "New folder for the drives (CSV, WAV) and excitation.json (default: a free "
+                      "name results/excite; none with --json alone)");
   command->add_flag("--wav", options->wav, "Sound files as well, scaled to full scale");
   command->add_option("--wav-format", options->wav_format, "float32 or pcm24")
       ->capture_default_str();

@@ -6,6 +6,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/results.h"
 #include "separation/identification/identify.h"
 #include "separation/identification/identify_response.h"
 #include "separation/identification/output_only.h"
@@ -53,6 +54,16 @@ GivenOptions options_of_records(const IdentifyCommandOptions& options) {
           {options.method != "output-error", "--method"}};
 }
 
+/// The model is written unless only JSON was asked for.
+std::optional<std::string> model_file_of(const IdentifyCommandOptions& options) {
+  if (options.common.json && !options.model_file) return std::nullopt;
+  return given_or_result(options.model_file, "identify", "bvrm.json");
+}
+
+void say_written(const IdentifyCommandOptions& options, const std::optional<std::string>& file) {
+  if (file && !options.common.quiet) std::cout << "model: " << *file << "\n";
+}
+
 void refuse_what_needs_an_input(const IdentifyCommandOptions& options) {
   const std::string reason = " needs the base acceleration, which --output-only does without";
   refuse(options_of_records(options), reason);
@@ -84,7 +95,8 @@ void identify_from_response(const IdentifyCommandOptions& options) {
       separation::identify_response(response, {.order = options.identify.order,
                                                .max_order = options.identify.max_order,
                                                .direct_term = !options.no_direct_term});
-  if (options.model_file) separation::write_bvrm(*options.model_file, {found.fit.model});
+  const std::optional<std::string> model_file = model_file_of(options);
+  if (model_file) separation::write_bvrm(*model_file, {found.fit.model});
   if (options.common.json) {
     print_json(separation::identified_response_json(found));
     return;
@@ -95,6 +107,7 @@ void identify_from_response(const IdentifyCommandOptions& options) {
             << response.frequency_hz.back() << " Hz, " << separation::to_string(found.fit.end)
             << "\nfit of every third line by a model of the others: " << found.held_out_fit_percent
             << " %\n";
+  say_written(options, model_file);
 }
 
 void identify_from_output(const IdentifyCommandOptions& options) {
@@ -131,8 +144,8 @@ void identify(const IdentifyCommandOptions& options) {
     separation::write_c_header(*options.c_header_file, result.fit.model,
                                {all.sampling_rate_hz(), result.hold});
   }
-  if (options.model_file)
-    separation::write_bvrm(*options.model_file, {result.fit.model, result.hold});
+  const std::optional<std::string> model_file = model_file_of(options);
+  if (model_file) separation::write_bvrm(*model_file, {result.fit.model, result.hold});
   if (options.common.json) {
     print_json(separation::identification_report(result, evidence, options.method));
     return;
@@ -148,6 +161,38 @@ void identify(const IdentifyCommandOptions& options) {
   if (!options.held_out_file && !options.common.quiet) {
     std::cout << "Held out: the last third of the record.\n";
   }
+  say_written(options, model_file);
+}
+
+void add_other_inputs(CLI::App& command, IdentifyCommandOptions& options) {
+  command.add_flag("--output-only", options.output_only,
+                   "Resonances and damping from base_moment alone, for a drive that nobody "
+                   "measured and that is taken for white: no gain, no model. --order is then "
+                   "the highest tried (default 20)");
+  command
+      .add_option("--lags", options.max_lags,
+                  "--output-only: half the longest lag of the covariances [samples]; a few "
+                  "periods of the lowest resonance should fit into twice as many")
+      ->check(positive_number())
+      ->capture_default_str();
+  command.add_flag("--frequency-response", options.frequency_response,
+                   "The file holds a measured frequency response base acceleration -> base "
+                   "moment: a Universal File (function of type 4), a .mat or a CSV");
+  command.add_option("--response-as", options.response_as,
+                     "--frequency-response: NAME[unit]*FACTOR[unit] of its values, as 'H[mN mm/g]' "
+                     "or '[uT/g]*0.18[N m/T]'; of several in a Universal File its number");
+}
+
+void identify_what_is_given(IdentifyCommandOptions options) {
+  refuse_overwriting({options.record_file, options.held_out_file},
+                     {options.model_file, options.c_header_file});
+  if (!options.response_as.empty()) options.frequency_response = true;
+  if (options.output_only)
+    identify_from_output(options);
+  else if (options.frequency_response)
+    identify_from_response(options);
+  else
+    identify(options);
 }
 
 }  // namespace
@@ -182,24 +227,10 @@ void add_identify_command(CLI::App& app) {
                    "output-error; srivc, refined instrumental variables; or frequency, the fit of "
                    "the frequency response (of whole periods with --period, else Welch's)")
       ->capture_default_str();
-  command->add_flag("--output-only", options->output_only,
-                    "Resonances and damping from base_moment alone, for a drive that nobody "
-                    "measured and that is taken for white: no gain, no model. --order is then "
-                    "the highest tried (default 20)");
-  command
-      ->add_option("--lags", options->max_lags,
-                   "--output-only: half the longest lag of the covariances [samples]; a few "
-                   "periods of the lowest resonance should fit into twice as many")
-      ->check(positive_number())
-      ->capture_default_str();
-  command->add_flag("--frequency-response", options->frequency_response,
-                    "The file holds a measured frequency response base acceleration -> base "
-                    "moment: a Universal File (function of type 4), a .mat or a CSV");
-  command->add_option(
-      "--response-as", options->response_as,
-      "--frequency-response: NAME[unit]*FACTOR[unit] of its values, as 'H[mN mm/g]' "
-      "or '[uT/g]*0.18[N m/T]'; of several in a Universal File its number");
-  command->add_option("-o,--output,--out", options->model_file, "Model written as JSON");
+  add_other_inputs(*command, *options);
+  command->add_option("-o,--output,--out", options->model_file,
+                      "Model written as JSON (default: bvrm.json in a free folder "
+                      "results/identify; none with --json alone)");
   command->add_option("--c-header", options->c_header_file,
                       "Model written as C header for a microcontroller, at the record's rate");
   options->record.add_to(*command);
@@ -210,17 +241,7 @@ void add_identify_command(CLI::App& app) {
       "  vibrissa identify bench.csv --method srivc --hold first_order --c-header bvrm.h\n"
       "  vibrissa identify modal_test.uff --frequency-response --response-as '2[mN mm/g]'\n"
       "  vibrissa identify ring_down.csv --output-only");
-  command->callback([options] {
-    refuse_overwriting({options->record_file, options->held_out_file},
-                       {options->model_file, options->c_header_file});
-    if (!options->response_as.empty()) options->frequency_response = true;
-    if (options->output_only)
-      identify_from_output(*options);
-    else if (options->frequency_response)
-      identify_from_response(*options);
-    else
-      identify(*options);
-  });
+  command->callback([options] { identify_what_is_given(*options); });
 }
 
 }  // namespace vibrissa::apps

@@ -73,7 +73,7 @@ void reproduce(const ReproduceOptions& options) {
   report::RunFolder::refuse_taken(options.folder);
   const bool quiet = options.common.quiet || options.common.json;
   const reproduction::Reproduction result = reproduce_paper(options, !quiet);
-  const auto folder = report::RunFolder::given_or_free(options.folder, "runs/reproduce");
+  const auto folder = report::RunFolder::given_or_free(options.folder, "results/reproduce");
   folder.write_run({given_command_line(), {}, {}});
   const std::string text = report_text(result);
   folder.write_text("reproduction.md", text);
@@ -106,11 +106,11 @@ void add_reproduce_command(CLI::App& app) {
   command->add_option("--whisker-case", options->whisker_case, "Case of the whisker sensor")
       ->capture_default_str();
   command->add_option("-o,--output,--out", options->folder,
-                      "Results folder; must be new or empty (default: runs/reproduce)");
+                      "Results folder; must be new or empty (default: results/reproduce)");
   add_common_options(*command, options->common);
   command->footer(
       "Example:\n"
-      "  vibrissa reproduce -o runs/paper");
+      "  vibrissa reproduce -o results/paper");
   command->callback([options] { reproduce(*options); });
 }
 

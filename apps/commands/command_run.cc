@@ -49,7 +49,7 @@ void add_run_command(CLI::App& app) {
       "  vibrissa run sensor.prm\n"
       "  vibrissa run sensor.prm --base-acceleration bus.csv --column 'base_acceleration=az[g]' "
       "\\\n"
-      "    --remove-mean base_acceleration --output runs/bus");
+      "    --remove-mean base_acceleration --output results/bus");
   command->callback([options] {
     const bool quiet = options->common.quiet || options->common.json;
     const RunOutcome outcome = run_job(options->chosen, given_command_line(), quiet);

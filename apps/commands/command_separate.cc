@@ -6,6 +6,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/results.h"
 #include "apps/jobs/stream_separation.h"
 #include "diagnosis/model/updated_model_json.h"
 #include "diagnosis/prediction/record_simulation.h"
@@ -135,11 +136,11 @@ void warn_of_dead_accelerometer(const signals::Record& record) {
 }
 
 void separate_as_stream(const SeparateOptions& options) {
-  if (!options.output_file || options.truth_column || options.sensor_model_file)
+  if (options.truth_column || options.sensor_model_file)
     throw signals::UserError(
-        "--stream writes wind moments as it reads (name the file: -o) and holds no record, which "
-        "--truth, --dtw-path and --sensor-model need");
-  if (signals::formats::extension_of(*options.output_file) != ".csv")
+        "--stream holds no record, which --truth, --dtw-path and --sensor-model need; leave "
+        "--stream or these options out");
+  if (options.output_file && signals::formats::extension_of(*options.output_file) != ".csv")
     throw signals::UserError("--stream writes CSV: give -o a name that ends in .csv");
   if (options.model_file && diagnosis::is_updated_model(*options.model_file))
     throw signals::UserError(*options.model_file +
@@ -151,20 +152,25 @@ void separate_as_stream(const SeparateOptions& options) {
     methods.push_back({"bvrm", bvrm_separator(options, record.sampling_rate_hz())});
   for (const auto& name : options.methods)
     methods.push_back({name, separation::stream_method(name).make(options.fdaf)});
-  separate_stream(record, methods, *options.output_file, options.common.is_talkative());
+  const std::string output = given_or_result(options.output_file, "separate", "separated.csv");
+  separate_stream(record, methods, output, options.common.is_talkative());
   if (options.common.json)
-    print_json({{"record", *options.output_file}, {"samples", record.n_samples()}});
+    print_json({{"record", output}, {"samples", record.n_samples()}});
   else if (!options.common.quiet)
-    std::cout << "wrote " << *options.output_file << ": " << record.n_samples() << " samples\n";
+    std::cout << "wrote " << output << ": " << record.n_samples() << " samples\n";
+}
+
+/// The record is written unless only JSON was asked for.
+std::optional<std::string> written_file(const SeparateOptions& options) {
+  if (options.common.json && !options.output_file && !options.sensor_model_file)
+    return std::nullopt;
+  return given_or_result(options.output_file, "separate", "separated.csv");
 }
 
 void separate(const SeparateOptions& options) {
   refuse_overwriting({options.record_file, options.model_file, options.sensor_model_file},
                      {options.output_file, options.dtw_path_file});
   if (options.stream) return separate_as_stream(options);
-  if (options.sensor_model_file && !options.output_file) {
-    throw signals::UserError("--sensor-model adds wind speeds to the output record: name it (-o)");
-  }
   if (options.dtw_path_file && !options.truth_column) {
     throw signals::UserError(
         "--dtw-path lays estimates beside the true wind moment: name its "
@@ -181,23 +187,36 @@ void separate(const SeparateOptions& options) {
     const auto table = views::warping_table(signals, record, truth, options.settling_s);
     signals::write_file(*options.dtw_path_file, [&](std::ostream& out) { out << table.to_csv(); });
   }
-  if (options.output_file) {
+  const std::optional<std::string> output_file = written_file(options);
+  if (output_file) {
     signals::Record output = output_record(record, signals);
     if (options.sensor_model_file) add_wind_speeds(options, signals, output);
-    signals::write_record(*options.output_file, output);
+    signals::write_record(*output_file, output);
   }
   if (options.common.json) {
     print_json(views::separation_json(signals));
     return;
   }
-  if (options.output_file && !options.common.quiet)
-    std::cout << written_record_text(*options.output_file, record);
+  if (output_file && !options.common.quiet) std::cout << written_record_text(*output_file, record);
   const bool is_blind = !options.truth_column;
   std::cout
       << (is_blind ? views::blind_separation_table : views::separation_table)(signals).to_text();
   if (!options.common.quiet)
     std::cout << (is_blind ? views::blind_metric_notes : views::metric_notes)(options.settling_s)
               << "\n";
+}
+
+void add_filter_options(CLI::App& command, SeparateOptions& options) {
+  command
+      .add_option("--block", options.fdaf.block_length, "Block of the adaptive filter [samples]")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command
+      .add_option("--taps", options.fdaf.filter_length, "Length of the adaptive filter [samples]")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  command.add_option("--step", options.fdaf.step.step, "Step size mu of the adaptive filter")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -236,18 +255,11 @@ void add_separate_command(CLI::App& app) {
   command->add_option("--dtw-path", options->dtw_path_file,
                       "CSV written: which time of each estimate the DTW score lays beside which "
                       "of the truth");
-  command->add_option("-o,--output,--out", options->output_file,
-                      "Record written, with a wind moment for each method");
-  command
-      ->add_option("--block", options->fdaf.block_length, "Block of the adaptive filter [samples]")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  command
-      ->add_option("--taps", options->fdaf.filter_length, "Length of the adaptive filter [samples]")
-      ->check(CLI::Range(1, 1 << 20))
-      ->capture_default_str();
-  command->add_option("--step", options->fdaf.step.step, "Step size mu of the adaptive filter")
-      ->capture_default_str();
+  command->add_option(
+      "-o,--output,--out", options->output_file,
+      "Record written, with a wind moment for each method (default: separated.csv in "
+      "a free folder results/separate; none with --json alone)");
+  add_filter_options(*command, *options);
   command->add_option("--settling", options->settling_s, "Start left out of the scores [s]")
       ->check(not_negative_number())
       ->capture_default_str();

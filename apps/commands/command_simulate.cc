@@ -5,6 +5,7 @@
 #include "apps/command_line/case_options.h"
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/results.h"
 #include "case/inputs.h"
 #include "case/rig.h"
 #include "case/sensor_model.h"
@@ -22,8 +23,7 @@ namespace {
 struct SimulateOptions {
   CommonOptions common;
   CaseOptions chosen;
-  std::string record_file = "record.csv";
-  std::optional<std::string> model_file, input_file;
+  std::optional<std::string> record_file, model_file, input_file;
   bool periodic = false;
 };
 
@@ -32,7 +32,7 @@ signals::Record updated_record(const SimulateOptions& options) {
   if (!options.chosen.is_plain() || options.model_file)
     throw signals::UserError(
         "an updated model is simulated under --inputs as it is: what changes a case file, and "
-        "--model, are not for it");
+        "--write-model, are not for it");
   if (!options.input_file)
     throw signals::UserError("--inputs: an updated model needs a record with its inputs");
   signals::Record record = signals::read_record(*options.input_file);
@@ -48,14 +48,16 @@ FileNames recordings_of(const sensor_case::Case& parameters) {
   return {parameters.base.recorded.file.string(), parameters.wind_record.file.string()};
 }
 
-void report(const SimulateOptions& options, const signals::Record& record,
-            const std::string& solver) {
+void write(const SimulateOptions& options, const signals::Record& record,
+           const std::string& solver) {
+  const std::string file = given_or_result(options.record_file, "simulate", "record.csv");
+  signals::write_record(file, record);
   if (options.common.json) {
-    nlohmann::json document = written_record_json(options.record_file, record);
+    nlohmann::json document = written_record_json(file, record);
     document["solver"] = solver;
     print_json(document);
   } else if (!options.common.quiet) {
-    std::cout << written_record_text(options.record_file, record);
+    std::cout << written_record_text(file, record);
   }
 }
 
@@ -65,8 +67,7 @@ void simulate(const SimulateOptions& options) {
   if (diagnosis::is_updated_model(options.chosen.case_file)) {
     if (!fem::is_first_process()) return;
     const signals::Record record = updated_record(options);
-    signals::write_record(options.record_file, record);
-    report(options, record, "updated model");
+    write(options, record, "updated model");
     return;
   }
   if (options.input_file)
@@ -83,9 +84,8 @@ void simulate(const SimulateOptions& options) {
       sensor_case::make_reduced_model(sensor, parameters.sensor, !options.common.quiet);
   const signals::Record record = sensor_case::measure_on_rig(model, parameters, inputs).both;
   if (!fem::is_first_process()) return;
-  signals::write_record(options.record_file, record);
   if (options.model_file) signals::write_reduced_model(*options.model_file, model);
-  report(options, record, "reduced");
+  write(options, record, "reduced");
 }
 
 }  // namespace
@@ -95,9 +95,9 @@ void add_simulate_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "simulate", "Base-moment record of a sensor that is shaken and blown at, with noise");
   options->chosen.add_to(*command);
-  command->add_option("-o,--output,--out,--record", options->record_file, "Record written")
-      ->capture_default_str();
-  command->add_option("--model", options->model_file, "Also write the reduced model (JSON)");
+  command->add_option("-o,--output,--out,--record", options->record_file,
+                      "Record written (default: record.csv in a free folder results/simulate)");
+  command->add_option("--write-model", options->model_file, "Also write the reduced model (JSON)");
   command->add_option(
       "--inputs", options->input_file,
       "With an updated model (updated_model.json of a diagnosis) in place of the case "
@@ -107,7 +107,7 @@ void add_simulate_command(CLI::App& app) {
   add_common_options(*command, options->common);
   command->footer(
       "Examples:\n"
-      "  vibrissa simulate sensor.prm -o simulated.csv --model model.json\n"
+      "  vibrissa simulate sensor.prm -o simulated.csv --write-model model.json\n"
       "  vibrissa simulate sensor.prm --set 'Materials/Silicone/c1=2.4e5' -o softer.csv\n"
       "  vibrissa simulate diagnosis/updated_model.json --inputs bench.csv -o updated.csv");
   command->callback([options] { simulate(*options); });

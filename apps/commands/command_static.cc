@@ -91,7 +91,7 @@ void write_results(const report::RunFolder& folder, const std::vector<SteadyCurv
 void find_equilibria(const StaticCommandOptions& options) {
   report::RunFolder::refuse_taken(options.folder);
   const auto curves = make_curves(options);
-  const auto folder = report::RunFolder::given_or_free(options.folder, "runs/static");
+  const auto folder = report::RunFolder::given_or_free(options.folder, "results/static");
   nlohmann::json document = steady_json(curves);
   document["folder"] = folder.path().string();
   write_results(folder, curves, document);
@@ -132,7 +132,7 @@ void add_static_command(CLI::App& app) {
   add_levels(*command, "wind", "wind speed", "[m/s]", options->wind_m_s);
   add_levels(*command, "acceleration", "base acceleration", "[g]", options->base_g);
   command->add_option("-o,--output,--out", options->folder,
-                      "Results folder; must be new or empty (default: runs/static)");
+                      "Results folder; must be new or empty (default: results/static)");
   add_common_options(*command, options->common);
   command->footer(
       "Example:\n"

@@ -88,8 +88,8 @@ void add_transient_command(CLI::App& app) {
   add_common_options(*command, options->common);
   command->footer(
       "Examples:\n"
-      "  vibrissa transient sensor.prm --duration 0.5 --output runs/finite\n"
-      "  vibrissa transient --resume runs/finite\n"
+      "  vibrissa transient sensor.prm --duration 0.5 --output results/finite\n"
+      "  vibrissa transient --resume results/finite\n"
       "  mpirun -np 2 vibrissa transient sensor.prm --strain small");
   command->callback([options] { report_outcome(run(*options), options->common); });
 }

@@ -21,7 +21,7 @@ constexpr const char* footer =
     "  vibrissa diagnose --sim simulated --real bench --out diagnosis\n"
     "  vibrissa identify recording.csv --column base_acceleration=z_mps2 --rate 500\n"
     "Exit status: 0 done, 2 bad input (the message says what and where), 3 too little "
-    "data to say anything, 70 a fault of ours, 130 interrupted.";
+    "data to say anything, 70 a fault of the program, 74 memory, disk or output, 130 interrupted.";
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/command_line/command.h"
+#include "apps/command_line/results.h"
 #include "apps/jobs/trial_programs.h"
 #include "report/files/child_process.h"
 #include "report/files/run_folder.h"
@@ -43,7 +44,11 @@ std::size_t n_begun(const fs::path& folder) {
 }
 
 /// The generator is a program of its own: it shares no code with the diagnosis.
-void make(const TrialCommand& options) {
+void make(TrialCommand options) {
+  if (options.folder.empty()) {
+    options.folder = free_results_folder("trial");
+    fs::create_directories(options.folder.parent_path());
+  }
   const fs::path generator = trial_program("generate_trial");
   constexpr double a_day_s = 86400.;
   signals::Progress progress("sensors", options.n_cases, options.common.is_talkative());
@@ -126,7 +131,8 @@ void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   command->add_option("--first", options->first, "Number of the first, to go on with a seed")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "All sensors follow from it")->capture_default_str();
-  command->add_option("-o,--out,--output", options->folder, "New folder")->required();
+  command->add_option("-o,--out,--output", options->folder,
+                      "New folder (default: a free name results/trial)");
   command->add_flag("--finite-strain", options->finite_strain,
                     "Sensors that are the whole solid at finite strain in place of its modes: "
                     "fewer effects, and a quarter of an hour each");
@@ -143,7 +149,7 @@ void add_run(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
       ->check(CLI::Range(1, 5))
       ->capture_default_str();
   command->add_flag("--further", options->run.further,
-                    "Where answers are left, do the recomupdated experiment, and one by chance");
+                    "Where answers are left, do the recommended experiment, and one by chance");
   command->add_option("--threads", options->run.n_threads, "Of each rank")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

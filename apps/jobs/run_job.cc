@@ -182,7 +182,7 @@ report::RunFolder new_run_folder(const CaseOptions& chosen, const sensor_case::C
                                  const sensor_case::Case& parameters, const fem::Sensor& sensor,
                                  const std::vector<std::string>& command_line) {
   auto folder = report::RunFolder::given_or_free(
-      parameters.output.folder, fs::path("runs") / fs::path(chosen.case_file).stem());
+      parameters.output.folder, fs::path("results") / fs::path(chosen.case_file).stem());
   folder.write_text("resolved.prm", file.resolved());
   folder.write_run(
       {command_line, parameters.records.seed, {{"mesh_sha256", sensor.mesh_sha256()}}});

@@ -250,7 +250,7 @@ fs::path new_transient_folder(const CaseOptions& chosen, const sensor_case::Case
                               const std::vector<std::string>& command_line) {
   const auto folder = report::RunFolder::given_or_free(
       parameters.output.folder,
-      fs::path("runs") / (fs::path(chosen.case_file).stem().string() + "-transient"));
+      fs::path("results") / (fs::path(chosen.case_file).stem().string() + "-transient"));
   folder.write_text("resolved.prm", file.resolved());
   folder.write_run(
       {command_line, parameters.records.seed, {{"mesh_sha256", sensor.mesh_sha256()}}});

@@ -50,7 +50,7 @@ void check_factors(KSP solver) {
   MatFactorError error = MAT_FACTOR_NOERROR;
   check_petsc(MatFactorGetError(factors, &error), "MatFactorGetError");
   if (error == MAT_FACTOR_OUTMEMORY) {
-    throw signals::UserError(
+    throw signals::ResourceError(
         "the sparse factorisation ran out of memory; lower the mesh resolution");
   }
   // MUMPS' number of negative pivots: it goes on through them without a word.

@@ -8,9 +8,9 @@
 namespace vibrissa::fem {
 
 /// A matrix that should have been positive definite is not.
-class IndefiniteMatrix : public signals::UserError {
+class IndefiniteMatrix : public signals::InternalError {
  public:
-  using signals::UserError::UserError;
+  using signals::InternalError::InternalError;
 };
 
 [[noreturn]] void throw_indefinite();

@@ -149,9 +149,9 @@ void Lanczos::run(const Eigen::Index n, const Eigen::Index n_beyond) {
     const bool nothing_left = newest_ == 0;
     if (nothing_left || converged(n, n_beyond, beyond)) return;
     if (size > most) {
-      throw signals::UserError("the modes did not converge within a basis of " +
-                               std::to_string(size) +
-                               " vectors; ask for fewer modes or refine the mesh");
+      throw signals::InternalError("the modes did not converge within a basis of " +
+                                   std::to_string(size) +
+                                   " vectors; ask for fewer modes or refine the mesh");
     }
   }
 }

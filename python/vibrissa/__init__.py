@@ -14,7 +14,8 @@ from ._core import (
     Dataset,
     Model,
     Record,
-    TooPoorData,
+    TooLittleData,
+    ResourceError,
     UserError,
     read_dataset,
     read_record,
@@ -28,7 +29,8 @@ __all__ = [
     "Identification",
     "Model",
     "Record",
-    "TooPoorData",
+    "TooLittleData",
+    "ResourceError",
     "UserError",
     "diagnose",
     "identify",
@@ -105,7 +107,7 @@ def diagnose(real, *, simulation, max_effects=3, possible_experiments=()):
     """Why the records `real` differ from `simulation`, and how far the gap closes.
 
     Either may be a path; `simulation` may be a Dataset (anybody's simulated records), a Model, a
-    model.json, or a case file (.prm). Raises TooPoorData when nothing can be said.
+    model.json, or a case file (.prm). Raises TooLittleData when nothing can be said.
     """
     rate_hz = 0.0
     if isinstance(simulation, (str, _os.PathLike)):

@@ -108,7 +108,7 @@ void write_svg(vtkRenderWindow& window, const std::filesystem::path& file, const
   std::ifstream in(raw.path());
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   if (lines.empty() || lines.back() != "</svg>")
-    throw signals::UserError(file.string() + ": cannot be written; is the disk full?");
+    throw signals::ResourceError(file.string() + ": cannot be written; is the disk full?");
   signals::write_file(file, [&](std::ostream& out) {
     for (const std::string& line : lines) out << updated(line) << '\n';
   });

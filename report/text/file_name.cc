@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "signals/base/error.h"
+#include "signals/system/output_file.h"
 
 namespace vibrissa::report {
 
@@ -21,7 +22,7 @@ void check_file_name(const std::string& kind, const std::string& name) {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw signals::UserError(folder.string() + ": cannot be made: " + error.message());
+  if (error) signals::refuse_path(folder, "cannot be made", error);
 }
 
 }  // namespace vibrissa::report

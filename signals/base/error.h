@@ -13,6 +13,20 @@ class UserError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What the machine could not give: memory, room on a disk, a file that could not be written. The
+/// message says what and where. Programs print it and end with exit status 74.
+class ResourceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A computation or a library call that failed although the input was accepted. Programs ask for a
+/// report and end with exit status 70.
+class InternalError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The known name that one may have meant, case apart; empty when none is near.
 std::string nearest_name(const std::string& given, const std::vector<std::string>& known);
 

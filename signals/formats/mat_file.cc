@@ -135,7 +135,7 @@ class ScratchFile {
   ScratchFile() {
     std::string name = (std::filesystem::temp_directory_path() / "vibrissa-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
-      throw UserError(name + ": no folder for unfinished files can be made");
+      throw ResourceError(name + ": no folder for unfinished files can be made");
     folder_ = name;
   }
   ~ScratchFile() {
@@ -232,7 +232,7 @@ std::vector<NumericColumn> all_columns(const std::string& bytes, const std::stri
 
 void put(mat_t* const file, const std::string& name, const Variable& variable) {
   if (!variable || Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE) != 0)
-    throw UserError("'" + name + "' cannot be written as a MATLAB variable");
+    throw InternalError("'" + name + "' cannot be written as a MATLAB variable");
 }
 
 // matio only reads what it is given here, though it does not say so.
@@ -279,16 +279,17 @@ void write_aside(const std::filesystem::path& file, const bool is_v5,
                                      : "MATLAB 7.3 MAT-file, written by vibrissa";
     const MatFile made(
         Mat_CreateVer(scratch.name().c_str(), header, is_v5 ? MAT_FT_MAT5 : MAT_FT_MAT73));
-    if (!made) throw UserError(scratch.name() + ": cannot be written");
+    if (!made) throw ResourceError(scratch.name() + ": cannot be written");
     least_bytes = fill(made.get());
   }
   const std::string bytes = read_bytes(scratch.name());
   check_is_whole(bytes, scratch.name());
   // On a full disk matio may also leave out values and close the file as if there were no more.
   if (bytes.size() < least_bytes)
-    throw UserError(scratch.name() + ": only " + std::to_string(bytes.size()) +
-                    " bytes of a MATLAB file could be written; make room, or name a roomier folder "
-                    "in TMPDIR");
+    throw ResourceError(
+        scratch.name() + ": only " + std::to_string(bytes.size()) +
+        " bytes of a MATLAB file could be written; make room, or name a roomier folder "
+        "in TMPDIR");
   write_bytes(file, bytes);
 }
 

@@ -97,7 +97,7 @@ std::string wav_bytes(const std::filesystem::path& file, const WavDrive& drive) 
                .sections = 0,
                .seekable = 0};
   SoundFile sound(sf_open_virtual(&io, SFM_WRITE, &info, &target));
-  if (!sound) throw UserError(file.string() + ": " + sf_strerror(nullptr));
+  if (!sound) throw InternalError(file.string() + ": " + sf_strerror(nullptr));
   // The peak chunk holds the time of day: equal drives would give unequal files.
   sf_command(sound.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
   sf_command(sound.get(), SFC_SET_CLIPPING, nullptr, SF_TRUE);
@@ -106,7 +106,7 @@ std::string wav_bytes(const std::filesystem::path& file, const WavDrive& drive) 
   for (double& x : scaled) x = std::clamp(x / drive.full_scale, -1., 1.);
   const auto count = static_cast<sf_count_t>(scaled.size());
   if (sf_write_double(sound.get(), scaled.data(), count) != count)
-    throw UserError(file.string() + ": " + sf_strerror(sound.get()));
+    throw InternalError(file.string() + ": " + sf_strerror(sound.get()));
   sound.reset();
   return std::move(target.bytes);
 }

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -23,12 +24,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
-  throw UserError(file.string() + ": cannot be written: " + reason);
+/// Whether the name is at fault, which another name would mend, rather than the disk.
+bool is_about_the_name(const std::error_code& error) {
+  constexpr std::array names = {std::errc::no_such_file_or_directory,
+                                std::errc::not_a_directory,
+                                std::errc::is_a_directory,
+                                std::errc::filename_too_long,
+                                std::errc::permission_denied,
+                                std::errc::operation_not_permitted,
+                                std::errc::read_only_file_system,
+                                std::errc::too_many_symbolic_link_levels,
+                                std::errc::invalid_argument};
+  return std::ranges::any_of(names, [&](const std::errc name) { return error == name; });
 }
 
-std::string reason_of(const int error) {
-  return std::generic_category().message(error);
+[[noreturn]] void refuse(const fs::path& file, const int error) {
+  refuse_path(file, "cannot be written", {error, std::generic_category()});
 }
 
 // Keeps the system's reason when a write fails, which std::ofstream does not.
@@ -92,7 +103,7 @@ class TemporaryFile {
       name_ = beside.parent_path() / (stem + std::to_string(n_made++));
       descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
-    if (descriptor_ < 0) refuse(beside, reason_of(errno));
+    if (descriptor_ < 0) refuse(beside, errno);
   }
   ~TemporaryFile() {
     if (!renamed_) ::unlink(name_.c_str());
@@ -103,7 +114,7 @@ class TemporaryFile {
   int descriptor() const { return descriptor_; }
 
   void rename_to(const fs::path& file) {
-    if (::rename(name_.c_str(), file.c_str()) != 0) refuse(file, reason_of(errno));
+    if (::rename(name_.c_str(), file.c_str()) != 0) refuse(file, errno);
     renamed_ = true;
   }
 
@@ -120,13 +131,13 @@ void fill(FileBuffer& buffer, const fs::path& file,
     writer(out);
   } catch (...) {
     // Libraries that notice a bad stream know no reason.
-    if (buffer.error() != 0) refuse(file, reason_of(buffer.error()));
+    if (buffer.error() != 0) refuse(file, buffer.error());
     throw;
   }
   buffer.flush_to_disk();
   buffer.close();
-  if (buffer.error() != 0) refuse(file, reason_of(buffer.error()));
-  if (!out) refuse(file, "its writer failed");
+  if (buffer.error() != 0) refuse(file, buffer.error());
+  if (!out) throw InternalError(file.string() + ": cannot be written: its writer failed");
 }
 
 // Where a file system has no permissions to copy, the default ones must do.
@@ -137,17 +148,24 @@ void copy_permissions(const fs::path& from, const int to_descriptor) {
 
 void write_in_place(const fs::path& file, const std::function<void(std::ostream&)>& writer) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor < 0) refuse(file, reason_of(errno));
+  if (descriptor < 0) refuse(file, errno);
   FileBuffer buffer(descriptor);
   fill(buffer, file, writer);
 }
 
 }  // namespace
 
+void refuse_path(const fs::path& path, const std::string& what, const std::error_code& error) {
+  const std::string message = path.string() + ": " + what + ": " + error.message();
+  if (is_about_the_name(error)) throw UserError(message);
+  throw ResourceError(message);
+}
+
 void write_file(const fs::path& file, const std::function<void(std::ostream&)>& writer) {
   std::error_code no_file;
   const fs::file_status status = fs::status(file, no_file);
-  if (!file.has_filename() || fs::is_directory(status)) refuse(file, "this names a folder");
+  if (!file.has_filename() || fs::is_directory(status))
+    throw UserError(file.string() + ": cannot be written: this names a folder");
   // A name such as /dev/stdout must not be replaced by a file.
   if (fs::exists(status) && !fs::is_regular_file(status)) return write_in_place(file, writer);
   // A link stays; what it points to is replaced.
@@ -175,7 +193,7 @@ namespace {
 void refuse_what_is_not_empty(const fs::path& folder) {
   std::error_code error;
   const bool empty = fs::is_empty(folder, error);
-  if (error) throw UserError(folder.string() + ": cannot be read: " + error.message());
+  if (error) refuse_path(folder, "cannot be read", error);
   if (!empty)
     throw UserError(folder.string() +
                     ": this folder exists and is not empty; results of an earlier run are not "
@@ -209,7 +227,7 @@ void make_new_folder(const fs::path& folder) {
     throw UserError(folder.string() + ": this is a file, not a folder; name another folder");
   if (fs::is_directory(status)) refuse_what_is_not_empty(folder);
   fs::create_directories(folder, error);
-  if (error) throw UserError(folder.string() + ": cannot be made: " + error.message());
+  if (error) refuse_path(folder, "cannot be made", error);
   claim(folder);
   refuse_what_is_not_empty(folder);
 }

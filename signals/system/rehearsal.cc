@@ -82,7 +82,7 @@ void rehearse(const std::string& file, const std::size_t n_bytes,
   if (child == 0) run_in_child(n_bytes, reading);
   if (child < 0) {
     const int reason = errno;
-    throw UserError(
+    throw ResourceError(
         file + ": no process could be made to read it: " + std::generic_category().message(reason));
   }
   int status = 0;

@@ -22,7 +22,7 @@ struct FreeCipher {
 using Cipher = std::unique_ptr<EVP_CIPHER_CTX, FreeCipher>;
 
 void require(const int done) {
-  if (done != 1) throw UserError("the library for encryption refuses to work");
+  if (done != 1) throw InternalError("the library for encryption refuses to work");
 }
 
 Bytes from_hex(const std::string& text, const std::string& what) {

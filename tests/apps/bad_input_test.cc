@@ -152,7 +152,8 @@ TEST(TakenFolder, IsRefusedBeforeTheWork) {
 }
 
 TEST(BadModel, SamplingTooSlowForItsFirstModeIsRefused) {
-  expect_refusal(vibrissa("plan --model '" + case_file("flow_sensor.prm") + "' --rate 10 --quiet"),
+  const Folder folder;
+  expect_refusal(vibrissa("plan --model '" + coarse_case(folder) + "' --rate 10 --quiet"),
                  AllOf(HasSubstr("--rate"), HasSubstr("first mode")));
 }
 

@@ -143,12 +143,9 @@ TEST(Bode, LeavesDeviationAndDistortionAsColumns) {
       "frequency_hz,magnitude_n_m_s2_per_m,phase_deg,standard_deviation_n_m_s2_per_m,coherence,"
       "noise_deviation_n_m_s2_per_m,noise_power_n2_m2,even_distortion_power_n2_m2,"
       "odd_distortion_power_n2_m2\n";
-  const auto printed = vibrissa(arguments);
-  ASSERT_EQ(printed.status, 0) << printed.errors;
-  EXPECT_THAT(printed.output, testing::StartsWith(header));
   const auto written = vibrissa(arguments + " -o '" + folder.file("b") + "'");
   ASSERT_EQ(written.status, 0) << written.errors;
-  EXPECT_EQ(content(folder.file("b/response.csv")), printed.output);
+  EXPECT_THAT(content(folder.file("b/response.csv")), testing::StartsWith(header));
   EXPECT_THAT(content(folder.file("b/detection.csv")), HasSubstr("even detection"));
 }
 

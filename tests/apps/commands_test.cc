@@ -60,7 +60,14 @@ TEST(Run, SeparatesByTheIdentifiedModelAlmostAsWellAsByTheTrueResponse) {
   }
 }
 
-TEST(Modes, JsonGivesThePublishedResonanceAndItsConvergence) {
+TEST(Modes, JsonGivesThePublishedResonance) {
+  const auto result =
+      vibrissa("modes '" + case_file("flow_sensor.prm") + "' --json --no-convergence");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_NEAR(result.json()["modes"][0]["frequency_hz"].get<double>(), 37.32, 0.003 * 37.32);
+}
+
+TEST(LongModes, JsonGivesThePublishedResonanceAndItsConvergence) {
   const std::map<std::string, double> published_hz = {{"flow", 37.32}, {"whisker", 27.20}};
   for (const auto& [name, frequency_hz] : published_hz) {
     const auto result = vibrissa("modes '" + case_file(name + "_sensor.prm") + "' --json");
@@ -193,7 +200,6 @@ TEST(Excite, RefusesBadInputAndWritesNothing) {
     EXPECT_THAT(result.errors, testing::HasSubstr(message));
   }
   EXPECT_EQ(folder.n_entries(), 0u);
-  EXPECT_EQ(vibrissa("excite --wav").status, 2);
 }
 
 double first_frequency_hz(const std::string& densities) {

@@ -5,6 +5,7 @@
 
 #include "signals/model/reduced_model.h"
 #include "tests/apps/program.h"
+#include "tests/diagnosis/rig_folder.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -117,16 +118,16 @@ TEST(DiagnoseCommand, EndsWithStatus3WhereTheDataAreTooPoorAndSaysWhatIsMissing)
 }
 
 TEST(DiagnoseCommand, LeavesVerdictRankingAndFigures) {
-  const fs::path practice = fs::path(VIBRISSA_SOURCE_DIR) / ".." / "shared" / "practice";
-  if (!fs::exists(practice)) GTEST_SKIP() << practice << " is missing";
   const Folder folder;
-  const auto result = vibrissa(
-      "diagnose --quiet --max-effects 1 --sim '" + (practice / "sim").string() + "' --real '" +
-      (practice / "case019" / "real").string() + "' -o '" + folder.file("out") + "'");
+  diagnosis::test::write_late_rig(folder.file(""));
+  const auto result =
+      vibrissa("diagnose --quiet --max-effects 1 --sim '" + folder.file("sim") + "' --real '" +
+               folder.file("real") + "' -o '" + folder.file("out") + "'");
   ASSERT_EQ(result.status, 0) << result.errors;
   const auto answer = nlohmann::json::parse(content(folder.file("out/diagnosis.json")));
   EXPECT_EQ(answer["schema"], "vibrissa-diagnosis-1");
-  EXPECT_THAT(result.output, HasSubstr(answer["verdict"].get<std::string>()));
+  EXPECT_EQ(answer["verdict"], "delay");
+  EXPECT_THAT(result.output, HasSubstr("delay"));
   for (const char* name :
        {"ranking.csv", "verdict.txt", "run.json", "figures/gap_map.csv", "figures/response.csv",
         "figures/held_out_trace.csv", "figures/ranking.csv", "report.html"})
@@ -134,11 +135,10 @@ TEST(DiagnoseCommand, LeavesVerdictRankingAndFigures) {
 }
 
 TEST(DiagnoseCommand, LeavesAModelThatTheOtherCommandsTake) {
-  const fs::path practice = fs::path(VIBRISSA_SOURCE_DIR) / ".." / "shared" / "practice";
-  if (!fs::exists(practice)) GTEST_SKIP() << practice << " is missing";
   const Folder folder;
-  const std::string real = (practice / "case019" / "real").string();
-  ASSERT_EQ(vibrissa("diagnose --quiet --max-effects 1 --sim '" + (practice / "sim").string() +
+  diagnosis::test::write_late_rig(folder.file(""));
+  const std::string real = folder.file("real");
+  ASSERT_EQ(vibrissa("diagnose --quiet --max-effects 1 --sim '" + folder.file("sim") +
                      "' --real '" + real + "' -o '" + folder.file("out") + "'")
                 .status,
             0);
@@ -160,15 +160,6 @@ TEST(DiagnoseCommand, LeavesAModelThatTheOtherCommandsTake) {
   EXPECT_EQ(nlohmann::json::parse(again.output)["verdict"], "none");
 }
 
-/// The flow sensor on a coarse mesh.
-std::string coarse_case(const Folder& folder) {
-  std::string text = content(case_file("flow_sensor.prm"));
-  const std::string fine = "Mesh resolution = 2";
-  text.replace(text.find(fine), fine.size(), "Mesh resolution = 1");
-  std::ofstream(folder.file("coarse.prm")) << text;
-  return folder.file("coarse.prm");
-}
-
 /// Of a record that `simulate` writes for the sensor with this setting; the diagnosis has the case
 /// alone.
 nlohmann::json diagnosis_of_simulated(const std::string& setting) {
@@ -188,7 +179,7 @@ double first_model_frequency_hz(const std::string& setting) {
   const std::string model = folder.file("model.json");
   const auto result =
       vibrissa("simulate '" + coarse_case(folder) + "' -q --record '" + folder.file("any.csv") +
-               "' --model '" + model + "' --set '" + setting + "'");
+               "' --write-model '" + model + "' --set '" + setting + "'");
   EXPECT_EQ(result.status, 0) << result.errors;
   return signals::read_reduced_model(model).modes.front().frequency_hz;
 }
@@ -229,7 +220,8 @@ TEST(SimulateCommand, ChangesNoUpdatedModelByTheOptionsOfACaseFile) {
   const Folder folder;
   const std::string model =
       folder.write("updated.json", R"({"schema": "vibrissa-updated-model-1"})");
-  for (const std::string option : {"--duration 1", "--set Wind/Kind=steady", "--model m.json"}) {
+  for (const std::string option :
+       {"--duration 1", "--set Wind/Kind=steady", "--write-model m.json"}) {
     const auto result =
         vibrissa("simulate '" + model + "' --inputs '" + folder.file("in.csv") + "' " + option);
     EXPECT_EQ(result.status, 2) << option;

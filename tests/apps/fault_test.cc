@@ -34,7 +34,7 @@ TEST(Faults, OnAFullDiskLeaveTheOldFileAndNothingHalfWritten) {
     const std::string old = folder.write("out." + extension, "old");
     const auto result = vibrissa("convert '" + record + "' '" + old + "'",
                                  "TMPDIR='" + scratch.file("") + "';" + small_disk);
-    EXPECT_EQ(result.status, 2) << extension;
+    EXPECT_EQ(result.status, 74) << extension;
     EXPECT_THAT(result.errors, AnyOf(HasSubstr("File too large"), HasSubstr("make room")))
         << extension;
     EXPECT_EQ(content(old), "old") << extension;
@@ -48,7 +48,7 @@ TEST(Faults, OutputThatDoesNotArriveIsAFailure) {
   const Folder folder;
   const std::string command =
       std::string("'") + VIBRISSA_PROGRAM + "' manual > /dev/full 2> '" + folder.file("err") + "'";
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 74);
   EXPECT_THAT(content(folder.file("err")), HasSubstr("standard output cannot be written"));
 }
 
@@ -67,7 +67,7 @@ TEST(Faults, TooLittleMemoryIsSaidAsSuch) {
   const auto result = vibrissa("convert '" + file + "' '" + folder.file("out.csv") +
                                    "' --rate 500 --column base_acceleration=column_1",
                                "ulimit -v 1000000;");
-  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.status, 74);
   EXPECT_THAT(result.errors, HasSubstr("not enough memory"));
   EXPECT_EQ(folder.n_entries(), 1U);
 }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/apps/program.h"
+#include "tests/diagnosis/rig_folder.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -22,11 +23,10 @@ TEST(PlanCommand, RefusesNoiseThatIsNotPositive) {
 }
 
 TEST(PlanCommand, LeavesPlanLimitsAndPicture) {
-  const fs::path simulation = fs::path(VIBRISSA_SOURCE_DIR) / ".." / "shared" / "practice" / "sim";
-  if (!fs::exists(simulation)) GTEST_SKIP() << simulation << " is missing";
   const Folder folder;
+  diagnosis::test::write_rig_dataset(folder.file("sim"), {}, {.wind = true});
   const auto result =
-      vibrissa("plan --quiet --sim '" + simulation.string() + "' -o '" + folder.file("out") + "'");
+      vibrissa("plan --quiet --sim '" + folder.file("sim") + "' -o '" + folder.file("out") + "'");
   ASSERT_EQ(result.status, 0) << result.errors;
   const auto plan = nlohmann::json::parse(content(folder.file("out/plan.json")));
   EXPECT_EQ(plan["schema"], "vibrissa-plan-1");

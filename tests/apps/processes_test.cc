@@ -65,7 +65,9 @@ std::string transient(const Folder& folder, const std::string& name) {
          folder.file(name) + "'";
 }
 
-TEST_F(Processes, TakeTheSolidThroughARecordAsOneDoes) {
+using LongProcesses = Processes;
+
+TEST_F(LongProcesses, TakeTheSolidThroughARecordAsOneDoes) {
   ASSERT_EQ(vibrissa(transient(folder_, "alone")).status, 0);
   const auto job = together(transient(folder_, "together"));
   ASSERT_TRUE(job.succeeded()) << job.output;
@@ -90,7 +92,7 @@ TEST_F(Processes, TakeTheSolidThroughARecordAsOneDoes) {
 TEST_F(Processes, MakeTheModelThatOneMakes) {
   const auto simulation = [&](const std::string& name) {
     return "simulate '" + case_file("flow_sensor.prm") + "'" + short_and_coarse + " --record '" +
-           folder_.file(name + ".csv") + "' --model '" + folder_.file(name + ".json") + "'";
+           folder_.file(name + ".csv") + "' --write-model '" + folder_.file(name + ".json") + "'";
   };
   ASSERT_EQ(vibrissa(simulation("alone")).status, 0);
   const auto job = together(simulation("together"));

@@ -67,6 +67,15 @@ inline std::string case_file(const std::string& name) {
   return std::string(VIBRISSA_SOURCE_DIR) + "/cases/" + name;
 }
 
+/// The flow sensor on a coarse mesh.
+inline std::string coarse_case(const Folder& folder) {
+  std::string text = content(case_file("flow_sensor.prm"));
+  const std::string fine = "Mesh resolution = 2";
+  text.replace(text.find(fine), fine.size(), "Mesh resolution = 1");
+  std::ofstream(folder.file("coarse.prm")) << text;
+  return folder.file("coarse.prm");
+}
+
 /// Settings that make a run quick: coarse mesh, no sensitivities, no full-order check, no VTK, no
 /// pictures.
 inline const std::string quick =

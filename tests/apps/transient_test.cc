@@ -81,7 +81,7 @@ TEST(Transient, SmallStrainIsWhatTheReducedModelSays) {
                              " --set Records/Seed=3 --set Transient/Substeps=20 --strain small";
   ASSERT_EQ(vibrissa(linear + " -o '" + folder.file("run") + "' --quiet").status, 0);
   ASSERT_EQ(vibrissa("simulate '" + case_file("flow_sensor.prm") + "'" + coarse_and_short +
-                     " --quiet" + " --record '" + folder.file("any.csv") + "' --model '" +
+                     " --quiet" + " --record '" + folder.file("any.csv") + "' --write-model '" +
                      folder.file("model.json") + "'")
                 .status,
             0);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/files/child_process.h"
+#include "signals/base/exit_status.h"
 #include "tests/apps/program.h"
 #include "trial/scoring/trial_score.h"
 #include "trial/scoring/trial_statistics.h"
@@ -153,27 +154,27 @@ TEST_F(WrittenTrial, CountsWhatFurtherExperimentsResolve) {
   };
   json undecided = answer("sensor_lowpass", 0.6);
   // That no effect is known can never be ruled out.
-  undecided["recomupdated"] = after("delay", {"delay", "outside_catalogue"});
+  undecided["recommended"] = after("delay", {"delay", "outside_catalogue"});
   undecided["by_chance"] = after("delay", {"delay", "sensor_lowpass"});
   add("single", delay, undecided);
-  undecided["recomupdated"] = after("sensor_lowpass", {"sensor_lowpass"});
+  undecided["recommended"] = after("sensor_lowpass", {"sensor_lowpass"});
   undecided.erase("by_chance");
   add("single", delay, undecided);
   // An experiment that came to no answer resolved nothing.
-  undecided["recomupdated"] = {{"experiment", "wide_band"}, {"message", "no such file"}};
+  undecided["recommended"] = {{"experiment", "wide_band"}, {"message", "no such file"}};
   add("single", delay, undecided);
   const trial::TrialScore score = trial::score_trial(trial_, labels_);
-  const trial::Share recomupdated =
-                         score.shares.at("undecided, the recomupdated experiment resolves"),
+  const trial::Share recommended =
+                         score.shares.at("undecided, the recommended experiment resolves"),
                      by_chance = score.shares.at("undecided, another one resolves");
-  EXPECT_EQ(std::pair(recomupdated.hits, recomupdated.of),
-            std::pair(std::size_t{1}, std::size_t{3}));
+  EXPECT_EQ(std::pair(recommended.hits, recommended.of), std::pair(std::size_t{1}, std::size_t{3}));
   EXPECT_EQ(std::pair(by_chance.hits, by_chance.of), std::pair(std::size_t{0}, std::size_t{1}));
 }
 
 TEST_F(WrittenTrial, CountsNoFaultAsAnAnswer) {
   const json delay = {{{"id", "delay"}, {"size", 1e-3}, {"limit", 1e-4}}};
-  for (const int status : {trial::bad_input, trial::too_poor_data, trial::fault}) {
+  for (const int status : {signals::exit_status::bad_input, signals::exit_status::too_little_data,
+                           signals::exit_status::fault}) {
     add("wrong_metadata", json::array(), {{"exit_status", status}, {"message", ""}});
     add("single", delay, {{"exit_status", status}, {"message", ""}});
   }
@@ -233,7 +234,7 @@ TEST_F(WrittenTrial, SaysWhatHasNoAnswerYet) {
 }
 
 /// Ten sensors, from records to score, as a user would.
-TEST(Trial, OfTenSensorsIsMadeRunAndScored) {
+TEST(LongTrial, OfTenSensorsIsMadeRunAndScored) {
   const Folder folder;
   const std::string trial = folder.file("trial");
   ASSERT_EQ(vibrissa("trial make --quiet --cases 10 --seed 4021 --out '" + trial + "'").status, 0);

@@ -165,7 +165,7 @@ TEST(Diagnose, SaysWhatIsMissingWhenNothingCanBeSaid) {
   try {
     diagnose(test::nominal_of(test::OneModeRig{}, false), dataset);
     FAIL();
-  } catch (const TooPoorData& error) {
+  } catch (const TooLittleData& error) {
     EXPECT_THAT(error.what(), HasSubstr("no fit record"));
   }
 }
@@ -243,7 +243,7 @@ TEST(Diagnose, IsTooPoorFromRecordsThatAreAllTooShort) {
   try {
     diagnose(test::nominal_of(test::OneModeRig{}, false), dataset);
     FAIL();
-  } catch (const TooPoorData& error) {
+  } catch (const TooLittleData& error) {
     EXPECT_THAT(error.what(), HasSubstr("base_high: 300 samples are too few"));
   }
 }

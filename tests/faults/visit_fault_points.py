@@ -56,7 +56,7 @@ def complaints(status, said, out, whole):
     if status == SEVERAL_THREADS:
         yield "not visited: the program has several threads"
         return
-    if status not in (0, 1, 2):
+    if status not in (0, 1, 2, 74):
         how = f"ended by signal {status - SIGNALLED}" if status > SIGNALLED else f"status {status}"
         yield f"{how}: {said[-300:]}"
     if status != 0 and not any(line.startswith("vibrissa: ") for line in said.splitlines()):

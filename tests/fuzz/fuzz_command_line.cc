@@ -43,6 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     app->parse(argc, argv.data());
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, errors;
+    apps::command_advice(*app, argc, argv.data());
     apps::parse_advice(*app, argc, argv.data());
     app->exit(error, out, errors);
     if (out.str().empty() && errors.str().empty()) std::abort();

@@ -43,7 +43,7 @@ class Module(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = pathlib.Path(cls.folder.name)
         settings = [word for setting in QUICK for word in ("--set", setting)]
-        program("simulate", CASE, "--record", str(cls.path / "r.csv"), "--model",
+        program("simulate", CASE, "--record", str(cls.path / "r.csv"), "--write-model",
                 str(cls.path / "model.json"), "--quiet", *settings)
         cls.record = vibrissa.read_record(cls.path / "r.csv")
 

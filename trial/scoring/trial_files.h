@@ -8,9 +8,6 @@
 
 namespace vibrissa::trial {
 
-/// How a case was answered, as the program's exit status tells; 0 an answer.
-inline constexpr int bad_input = 2, too_poor_data = 3, fault = 70;
-
 /// One sensor of a trial: caseNNNNN/real holds its records, further/EXPERIMENT what the bench can
 /// do besides, answer.json what was said of them.
 struct TrialEntry {

@@ -8,6 +8,7 @@
 #include "diagnosis/search/confidence_set.h"
 #include "fem/linalg/solver_session.h"
 #include "signals/base/error.h"
+#include "signals/base/exit_status.h"
 #include "signals/system/output_file.h"
 #include "signals/system/progress.h"
 #include "signals/system/stopwatch.h"
@@ -16,6 +17,8 @@
 
 namespace vibrissa::trial {
 namespace {
+
+namespace exit_status = signals::exit_status;
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -34,19 +37,19 @@ json answer_after(const std::string& experiment, const fs::path& folder, signals
           {"confidence_set", said.confidence_set}};
 }
 
-/// Another one than the recomupdated; the same for the same name, on all machines.
-std::string by_chance(std::vector<std::string> experiments, const std::string& recomupdated,
+/// Another one than the recommended; the same for the same name, on all machines.
+std::string by_chance(std::vector<std::string> experiments, const std::string& recommended,
                       const std::string& name) {
-  std::erase(experiments, recomupdated);
+  std::erase(experiments, recommended);
   std::seed_seq seed(name.begin(), name.end());
   std::mt19937 random(seed);
   return experiments.empty() ? "" : experiments[random() % experiments.size()];
 }
 
-/// After the recomupdated experiment and after another one.
+/// After the recommended experiment and after another one.
 json answers_after(const TrialIndex& trial, const TrialEntry& entry, const signals::Dataset& real,
                    const diagnosis::NominalModel& nominal,
-                   const diagnosis::DiagnoseOptions& settings, const std::string& recomupdated) {
+                   const diagnosis::DiagnoseOptions& settings, const std::string& recommended) {
   const auto after = [&](const std::string& experiment) -> json {
     try {
       return answer_after(experiment, trial.folder / entry.name, real, nominal, settings);
@@ -54,8 +57,8 @@ json answers_after(const TrialIndex& trial, const TrialEntry& entry, const signa
       return {{"experiment", experiment}, {"message", error.what()}};
     }
   };
-  json out{{"recomupdated", after(recomupdated)}};
-  const std::string other = by_chance(trial.further_experiments, recomupdated, entry.name);
+  json out{{"recommended", after(recommended)}};
+  const std::string other = by_chance(trial.further_experiments, recommended, entry.name);
   if (!other.empty()) out["by_chance"] = after(other);
   return out;
 }
@@ -83,12 +86,14 @@ json answer(const TrialIndex& trial, const TrialEntry& entry,
     out["seconds"] = watch.elapsed_s();
     if (options.further && diagnosis::n_known(said.confidence_set) > 1 && said.next.name != "none")
       out.update(answers_after(trial, entry, real, nominal, settings, said.next.name));
-  } catch (const diagnosis::TooPoorData& error) {
-    return failed(too_poor_data, error.what());
+  } catch (const diagnosis::TooLittleData& error) {
+    return failed(exit_status::too_little_data, error.what());
   } catch (const signals::UserError& error) {
-    return failed(bad_input, error.what());
+    return failed(exit_status::bad_input, error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(exit_status::no_resource, "not enough memory");
   } catch (const std::exception& error) {
-    return failed(fault, error.what());
+    return failed(exit_status::fault, error.what());
   }
   return out;
 }
@@ -119,7 +124,9 @@ TrialRunSummary run_trial(const fs::path& folder, const TrialRunOptions& options
       signals::write_file(trial.answer_file(*open[i]),
                           [&](std::ostream& out) { out << said.dump(1) << "\n"; });
       const int status = said["exit_status"];
-      ++(status == 0 ? summary.answered : status == fault ? summary.failed : summary.refused);
+      const bool is_refused =
+          status == exit_status::bad_input || status == exit_status::too_little_data;
+      ++(status == 0 ? summary.answered : is_refused ? summary.refused : summary.failed);
       progress.advance(static_cast<std::size_t>(queue.n_ranks()));
     }
   } catch (...) {

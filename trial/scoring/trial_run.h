@@ -10,7 +10,7 @@ namespace vibrissa::trial {
 struct TrialRunOptions {
   std::size_t max_effects = diagnosis::SearchOptions{}.max_effects;
   std::size_t n_threads = 2;  // of each rank
-  /// Where more than one known answer is left, the recomupdated experiment is done, and one by
+  /// Where more than one known answer is left, the recommended experiment is done, and one by
   /// chance.
   bool further = false;
   bool show_progress = true;
@@ -23,7 +23,7 @@ struct TrialRunSummary {
 
 /// Diagnoses every case of a trial that has no answer yet, all ranks from one queue, and leaves
 /// caseNNNNN/answer.json ("vibrissa-trial-answer-1": exit_status, seconds, diagnosis or message;
-/// after further experiments "recomupdated" and "by_chance", each with experiment, verdict,
+/// after further experiments "recommended" and "by_chance", each with experiment, verdict,
 /// probability and confidence_set).
 /// The labels stay sealed: the key is not here. A case that fails is written down and does not stop
 /// the others. Gives what all ranks did together.

@@ -9,6 +9,7 @@
 #include "diagnosis/model/hypothesis.h"
 #include "diagnosis/search/calibrated_odds.h"
 #include "diagnosis/search/confidence_set.h"
+#include "signals/base/exit_status.h"
 #include "signals/base/json_input.h"
 #include "signals/base/student.h"
 
@@ -168,12 +169,12 @@ ScoredCase scored(const std::string& name, const json& label, const json& answer
   out.exit_status = answer.at("exit_status");
   if (out.exit_status != 0) {
     out.verdict = "refused";
-    out.right = out.kind == "wrong_metadata" && out.exit_status == bad_input;
+    out.right = out.kind == "wrong_metadata" && out.exit_status == signals::exit_status::bad_input;
     return out;
   }
   out.seconds = answer.at("seconds");
   read_answer(out, answer.at("diagnosis"), effects);
-  out.resolved_as_recomupdated = resolved(out, answer, "recomupdated");
+  out.resolved_as_recommended = resolved(out, answer, "recommended");
   out.resolved_by_chance = resolved(out, answer, "by_chance");
   if (out.kind == "wrong_metadata")
     out.right = !answer.at("diagnosis").at("findings").empty() && out.verdict == "none";
@@ -212,8 +213,8 @@ void count(TrialScore& out, const ScoredCase& c) {
   }
   if (in_catalogue || outside) out.shares["95 % set holds the truth"].add(c.in_confidence_set);
   if (named) out.shares["links right"].add(c.links_right);
-  if (in_catalogue && c.resolved_as_recomupdated)
-    out.shares["undecided, the recomupdated experiment resolves"].add(*c.resolved_as_recomupdated);
+  if (in_catalogue && c.resolved_as_recommended)
+    out.shares["undecided, the recommended experiment resolves"].add(*c.resolved_as_recommended);
   if (in_catalogue && c.resolved_by_chance)
     out.shares["undecided, another one resolves"].add(*c.resolved_by_chance);
 }

@@ -29,7 +29,7 @@ struct ScoredCase {
   std::optional<double> gap_closed{}, transfer_gap_closed{};
   std::vector<double> parameter_errors{};  // over the deviation that was said
   /// Is one answer left, and right, after a further experiment? Nothing where none was done.
-  std::optional<bool> resolved_as_recomupdated{}, resolved_by_chance{};
+  std::optional<bool> resolved_as_recommended{}, resolved_by_chance{};
 };
 
 /// What a trial shows; each share with its exact interval.

@@ -72,7 +72,7 @@ double half_normal_quantile(double p) {
   return low;
 }
 
-TEST(Intervals, HoldTheTruthAsOftenAsTheySay) {
+TEST(LongIntervals, HoldTheTruthAsOftenAsTheySay) {
   constexpr unsigned n_trials = 200;
   // None holds more than all of the compliance: quantiles of the normal distribution's one half.
   std::vector<double> joint_error;

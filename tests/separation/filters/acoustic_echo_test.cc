@@ -89,23 +89,21 @@ double reduction_db(const Signal& near, const Signal& out) {
   return 20. * std::log10(test::rms(near) / test::rms(out));
 }
 
-class AcousticEcho : public testing::TestWithParam<std::pair<std::string, std::string>> {};
-
-TEST_P(AcousticEcho, IsReducedAtLeastAsFarAsBySpeexDsp) {
-  if (!fs::exists(folder())) GTEST_SKIP() << "no recordings in " << folder();
-  const EchoPair pair = read_pair(GetParam().first, GetParam().second);
+void expect_reduced_as_by_speex(const std::string& far, const std::string& near) {
+  const EchoPair pair = read_pair(far, near);
   const double ours_db = reduction_db(pair.near, ours(pair));
   EchoPair silent = pair;
   std::ranges::fill(silent.far, 0.);
   const double speex_db = reduction_db(speex(silent), speex(pair));
-  std::cout << GetParam().second << ": Kalman " << ours_db << " dB, SpeexDSP " << speex_db
-            << " dB\n";
-  EXPECT_GE(ours_db, speex_db);
+  std::cout << near << ": Kalman " << ours_db << " dB, SpeexDSP " << speex_db << " dB\n";
+  EXPECT_GE(ours_db, speex_db) << near;
 }
 
-INSTANTIATE_TEST_SUITE_P(Recordings, AcousticEcho,
-                         testing::Values(std::pair{"real_linear_far.wav", "real_linear_near.wav"},
-                                         std::pair{"respeaker_far.wav", "respeaker_mic.wav"}));
+TEST(AcousticEcho, IsReducedAtLeastAsFarAsBySpeexDsp) {
+  if (!fs::exists(folder())) GTEST_SKIP() << "no recordings in " << folder();
+  expect_reduced_as_by_speex("real_linear_far.wav", "real_linear_near.wav");
+  expect_reduced_as_by_speex("respeaker_far.wav", "respeaker_mic.wav");
+}
 
 }  // namespace
 }  // namespace vibrissa::separation

@@ -134,7 +134,8 @@ TEST_F(WriteFile, GivesUpWhenTheWriterSetsTheStreamBad) {
           out.setstate(std::ios::failbit);
         });
       },
-      ThrowsMessage<UserError>(AllOf(StartsWith(file_.string()), HasSubstr("its writer failed"))));
+      ThrowsMessage<InternalError>(
+          AllOf(StartsWith(file_.string()), HasSubstr("its writer failed"))));
   expect_untouched();
 }
 
@@ -149,7 +150,7 @@ TEST_F(WriteFile, GivesUpWhenTheDiskTakesNoMore) {
   std::string message;
   try {
     write_file(file_, [](std::ostream& out) { out << std::string(1000000, 'x'); });
-  } catch (const UserError& error) {
+  } catch (const ResourceError& error) {
     message = error.what();
   }
   ::setrlimit(RLIMIT_FSIZE, &old_limit);
