@@ -76,7 +76,7 @@ Failure attempt(int argc, char** argv, const std::string_view command) {
     if (is_command && vibrissa::fem::n_processes() > 1 &&
         std::find(of_several.begin(), of_several.end(), command) == of_several.end())
       throw vibrissa::signals::UserError("'" + std::string(command) +
-                                         "' is work for one process; start it without mpirun");
+                                         "' works on one process; start it without mpirun");
     return {run(argc, argv), ""};
   } catch (const vibrissa::signals::UserError& error) {
     return {exit_status::bad_input, error.what()};
@@ -88,9 +88,8 @@ Failure attempt(int argc, char** argv, const std::string_view command) {
     return {exit_status::interrupted, error.what()};
   } catch (const std::exception& error) {
     if (vibrissa::fem::is_out_of_memory(error))
-      return {
-          exit_status::no_resource,
-          "not enough memory; shorter records or a coarser mesh (Model/Mesh resolution) need less"};
+      return {exit_status::no_resource,
+              "not enough memory; use shorter records or a coarser mesh (Model/Mesh resolution)"};
     return {exit_status::fault, std::string("internal error: ") + error.what() +
                                     "\nThis is a fault of the program; please report it with the "
                                     "command that you gave."};

@@ -3,7 +3,8 @@
 namespace vibrissa::apps {
 
 void CaseOptions::add_settings_to(CLI::App& command) {
-  command.add_option("--set", settings, "SECTION/ENTRY=VALUE of the case file; repeatable");
+  command.add_option("--set", settings,
+                     "Sets an entry of the case file: SECTION/ENTRY=VALUE; repeatable");
 }
 
 void CaseOptions::add_case_to(CLI::App& command) {
@@ -21,10 +22,12 @@ void CaseOptions::add_to(CLI::App& command) {
       "CHANNEL=COLUMN[unit]*FACTOR[unit] of these files, e.g. 'base_acceleration=ax[g]'; "
       "channels: base_acceleration, wind_speed; repeatable");
   command.add_option("--rate", rates, "[CHANNEL=]HZ: sampling rate of these files; repeatable");
-  command.add_option("--rows", rows, "CHANNEL=FIRST:LAST data rows used; repeatable");
-  command.add_option("--range", ranges, "CHANNEL=LOW:HIGH: scaled to this range; repeatable");
+  command.add_option("--rows", rows,
+                     "CHANNEL=FIRST:LAST: data rows that are used, counted from 1; repeatable");
+  command.add_option("--range", ranges,
+                     "CHANNEL=LOW:HIGH: the recording is scaled to this range; repeatable");
   command.add_option("--remove-mean", remove_means,
-                     "CHANNEL whose mean (gravity) is taken off; repeatable");
+                     "CHANNEL whose mean (gravity) is subtracted; repeatable");
   command.add_option("--duration", duration_s, "Length of all records [s]");
 }
 

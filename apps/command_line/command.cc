@@ -8,8 +8,9 @@
 namespace vibrissa::apps {
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
-  command.add_flag("--json", options.json, "Print the result as JSON on standard output");
-  command.add_flag("-q,--quiet", options.quiet, "No progress bar, no remarks; warnings stay");
+  command.add_flag("--json", options.json, "Prints the result as JSON on standard output");
+  command.add_flag("-q,--quiet", options.quiet,
+                   "Prints no progress bar and no remarks; warnings are printed");
 }
 
 namespace {

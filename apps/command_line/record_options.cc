@@ -17,12 +17,14 @@ void refuse_overwriting(const FileNames& inputs, const FileNames& outputs) {
     if (!outputs[i]) continue;
     for (const auto& input : inputs)
       if (input && std::filesystem::equivalent(*input, *outputs[i], missing))
-        throw signals::UserError(*outputs[i] +
-                                 ": is the file that is read; name another one to write");
+        throw signals::UserError(
+            *outputs[i] +
+            ": this file is an input and is not overwritten; name another file to write");
     for (std::size_t j = 0; j < i; ++j)
       if (outputs[j] && std::filesystem::weakly_canonical(*outputs[j], missing) ==
                             std::filesystem::weakly_canonical(*outputs[i], missing))
-        throw signals::UserError(*outputs[i] + ": would be written twice; name two files to write");
+        throw signals::UserError(*outputs[i] +
+                                 ": this file would be written twice; name two different files");
   }
 }
 
@@ -46,9 +48,9 @@ void RecordOptions::add_to(CLI::App& command) {
                      "units converted to SI, e.g. 'base_acceleration=ax[g]', "
                      "'base_moment=B[uT]*0.18[N m/T]', base_moment=hall_mT*1.8e-4, 'time=t[ms]'; "
                      "repeatable");
-  command.add_option("--rate", rate_hz, "Sampling rate [Hz], when the file tells no time");
-  command.add_option("--rows", rows, "FIRST:LAST data rows used, counted from 1");
-  command.add_option("--remove-mean", remove_mean, "Channel whose mean is taken off; repeatable");
+  command.add_option("--rate", rate_hz, "Sampling rate [Hz], for a file without time");
+  command.add_option("--rows", rows, "FIRST:LAST: data rows that are used, counted from 1");
+  command.add_option("--remove-mean", remove_mean, "Channel whose mean is subtracted; repeatable");
 }
 
 signals::ReadOptions RecordOptions::read_options() const {

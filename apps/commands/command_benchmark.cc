@@ -94,16 +94,18 @@ void benchmark_separation(const SuiteOptions& options) {
 
 void add_benchmark_command(CLI::App& app) {
   const auto options = std::make_shared<SuiteOptions>();
-  auto* benchmark = app.add_subcommand("benchmark", "Compare methods on a suite of scenarios");
+  auto* benchmark = app.add_subcommand("benchmark", "Compares methods on a suite of scenarios");
+  benchmark->footer("Example:\n  vibrissa benchmark separation");
   benchmark->require_subcommand(1);
   auto* command = benchmark->add_subcommand(
-      "separation", "All separation methods on all scenarios: one table, one picture");
+      "separation",
+      "Runs all separation methods on all scenarios; writes one table and one picture");
   command->add_option("--flow-case", options->flow_case, "Case of the flow sensor")
       ->capture_default_str();
   command->add_option("--recordings", options->recordings,
                       "Folder of recorded vibration and wind for the scenarios that need it");
   command->add_option("--dataset", options->datasets,
-                      "Record file that becomes a scenario of its own (may be repeated)");
+                      "Record file that becomes one more scenario (may be repeated)");
   command->add_option("--truth-column", options->truth_column,
                       "Column of the datasets that holds the true wind moment [N m]");
   command->add_option(

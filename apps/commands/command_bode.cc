@@ -122,8 +122,9 @@ void bode(const BodeOptions& options) {
 
 void add_bode_command(CLI::App& app) {
   const auto options = std::make_shared<BodeOptions>();
-  auto* command = app.add_subcommand(
-      "bode", "Frequency response base acceleration -> base moment of a case, a model or a record");
+  auto* command = app.add_subcommand("bode",
+                                     "Computes the frequency response base acceleration -> base "
+                                     "moment of a case, a model or a record");
   command->add_option("input", options->input, "Case file (.prm), reduced model (.json) or record")
       ->required();
   options->chosen.add_settings_to(*command);

@@ -11,7 +11,7 @@ void add_completion_command(CLI::App& app) {
   const auto shell = std::make_shared<std::string>("bash");
   const auto common = std::make_shared<CommonOptions>();
   auto* command =
-      app.add_subcommand("completion", "Completion of commands and options for a shell");
+      app.add_subcommand("completion", "Prints the completion of commands and options for a shell");
   command->add_option("shell", *shell, "bash or zsh")
       ->check(CLI::IsMember({"bash", "zsh"}))
       ->capture_default_str();
@@ -31,7 +31,7 @@ void add_completion_command(CLI::App& app) {
 
 void add_manual_command(CLI::App& app) {
   const auto common = std::make_shared<CommonOptions>();
-  auto* command = app.add_subcommand("manual", "The manual page of all commands, for man");
+  auto* command = app.add_subcommand("manual", "Prints the manual page of all commands, for man");
   add_common_options(*command, *common);
   command->footer(
       "Examples:\n"

@@ -53,7 +53,7 @@ void convert(const ConvertOptions& options) {
 void add_convert_command(CLI::App& app) {
   const auto options = std::make_shared<ConvertOptions>();
   auto* command = app.add_subcommand(
-      "convert", "A record from one file format to another, its units converted to SI");
+      "convert", "Converts a record from one file format to another, units to SI");
   command
       ->add_option("from", options->from,
                    "Record: .csv, .mat (MATLAB 4, 5, 7.3), .h5, .hdf5, .npy, .uff, .unv, .uf58 "
@@ -68,10 +68,10 @@ void add_convert_command(CLI::App& app) {
                     "The file holds a frequency response base acceleration -> base moment: a "
                     "Universal File (function of type 4), a .mat or a CSV; written as .uff, .unv, "
                     ".uf58, .mat or .csv");
-  command->add_option(
-      "--response-as", options->response_as,
-      "--frequency-response: NAME[unit]*FACTOR[unit] of its values, as 'H[mN mm/g]' "
-      "or '[uT/g]*0.18[N m/T]'; of several in a Universal File its number");
+  command->add_option("--response-as", options->response_as,
+                      "For --frequency-response: name, unit and factor of the response, "
+                      "NAME[unit]*FACTOR[unit], e.g. 'H[mN mm/g]' or '[uT/g]*0.18[N m/T]'; NAME is "
+                      "a number in a Universal File with several responses");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
   command->footer(

@@ -62,15 +62,15 @@ void refuse_the_same(const signals::Dataset& simulated, const signals::Dataset& 
   };
   if (std::all_of(real.records.begin(), real.records.end(), is_simulated))
     throw signals::UserError(
-        "--real holds the very samples of --sim: between a record and itself there is no gap; "
-        "give records of the sensor on the bench as --real");
+        "--real and --sim hold the same samples, so there is no gap; give records of the real "
+        "sensor as --real");
 }
 
 void diagnose_records(const DiagnoseCommand& options) {
   if (!options.real)
     throw signals::UserError(
-        "give the records of the real sensor as --real DATASET; without records give the figures "
-        "alone as --resonance SIMULATED_HZ:MEASURED_HZ");
+        "give the records of the real sensor as --real DATASET, or two resonances as --resonance "
+        "SIMULATED_HZ:MEASURED_HZ");
   diagnosis::check_menu_names(options.possible_experiments);
   const bool show = options.common.is_talkative();
   options.simulation.check_one_is_given();
@@ -98,8 +98,8 @@ void diagnose(const DiagnoseCommand& options) {
   if (!options.figures.is_given()) return diagnose_records(options);
   if (options.real || options.simulation.simulation)
     throw signals::UserError(
-        "--resonance, --damping and --example compare figures, --real and --sim records: give "
-        "either figures or records");
+        "--resonance, --damping and --example compare resonances, --real and --sim compare "
+        "records; give either resonances or records");
   diagnose_resonances(options.figures, options.simulation, options.common, options.folder);
 }
 
@@ -107,9 +107,10 @@ void diagnose(const DiagnoseCommand& options) {
 
 void add_diagnose_command(CLI::App& app) {
   const auto options = std::make_shared<DiagnoseCommand>();
-  auto* command = app.add_subcommand(
-      "diagnose",
-      "Why the records differ from the simulation: where, which effect, how far the gap closes");
+  auto* command =
+      app.add_subcommand("diagnose",
+                         "Finds why records differ from the simulation: the cause, where the gap "
+                         "lies, and the improvement once the cause is added");
   command->add_option(
       "--model", options->simulation.model,
       "The simulation as a case file (.prm), a reduced model or an updated model (.json)");
@@ -125,12 +126,13 @@ void add_diagnose_command(CLI::App& app) {
       "(default: results/diagnosis, numbered when it is there)");
   command
       ->add_option("--max-effects", options->max_effects,
-                   "Most effects that are combined beside recalibrated parameters")
+                   "Largest number of effects that are combined, besides recalibrated parameters")
       ->check(CLI::Range(1, 5))
       ->capture_default_str();
   command
       ->add_option("--bench-can", options->possible_experiments,
-                   "Experiments to choose the next one from, comma-separated; else all of the menu")
+                   "Experiments that the bench can do, comma-separated; the next experiment is one "
+                   "of them (default: all)")
       ->delimiter(',');
   add_common_options(*command, options->common);
   command->footer(

@@ -31,8 +31,9 @@ Check check_display() {
   const bool has_display = std::getenv("DISPLAY") != nullptr;
   const bool has_virtual = is_on_path("xvfb-run") && is_on_path("xauth");
   if (has_display) return {"display", "DISPLAY is set", ""};
-  if (has_virtual) return {"display", "none; a virtual one by xvfb-run", ""};
-  return {"display", "none", "pictures are left out (CSV stays): apt-get install xvfb xauth"};
+  if (has_virtual) return {"display", "none; xvfb-run gives a virtual one", ""};
+  return {"display", "none",
+          "no pictures can be drawn, CSV files are written: apt-get install xvfb xauth"};
 }
 
 Check check_blas() {
@@ -71,7 +72,7 @@ Check check_memory() {
 Check check_processors() {
   const unsigned n = std::thread::hardware_concurrency();
   return {"processors", std::to_string(n),
-          n == 0 ? "their number is not known: diagnosis uses one" : ""};
+          n == 0 ? "the number of processors is not known: diagnosis uses one" : ""};
 }
 
 Check check_folder() {
@@ -79,7 +80,8 @@ Check check_folder() {
   std::error_code unknown;
   const auto space = std::filesystem::space(".", unknown);
   if (!writable)
-    return {"this folder", "cannot be written", "results go below it: go elsewhere, or give --out"};
+    return {"this folder", "cannot be written",
+            "results are written below it: change to another folder, or give --out"};
   if (unknown) return {"this folder", "writable", ""};
   const double free_gib = static_cast<double>(space.available) / (1 << 30);
   constexpr double least_gib = 1.;
@@ -124,7 +126,7 @@ void doctor(const CommonOptions& common) {
 void add_doctor_command(CLI::App& app) {
   const auto common = std::make_shared<CommonOptions>();
   auto* command = app.add_subcommand(
-      "doctor", "What this machine lacks: display, BLAS, MPI, memory, disk, units");
+      "doctor", "Checks what this machine lacks: display, BLAS, MPI, memory, disk, units");
   add_common_options(*command, *common);
   command->footer("Example:\n  vibrissa doctor");
   command->callback([common] { doctor(*common); });

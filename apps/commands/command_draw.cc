@@ -18,7 +18,7 @@ nlohmann::json to_json(const report::PictureReport& pictures) {
 
 void draw(const std::string& folder, const CommonOptions& common) {
   if (!std::filesystem::is_directory(folder))
-    throw signals::UserError(folder + ": is no results folder");
+    throw signals::UserError(folder + ": this folder holds no results");
   bool is_complete;
   if (common.json || common.quiet) {
     const report::PictureReport pictures = report::draw_pictures(folder);
@@ -27,7 +27,7 @@ void draw(const std::string& folder, const CommonOptions& common) {
   } else {
     is_complete = report::draw_folder(folder) == 0;
   }
-  if (!is_complete) throw signals::UserError(folder + ": not every figure could be drawn");
+  if (!is_complete) throw signals::UserError(folder + ": some plots could not be drawn");
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ void add_draw_command(CLI::App& app) {
   const auto folder = std::make_shared<std::string>();
   const auto common = std::make_shared<CommonOptions>();
   auto* command = app.add_subcommand(
-      "draw", "Draws the figures of a results folder again (needs a display, or xvfb-run)");
+      "draw", "Draws the plots of a results folder again (needs a display, or xvfb-run)");
   command->add_option("folder", *folder, "Results folder")->required();
   add_common_options(*command, *common);
   command->footer(

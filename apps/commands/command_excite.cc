@@ -118,8 +118,9 @@ void check_options(const ExciteOptions& options) {
   if (std::set<double>(levels.begin(), levels.end()).size() != levels.size())
     throw signals::UserError("--levels: a level is given twice");
   if (options.wav && rate != std::floor(rate))
-    throw signals::UserError("--wav: a sound file's rate is a whole number of hertz, not " +
-                             signals::to_text(rate) + "; choose another --rate");
+    throw signals::UserError(
+        "--wav: the sampling rate of a sound file is a whole number of hertz, not " +
+        signals::to_text(rate) + "; choose another --rate");
   const std::string channel = channel_of(options);
   try {
     if (options.unit) signals::convert_unit(*options.unit, signals::unit_of_channel(channel));
@@ -225,18 +226,22 @@ void add_signal_options(CLI::App& command, ExciteOptions& options) {
       ->capture_default_str();
   command
       .add_option("--group", design.group_size,
-                  "random-odd: one of so many odd lines is left out, to detect")
+                  "random-odd grid: one line of each group of this many odd lines is left out as "
+                  "detection line")
       ->capture_default_str();
   command.add_option("--phase", options.phase, "schroeder, random or optimised")
       ->capture_default_str();
   command.add_option("--sweep", options.sweep, "linear or logarithmic")->capture_default_str();
-  command.add_option("--fade", design.fade_s, "Fade at both ends of a sweep [s]")
+  command
+      .add_option("--fade", design.fade_s,
+                  "Time over which a sweep fades in and out at its ends [s]")
       ->capture_default_str();
-  command.add_option("--peak", design.peak, "Peak at level 1, in the unit")->capture_default_str();
-  command.add_option(
-      "--unit", options.unit,
-      "Unit of peak and WAV, e.g. g; a CSV is in SI (default: the channel's, m/s^2)");
-  command.add_option("--seed", design.seed, "Seed of phases, lines left out and noise")
+  command.add_option("--peak", design.peak, "Peak at level 1, in the unit of --unit")
+      ->capture_default_str();
+  command.add_option("--unit", options.unit,
+                     "Unit of --peak and of WAV files, e.g. g (default: the channel's, m/s^2); CSV "
+                     "files are in SI");
+  command.add_option("--seed", design.seed, "Seed of phases, detection lines and noise")
       ->check(not_negative_number())
       ->capture_default_str();
 }
@@ -249,12 +254,15 @@ void add_excite_command(CLI::App& app) {
       "excite", "Designs a drive for the base: multisine with detection lines, sweep or noise");
   add_signal_options(*command, *options);
   auto& design = options->design;
-  command->add_option("--periods", design.n_periods, "Periods to be kept")->capture_default_str();
+  command->add_option("--periods", design.n_periods, "Number of periods to be recorded")
+      ->capture_default_str();
   command
       ->add_option("--lead-in", design.n_lead_in_periods,
-                   "Periods sent first, in which transients die")
+                   "Number of periods sent before the recorded ones, until transients have decayed")
       ->capture_default_str();
-  command->add_option("--realisations", design.n_realisations, "Drives with phases of their own")
+  command
+      ->add_option("--realisations", design.n_realisations,
+                   "Number of drives, each with other random phases")
       ->capture_default_str();
   command->add_option("--levels", design.levels, "Multiples of the peak, e.g. 0.25,0.5,1")
       ->delimiter(',')
@@ -262,7 +270,7 @@ void add_excite_command(CLI::App& app) {
   command->add_option("-o,--output,--out", options->folder,
                       "New folder for the drives (CSV, WAV) and excitation.json (default: a free "
                       "name results/excite; none with --json alone)");
-  command->add_flag("--wav", options->wav, "Sound files as well, scaled to full scale");
+  command->add_flag("--wav", options->wav, "Also writes sound files, scaled to full scale");
   command->add_option("--wav-format", options->wav_format, "float32 or pcm24")
       ->capture_default_str();
   command

@@ -65,7 +65,7 @@ void say_written(const IdentifyCommandOptions& options, const std::optional<std:
 }
 
 void refuse_what_needs_an_input(const IdentifyCommandOptions& options) {
-  const std::string reason = " needs the base acceleration, which --output-only does without";
+  const std::string reason = " needs the base acceleration; --output-only does not use it";
   refuse(options_of_records(options), reason);
   refuse({{options.model_file.has_value(), "-o"},
           {options.no_direct_term, "--no-direct-term"},
@@ -74,7 +74,7 @@ void refuse_what_needs_an_input(const IdentifyCommandOptions& options) {
 }
 
 void refuse_what_needs_a_record(const IdentifyCommandOptions& options) {
-  const std::string reason = " is for records, which --frequency-response has none of";
+  const std::string reason = " is for records; --frequency-response reads none";
   refuse(options_of_records(options), reason);
   refuse({{!options.record.columns.empty(), "--column"},
           {options.record.rate_hz.has_value(), "--rate"},
@@ -89,8 +89,8 @@ void identify_from_response(const IdentifyCommandOptions& options) {
       signals::formats::read_response(options.record_file, {options.response_as});
   if (response.coherence.empty() && response.standard_deviation.empty())
     std::cerr << "warning: " << options.record_file
-              << ": no coherence and no standard deviation: every line counts alike, also where "
-                 "nothing was excited\n";
+              << ": the file has no coherence and no standard deviation, so every line has the "
+                 "same weight, also where nothing was excited\n";
   const auto found =
       separation::identify_response(response, {.order = options.identify.order,
                                                .max_order = options.identify.max_order,
@@ -166,21 +166,22 @@ void identify(const IdentifyCommandOptions& options) {
 
 void add_other_inputs(CLI::App& command, IdentifyCommandOptions& options) {
   command.add_flag("--output-only", options.output_only,
-                   "Resonances and damping from base_moment alone, for a drive that nobody "
-                   "measured and that is taken for white: no gain, no model. --order is then "
-                   "the highest tried (default 20)");
+                   "Gives resonances and damping from base_moment alone, for an input that was not "
+                   "measured and that is close to white noise; gives no gain and no model. --order "
+                   "is then the highest order tried (default 20)");
   command
       .add_option("--lags", options.max_lags,
-                  "--output-only: half the longest lag of the covariances [samples]; a few "
-                  "periods of the lowest resonance should fit into twice as many")
+                  "For --output-only: half the longest lag of the covariances [samples]; twice "
+                  "this time should hold a few periods of the lowest resonance")
       ->check(positive_number())
       ->capture_default_str();
   command.add_flag("--frequency-response", options.frequency_response,
                    "The file holds a measured frequency response base acceleration -> base "
                    "moment: a Universal File (function of type 4), a .mat or a CSV");
   command.add_option("--response-as", options.response_as,
-                     "--frequency-response: NAME[unit]*FACTOR[unit] of its values, as 'H[mN mm/g]' "
-                     "or '[uT/g]*0.18[N m/T]'; of several in a Universal File its number");
+                     "For --frequency-response: name, unit and factor of the response, "
+                     "NAME[unit]*FACTOR[unit], e.g. 'H[mN mm/g]' or '[uT/g]*0.18[N m/T]'; NAME is "
+                     "a number in a Universal File with several responses");
 }
 
 void identify_what_is_given(IdentifyCommandOptions options) {
@@ -199,21 +200,23 @@ void identify_what_is_given(IdentifyCommandOptions options) {
 
 void add_identify_command(CLI::App& app) {
   const auto options = std::make_shared<IdentifyCommandOptions>();
-  auto* command = app.add_subcommand(
-      "identify", "Base vibration response model from a record of base acceleration and moment");
+  auto* command = app.add_subcommand("identify",
+                                     "Identifies the base vibration response model (BVRM) from a "
+                                     "record of base acceleration and moment");
   command->add_option("record", options->record_file, "Record, or frequency response")->required();
-  command->add_option("--held-out", options->held_out_file,
-                      "Record that only scores the model (default: last third of the record)");
+  command->add_option(
+      "--held-out", options->held_out_file,
+      "Record that only scores the model and is not fitted (default: last third of the record)");
   command
-      ->add_option(
-          "--order", options->identify.order,
-          "Number of poles, two for each mode, hence even (default: by information criterion)")
+      ->add_option("--order", options->identify.order,
+                   "Number of poles, two for each mode, so an even number (default: chosen by "
+                   "information criterion)")
       ->check(CLI::Range(1, highest_order));
   command->add_option("--max-order", options->identify.max_order, "Highest order tried, even")
       ->check(CLI::Range(1, highest_order))
       ->capture_default_str();
   command->add_flag("--cross-validation", options->cross_validation,
-                    "Choose the order by a held-out part of the fit record instead");
+                    "Chooses the order by a held-out part of the fit record");
   command
       ->add_option("--period", options->identify.period_samples,
                    "Period of a periodic record [samples]")
@@ -221,7 +224,8 @@ void add_identify_command(CLI::App& app) {
   command->add_option("--hold", options->hold,
                       "Input between samples: first_order, zero_order or band_limited (default: "
                       "first_order or band_limited, whichever fits better)");
-  command->add_flag("--no-direct-term", options->no_direct_term, "Strictly proper model");
+  command->add_flag("--no-direct-term", options->no_direct_term,
+                    "Leaves out the direct term (strictly proper model)");
   command
       ->add_option("--method", options->method,
                    "output-error; srivc, refined instrumental variables; or frequency, the fit of "
@@ -231,8 +235,9 @@ void add_identify_command(CLI::App& app) {
   command->add_option("-o,--output,--out", options->model_file,
                       "Model written as JSON (default: bvrm.json in a free folder "
                       "results/identify; none with --json alone)");
-  command->add_option("--c-header", options->c_header_file,
-                      "Model written as C header for a microcontroller, at the record's rate");
+  command->add_option(
+      "--c-header", options->c_header_file,
+      "Also writes the model as C header for a microcontroller, at the record's sampling rate");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
   command->footer(

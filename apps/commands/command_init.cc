@@ -26,7 +26,7 @@ void write_text(const std::string& file, const std::string_view text) {
 void init(const InitOptions& options) {
   if (std::filesystem::exists(options.file))
     throw signals::UserError(options.file +
-                             ": is there already and is not overwritten; name another file");
+                             ": this file exists and is not overwritten; name another file");
   write_text(options.file, options.kind == "flow" ? sensor_case::flow_sensor_case()
                                                   : sensor_case::whisker_sensor_case());
   // Every entry with its meaning, unit and range, the defaults filled in.
@@ -45,8 +45,7 @@ void init(const InitOptions& options) {
 
 void add_init_command(CLI::App& app) {
   const auto options = std::make_shared<InitOptions>();
-  auto* command =
-      app.add_subcommand("init", "Writes a commented case file to start from; asks nothing");
+  auto* command = app.add_subcommand("init", "Writes a commented case file to start from");
   command->add_option("case", options->file, "File written")->capture_default_str();
   command->add_option("--kind", options->kind, "flow (wire with a fin of four blades) or whisker")
       ->check(CLI::IsMember({"flow", "whisker"}))

@@ -85,10 +85,11 @@ void audit(const MeshOptions& options) {
 void add_mesh_command(CLI::App& app) {
   const auto options = std::make_shared<MeshOptions>();
   auto* command =
-      app.add_subcommand("mesh", "Audit of a sensor's mesh: volumes, masses, areas, cell quality");
+      app.add_subcommand("mesh", "Checks a sensor's mesh: volumes, masses, areas, cell quality");
   options->chosen.add_case_to(*command);
-  command->add_option("--calculix", options->calculix_file,
-                      "Also write the mesh as a CalculiX/Abaqus deck (.inp) for its modes");
+  command->add_option(
+      "--calculix", options->calculix_file,
+      "Also writes the mesh as a CalculiX/Abaqus input file (.inp) for a modal analysis");
   add_common_options(*command, options->common);
   command->footer(
       "Examples:\n"

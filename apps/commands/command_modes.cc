@@ -46,7 +46,7 @@ void print_convergence(const nlohmann::json& document) {
   std::cout << "\nRefinement of the mesh:\n" << table.to_text();
   std::cout << "last change " << document["last_change_percent"].get<double>() << " %";
   if (document["observed_order"].is_null()) {
-    std::cout << "; no observed order (the changes do not fall steadily)\n";
+    std::cout << "; no observed order (the changes do not decrease steadily)\n";
   } else {
     std::cout << "; observed order " << document["observed_order"].get<double>()
               << "; extrapolated " << document["extrapolated_hz"].get<double>() << " Hz\n";
@@ -80,10 +80,11 @@ void show_modes(const ModesOptions& options) {
 void add_modes_command(CLI::App& app) {
   const auto options = std::make_shared<ModesOptions>();
   auto* command = app.add_subcommand(
-      "modes", "Resonances of a sensor, with damping, effective masses and mesh convergence");
+      "modes",
+      "Computes resonances of a sensor, with damping, effective masses and mesh convergence");
   options->chosen.add_case_to(*command);
   command->add_flag("!--no-convergence", options->convergence,
-                    "Skip the further meshes of the refinement table");
+                    "Leaves out the finer meshes of the refinement table");
   command
       ->add_option("--refine-from", options->first_resolution,
                    "Resolution of the first of the three meshes of the refinement table "

@@ -33,7 +33,7 @@ void refuse_slow_sampling(const diagnosis::NominalModel& nominal, const double r
   if (rate_hz <= 2. * first_hz)
     throw signals::UserError("--rate: " + signals::to_text(rate_hz) +
                              " Hz is not twice the first mode's " + signals::to_text(first_hz) +
-                             " Hz: such records do not show the sensor");
+                             " Hz: such records cannot show the sensor's resonance");
 }
 
 std::vector<diagnosis::PlannedInput> inputs_without_quiet(
@@ -71,8 +71,8 @@ NominalInput::Simulation simulation_of(const PlanCommand& options, bool show) {
   NominalInput::Simulation simulation = options.nominal.read(show);
   if (!simulation.model.effects.empty())
     throw signals::UserError(*options.nominal.model +
-                             ": a plan starts from a simulation without effects: give the one that "
-                             "was updated");
+                             ": this is an updated model; a plan starts from the simulation before "
+                             "the update: give that one");
   return simulation;
 }
 
@@ -98,8 +98,8 @@ void add_options(CLI::App& command, PlanCommand& options) {
   command.add_option("--sim", options.nominal.simulation,
                      "The simulation as a dataset: a folder of records with dataset.json");
   command.add_option("--records", options.records,
-                     "Dataset whose inputs are planned; else those of --sim, or two multisines "
-                     "and gusts for --model");
+                     "Dataset with the planned inputs (default: those of --sim; for --model two "
+                     "multisines and gusts)");
   command
       .add_option("--rate", options.rate_hz,
                   "Sampling rate of the records planned for --model [Hz]")
@@ -107,7 +107,7 @@ void add_options(CLI::App& command, PlanCommand& options) {
       ->capture_default_str();
   command
       .add_option("--quiet-record", options.quiet_s,
-                  "A record at rest of so many seconds is planned, too")
+                  "Length of a further planned record at rest [s]")
       ->check(CLI::Range(1., 3600.));
   command
       .add_option("--moment-noise", options.noise.moment_n_m,
@@ -128,10 +128,9 @@ void add_options(CLI::App& command, PlanCommand& options) {
 
 void add_plan_command(CLI::App& app) {
   const auto options = std::make_shared<PlanCommand>();
-  auto* command = app.add_subcommand(
-      "plan",
-      "Before there are data: which effects an experiment could find and tell apart, and what to "
-      "measure first");
+  auto* command = app.add_subcommand("plan",
+                                     "Tells, before there are data, which effects an experiment "
+                                     "can detect and distinguish, and what to measure first");
   add_options(*command, *options);
   add_common_options(*command, options->common);
   command->footer(

@@ -58,8 +58,8 @@ std::vector<report::Figure> figures_of(const reproduction::Reproduction& result)
 std::string report_text(const reproduction::Reproduction& result) {
   return "The paper's numbers\n\n" +
          reproduction::numbers_table(reproduction::paper_numbers(result)).to_markdown() +
-         "\nThe \"experiment\" is simulated with the built sensor's published figures and "
-         "noise.\n" +
+         "\nThe \"experiment\" is simulated with the published values and noise of the built "
+         "sensor.\n" +
          "\nSettings of the adaptive filter, tried on the simulated experiment\n\n" +
          reproduction::readings_table(result.readings).to_markdown() + "\n" +
          reproduction::explain(result.readings) + "\n" + "\nSimulation\n\n" +
@@ -99,8 +99,7 @@ void reproduce(const ReproduceOptions& options) {
 void add_reproduce_command(CLI::App& app) {
   const auto options = std::make_shared<ReproduceOptions>();
   auto* command = app.add_subcommand(
-      "reproduce",
-      "The reference paper's figures 7 to 12 and numbers beside ours, into a new results folder");
+      "reproduce", "Reproduces figures 7 to 12 of the reference paper and its numbers");
   command->add_option("--flow-case", options->flow_case, "Case of the flow sensor")
       ->capture_default_str();
   command->add_option("--whisker-case", options->whisker_case, "Case of the whisker sensor")

@@ -39,8 +39,9 @@ void print_outcome(const RunOutcome& outcome, const bool quiet) {
 
 void add_run_command(CLI::App& app) {
   const auto options = std::make_shared<RunOptions>();
-  auto* command = app.add_subcommand(
-      "run", "The main job: simulate, identify and separate, into a new results folder");
+  auto* command = app.add_subcommand("run",
+                                     "Simulates a sensor, identifies its vibration response, "
+                                     "separates wind from vibration; writes a results folder");
   options->chosen.add_to(*command);
   options->chosen.add_folder_to(*command);
   add_common_options(*command, options->common);

@@ -60,7 +60,7 @@ std::unique_ptr<separation::BvrmSeparator> bvrm_separator(const SeparateOptions&
   const separation::Hold hold = bvrm.hold_or(told);
   if (bvrm.hold && hold != *bvrm.hold && !options.common.quiet)
     std::cerr << "vibrissa: " << *options.model_file << " was fitted to a " << to_string(*bvrm.hold)
-              << " base acceleration, which --hold takes as " << to_string(hold) << "\n";
+              << " base acceleration, but --hold says " << to_string(hold) << "\n";
   return std::make_unique<separation::BvrmSeparator>(bvrm.model, sampling_rate_hz, hold);
 }
 
@@ -131,8 +131,8 @@ void warn_of_dead_accelerometer(const signals::Record& record) {
   const auto a = record.channel(signals::channel::base_acceleration);
   if (signals::is_constant(a))
     std::cerr << "warning: base_acceleration is " << a.front()
-              << " throughout: no vibration is taken off; is the accelerometer's column the right "
-                 "one?\n";
+              << " in all samples, so no vibration is subtracted; check the column of the "
+                 "accelerometer\n";
 }
 
 void separate_as_stream(const SeparateOptions& options) {
@@ -144,8 +144,8 @@ void separate_as_stream(const SeparateOptions& options) {
     throw signals::UserError("--stream writes CSV: give -o a name that ends in .csv");
   if (options.model_file && diagnosis::is_updated_model(*options.model_file))
     throw signals::UserError(*options.model_file +
-                             ": an updated model is simulated whole: leave --stream out, or give a "
-                             "model of 'vibrissa identify'");
+                             ": an updated model needs the whole record: leave --stream out, or "
+                             "give a model of 'vibrissa identify'");
   signals::RecordStream record(options.record_file, options.record.read_options());
   std::vector<NamedSeparator> methods;
   if (options.model_file)
@@ -173,8 +173,7 @@ void separate(const SeparateOptions& options) {
   if (options.stream) return separate_as_stream(options);
   if (options.dtw_path_file && !options.truth_column) {
     throw signals::UserError(
-        "--dtw-path lays estimates beside the true wind moment: name its "
-        "column (--truth)");
+        "--dtw-path compares with the true wind moment: name its column (--truth)");
   }
   const signals::Record record = options.record.read(options.record_file);
   warn_of_dead_accelerometer(record);
@@ -224,14 +223,14 @@ void add_filter_options(CLI::App& command, SeparateOptions& options) {
 void add_separate_command(CLI::App& app) {
   const auto options = std::make_shared<SeparateOptions>();
   auto* command = app.add_subcommand(
-      "separate", "Wind part of a record's base moment, by a BVRM and by an adaptive filter");
+      "separate",
+      "Separates the wind part of a record's base moment, by a BVRM or by an adaptive filter");
   command
       ->add_option("record", options->record_file, "Record with base acceleration and base moment")
       ->required();
   command->add_option("--model", options->model_file,
-                      "BVRM as JSON, from 'vibrissa identify -o', or updated_model.json of a "
-                      "diagnosis (without it: "
-                      "adaptive filter only)");
+                      "BVRM (JSON, from 'vibrissa identify') or updated_model.json of a diagnosis "
+                      "(without it: adaptive filter only)");
   command->add_option("--hold", options->hold,
                       "Base acceleration between samples: first_order, zero_order or band_limited "
                       "(default: as the model was fitted, else first_order)");
@@ -244,7 +243,7 @@ void add_separate_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option(
       "--sensor-model", options->sensor_model_file,
-      "model.json of a run: adds the wind speed, by its steady drag, to the output");
+      "model.json of a run; adds a wind-speed column, computed from the sensor's steady drag");
   command
       ->add_option("--moment-deviation", options->moment_deviation_n_m,
                    "Standard deviation of the separated moment, for the speed's interval [N m]")
@@ -253,19 +252,21 @@ void add_separate_command(CLI::App& app) {
   command->add_option("--truth", options->truth_column,
                       "Column with the true wind moment [N m], for the scores");
   command->add_option("--dtw-path", options->dtw_path_file,
-                      "CSV written: which time of each estimate the DTW score lays beside which "
-                      "of the truth");
+                      "Also writes the time-warping path of the DTW score as CSV: time of the "
+                      "truth, time of the estimate");
   command->add_option(
       "-o,--output,--out", options->output_file,
       "Record written, with a wind moment for each method (default: separated.csv in "
       "a free folder results/separate; none with --json alone)");
   add_filter_options(*command, *options);
-  command->add_option("--settling", options->settling_s, "Start left out of the scores [s]")
+  command
+      ->add_option("--settling", options->settling_s,
+                   "Time at the start that the scores leave out [s]")
       ->check(not_negative_number())
       ->capture_default_str();
-  command->add_flag("--stream", options->stream,
-                    "For records of any length: reads and writes (-o, CSV) block by block, without "
-                    "scores");
+  command->add_flag(
+      "--stream", options->stream,
+      "Reads and writes (CSV) block by block, for records of any length; gives no scores");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
   command->footer(

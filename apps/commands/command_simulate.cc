@@ -31,8 +31,8 @@ struct SimulateOptions {
 signals::Record updated_record(const SimulateOptions& options) {
   if (!options.chosen.is_plain() || options.model_file)
     throw signals::UserError(
-        "an updated model is simulated under --inputs as it is: what changes a case file, and "
-        "--write-model, are not for it");
+        "an updated model is simulated as it is, under --inputs: leave out --write-model and the "
+        "options that change a case file");
   if (!options.input_file)
     throw signals::UserError("--inputs: an updated model needs a record with its inputs");
   signals::Record record = signals::read_record(*options.input_file);
@@ -71,9 +71,10 @@ void simulate(const SimulateOptions& options) {
     return;
   }
   if (options.input_file)
-    throw signals::UserError("--inputs is for an updated model; a case file names its own inputs");
+    throw signals::UserError(
+        "--inputs is for an updated model; a case file names its inputs itself");
   if (options.periodic)
-    throw signals::UserError("--periodic is for the --inputs of an updated model");
+    throw signals::UserError("--periodic belongs to --inputs of an updated model");
   const sensor_case::Case parameters = options.chosen.load().read();
   refuse_overwriting(recordings_of(parameters), outputs);
   sensor_case::check_reduced_wind(parameters);
@@ -93,17 +94,17 @@ void simulate(const SimulateOptions& options) {
 void add_simulate_command(CLI::App& app) {
   const auto options = std::make_shared<SimulateOptions>();
   auto* command = app.add_subcommand(
-      "simulate", "Base-moment record of a sensor that is shaken and blown at, with noise");
+      "simulate", "Simulates a record: base moment under base vibration and wind, with noise");
   options->chosen.add_to(*command);
   command->add_option("-o,--output,--out,--record", options->record_file,
                       "Record written (default: record.csv in a free folder results/simulate)");
-  command->add_option("--write-model", options->model_file, "Also write the reduced model (JSON)");
+  command->add_option("--write-model", options->model_file, "Also writes the reduced model (JSON)");
   command->add_option(
       "--inputs", options->input_file,
-      "With an updated model (updated_model.json of a diagnosis) in place of the case "
-      "file: record with its base acceleration and wind speed; no noise");
+      "Record with base acceleration and wind speed, for an updated model (updated_model.json of a "
+      "diagnosis) in place of the case file; no noise is added");
   command->add_flag("--periodic", options->periodic,
-                    "These inputs are whole periods in steady state");
+                    "The record of --inputs holds whole periods in steady state");
   add_common_options(*command, options->common);
   command->footer(
       "Examples:\n"

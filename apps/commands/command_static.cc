@@ -100,8 +100,8 @@ void find_equilibria(const StaticCommandOptions& options) {
     print_json(document);
     return;
   }
-  std::cout << "Size of the steady base moment as a power of the load, by straight lines through "
-               "the logarithms:\n"
+  std::cout << "Exponent of the steady base moment against the load (straight lines through the "
+               "logarithms):\n"
             << exponent_table(curves).to_text() << "\n"
             << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
@@ -114,7 +114,7 @@ void add_levels(CLI::App& command, const std::string& name, const std::string& w
       ->capture_default_str();
   command
       .add_option("--" + name + "-points", levels.points,
-                  "How many, evenly spaced in the logarithm")
+                  "Number of points, evenly spaced in the logarithm")
       ->check(CLI::Range(3, 500))
       ->capture_default_str();
 }
@@ -125,8 +125,8 @@ void add_static_command(CLI::App& app) {
   const auto options = std::make_shared<StaticCommandOptions>();
   auto* command = app.add_subcommand(
       "static",
-      "Steady base moment against wind speed and base acceleration, by the whole solid at finite "
-      "strain (figure 8 of the reference paper), into a new results folder");
+      "Computes the steady base moment over wind speed and over base acceleration by the whole "
+      "solid at finite strain (figure 8 of the reference paper)");
   command->add_option("cases", options->case_files, "Case files (.prm), one for each sensor")
       ->required();
   add_levels(*command, "wind", "wind speed", "[m/s]", options->wind_m_s);

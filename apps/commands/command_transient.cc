@@ -19,10 +19,9 @@ struct TransientCommandOptions {
 void print_substeps(const nlohmann::json& substeps) {
   std::cout << substeps["smallest"] << " to " << substeps["largest"] << " substeps a sample, "
             << report::Cell(substeps["mean"].get<double>()).rounded(3)
-            << " in the mean; samples gone through anew: " << substeps["rejected_intervals"]
-            << "\n";
+            << " in the mean; samples repeated: " << substeps["rejected_intervals"] << "\n";
   if (substeps["intervals_over_tolerance"] > 0)
-    std::cout << "Samples above Transient/Time tolerance at the most substeps: "
+    std::cout << "Samples above Transient/Time tolerance at the largest number of substeps: "
               << substeps["intervals_over_tolerance"] << " (substeps.csv)\n";
 }
 
@@ -34,8 +33,8 @@ void print_outcome(const TransientOutcome& outcome) {
             << " unknowns, " << outcome.summary["steps"] << " steps, "
             << outcome.summary["iterations"] << " iterations, " << outcome.summary["factorisations"]
             << " factorisations\nLargest base moment " << number("largest_base_moment_n_m")
-            << " N m; its two routes differ by " << number("two_moment_routes_relative_difference")
-            << " of it\n";
+            << " N m; its two formulas (clamp reactions, balance of angular momentum) differ by "
+            << number("two_moment_routes_relative_difference") << " of it\n";
   if (outcome.summary.contains("substeps")) print_substeps(outcome.summary["substeps"]);
   if (outcome.summary.contains("energy_error_over_largest_work"))
     std::cout << "Energy balance closes to " << number("energy_error_over_largest_work")
@@ -47,12 +46,12 @@ TransientOutcome run(TransientCommandOptions& options) {
   const bool show = options.common.is_talkative();
   if (options.resumed_folder) {
     if (!options.chosen.case_file.empty() || options.strain || !options.chosen.is_plain())
-      throw signals::UserError(
-          "--resume goes on with the folder's own case: give nothing beside it");
+      throw signals::UserError("--resume uses the case of the folder: give no other option");
     return resume_transient(*options.resumed_folder, show);
   }
   if (options.chosen.case_file.empty())
-    throw signals::UserError("name a case file (.prm), or a folder to go on with by --resume");
+    throw signals::UserError(
+        "name a case file (.prm), or the folder of an interrupted run (--resume)");
   if (options.strain) options.chosen.settings.push_back("Transient/Strain=" + *options.strain);
   return run_transient(options.chosen, given_command_line(), show);
 }
@@ -74,17 +73,17 @@ void report_outcome(const TransientOutcome& outcome, const CommonOptions& common
 
 void add_transient_command(CLI::App& app) {
   const auto options = std::make_shared<TransientCommandOptions>();
-  auto* command = app.add_subcommand(
-      "transient",
-      "The full-order solid through the case's record, at finite strain: base moment, energies, "
-      "fields; can be interrupted and gone on with");
+  auto* command =
+      app.add_subcommand("transient",
+                         "Integrates the whole solid in time at finite or small strain: base "
+                         "moment, energies, fields; an interrupted run can be resumed");
   options->chosen.add_to(*command);
   options->chosen.add_folder_to(*command);
   command->get_option("case")->required(false);
   command->add_option("--strain", options->strain,
-                      "finite or small: as Transient/Strain of the case file");
+                      "finite or small; overrides Transient/Strain of the case file");
   command->add_option("--resume", options->resumed_folder,
-                      "Go on with the run in this folder from its checkpoint, in place of a case");
+                      "Resumes the run in this folder from its checkpoint; give no case then");
   add_common_options(*command, options->common);
   command->footer(
       "Examples:\n"

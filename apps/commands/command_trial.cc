@@ -69,8 +69,8 @@ void make(TrialCommand options) {
                        {"cases", trial.cases.size()},
                        {"labels_commitment_sha256", trial.commitment}});
   std::cout << trial.cases.size() << " sensors in " << options.folder.string()
-            << "; their labels are sealed, the key is " << options.folder.string()
-            << ".key.\nLabels are bound to (SHA-256, salted): " << trial.commitment << "\n";
+            << "; their labels are encrypted, the key is " << options.folder.string()
+            << ".key.\nThe labels have the hash (SHA-256, salted): " << trial.commitment << "\n";
 }
 
 void run(const TrialCommand& options) {
@@ -93,7 +93,7 @@ void score(const TrialCommand& options) {
   const fs::path key = options.key.value_or(fs::path(options.folder.string() + ".key"));
   const trial::TrialScore score = trial::score_trial(trial, trial::open_labels(trial, key));
   if (options.common.json) return print_json(to_json(score));
-  std::cout << "Labels open and are those that were bound to " << trial.commitment << ".\n\n"
+  std::cout << "The labels are decrypted; their hash is the one of " << trial.commitment << ".\n\n"
             << trial::summary_table(score).to_text() << "\nWrong answers\n"
             << trial::confusion_table(score).to_text();
   if (score.unanswered > 0)
@@ -124,18 +124,20 @@ void observe(const TrialCommand& options) {
 }
 
 void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
-  auto* command = trial.add_subcommand("make", "Write records of sensors whose effect is sealed");
-  command->add_option("--cases", options->n_cases, "How many")
+  auto* command = trial.add_subcommand("make",
+                                       "Makes sensors, each with a hidden effect, and writes their "
+                                       "records; the labels are encrypted");
+  command->add_option("--cases", options->n_cases, "Number of sensors")
       ->check(positive_number())
       ->capture_default_str();
-  command->add_option("--first", options->first, "Number of the first, to go on with a seed")
+  command->add_option("--first", options->first, "Number of the first sensor; continues a seed")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "All sensors follow from it")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of all random draws")->capture_default_str();
   command->add_option("-o,--out,--output", options->folder,
                       "New folder (default: a free name results/trial)");
   command->add_flag("--finite-strain", options->finite_strain,
-                    "Sensors that are the whole solid at finite strain in place of its modes: "
-                    "fewer effects, and a quarter of an hour each");
+                    "Simulates the whole solid at finite strain in place of its modes: fewer "
+                    "effects; a quarter of an hour for each sensor");
   add_common_options(*command, options->common);
   command->footer("Example:\n  vibrissa trial make --cases 40 --seed 5 --out trial5");
   command->callback([options] { make(*options); });
@@ -143,14 +145,18 @@ void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
 
 void add_run(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   auto* command = trial.add_subcommand(
-      "run", "Diagnose what has no answer yet; under mpirun all ranks take from one queue");
-  command->add_option("folder", options->folder, "The trial")->required();
-  command->add_option("--max-effects", options->run.max_effects, "Most effects that are combined")
+      "run",
+      "Diagnoses every sensor that has no answer yet; the processes of mpirun share the work");
+  command->add_option("folder", options->folder, "Folder of the trial")->required();
+  command
+      ->add_option("--max-effects", options->run.max_effects,
+                   "Largest number of effects that are combined")
       ->check(CLI::Range(1, 5))
       ->capture_default_str();
   command->add_flag("--further", options->run.further,
-                    "Where answers are left, do the recommended experiment, and one by chance");
-  command->add_option("--threads", options->run.n_threads, "Of each rank")
+                    "Where several answers remain, adds the recommended experiment and, for "
+                    "comparison, a random one");
+  command->add_option("--threads", options->run.n_threads, "Threads of each process")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   add_common_options(*command, options->common);
@@ -161,34 +167,34 @@ void add_run(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
 }
 
 void add_score(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
-  auto* command = trial.add_subcommand("score", "Open the labels and compare");
-  command->add_option("folder", options->folder, "The trial")->required();
-  command->add_option("--key", options->key, "Key of the labels; else FOLDER.key");
+  auto* command = trial.add_subcommand("score", "Decrypts the labels and scores the answers");
+  command->add_option("folder", options->folder, "Folder of the trial")->required();
+  command->add_option("--key", options->key,
+                      "File with the key of the labels (default: FOLDER.key)");
   command->add_option("-o,--out,--output", options->out,
-                      "New folder for tables and pictures; else FOLDER/score");
+                      "New folder for tables and pictures (default: FOLDER/score)");
   add_common_options(*command, options->common);
   command->footer("Example:\n  vibrissa trial score trial5 --out score5");
   command->callback([options] { score(*options); });
 }
 
 void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
-  auto* command = trial.add_subcommand(
-      "observe",
-      "How often could anyone be right? Asks who knows the form of every effect and the bench");
-  command->add_option("--benches", options->n_benches, "How many, of 22 sensors each")
+  auto* command = trial.add_subcommand("observe",
+                                       "Upper bound on accuracy: an ideal Bayesian observer who "
+                                       "knows the form of every effect and the bench");
+  command->add_option("--benches", options->n_benches, "Number of benches, with 22 sensors each")
       ->check(positive_number())
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "All sensors follow from it")->capture_default_str();
-  auto* as_built =
-      command->add_flag("--as-built", options->as_built,
-                        "Every sensor is a little off in modulus, damping, gain and drag");
+  command->add_option("--seed", options->seed, "Seed of all random draws")->capture_default_str();
+  auto* as_built = command->add_flag(
+      "--as-built", options->as_built,
+      "Every sensor deviates by a few percent in modulus, damping, gain and drag");
   command
       ->add_flag("--further", options->run.further,
-                 "Where answers are left, do each further experiment; not with --as-built")
+                 "Where several answers remain, adds each further experiment; not with --as-built")
       ->excludes(as_built);
   command
-      ->add_option("--asked", options->asked,
-                   "How often none, one, two and three effects are asked, to each other; 0: never")
+      ->add_option("--asked", options->asked, "Relative frequencies of 0, 1, 2 and 3 true effects")
       ->check(CLI::Range(0., 1e6))
       ->capture_default_str();
   add_common_options(*command, options->common);
@@ -201,7 +207,8 @@ void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) 
 void add_trial_command(CLI::App& app) {
   const auto options = std::make_shared<TrialCommand>();
   auto* command = app.add_subcommand(
-      "trial", "Blind trials: how often diagnoses are right about sensors whose effect is sealed");
+      "trial",
+      "Blind trials: measures how often diagnoses are right, on sensors whose effect is encrypted");
   command->require_subcommand(1);
   add_make(*command, options);
   add_run(*command, options);

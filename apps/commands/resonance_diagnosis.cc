@@ -29,7 +29,7 @@ std::array<double, 2> simulated_and_measured(const std::string& option, const st
 void check(const ResonanceInput& figures) {
   if (figures.example && (figures.resonance || figures.damping))
     throw signals::UserError(
-        "--example has its own figures: leave out --resonance and --damping, or --example");
+        "--example has its own resonances: leave out --resonance and --damping, or --example");
   if (figures.damping && !figures.resonance)
     throw signals::UserError("--damping needs --resonance SIMULATED_HZ:MEASURED_HZ beside it");
   if (figures.example && *figures.example != "paper-gap")
@@ -54,10 +54,11 @@ diagnosis::ResonanceExample read(const ResonanceInput& figures) {
 
 void ResonanceInput::add_to(CLI::App& command) {
   command.add_option("--resonance", resonance,
-                     "SIMULATED_HZ:MEASURED_HZ: the first resonances, when there are no records");
-  command.add_option("--damping", damping, "SIMULATED:MEASURED: damping ratios beside --resonance");
+                     "SIMULATED_HZ:MEASURED_HZ: the first resonances, in place of records");
+  command.add_option("--damping", damping,
+                     "SIMULATED:MEASURED: the damping ratios that belong to --resonance");
   command.add_option("--example", example,
-                     "Built-in figures: paper-gap, the reference study's own gap");
+                     "Built-in example: paper-gap, the resonances of the reference study");
 }
 
 void diagnose_resonances(const ResonanceInput& figures, const NominalInput& simulation,

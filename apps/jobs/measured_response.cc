@@ -26,13 +26,13 @@ const std::array<NamedMethod, 5> methods = {
     {{ResponseMethod::periods, "periods", "averages of whole periods, no leakage", true},
      {ResponseMethod::welch, "welch", "averaged segments of any record", false},
      {ResponseMethod::local_polynomial, "local-polynomial",
-      "any record, at every line of it, without leakage; noise told", false},
+      "any record, at each of its lines, no leakage; gives the noise", false},
      {ResponseMethod::robust, "robust",
-      "best linear approximation from realisations (--realisation); noise and distortion told",
+      "best linear approximation from realisations (--realisation); gives noise and distortion",
       true},
      {ResponseMethod::fast, "fast",
-      "best linear approximation from the detection lines of one odd or random-odd record; noise, "
-      "even and odd distortion told",
+      "best linear approximation from the detection lines of one odd or random-odd record; gives "
+      "noise, even and odd distortion",
       true}}};
 
 const std::string response_unit = "n_m_s2_per_m";
@@ -87,8 +87,8 @@ MeasuredResponse by_local_polynomial(const Channels& record) {
   return {{"local polynomial", report::CurveStyle::line, std::move(found.response)},
           {{"noise_power_n2_m2", std::move(found.noise_variance)}},
           {},
-          "standard deviation: noise at the output; noise of the accelerometer biases unseen, and "
-          "distortion passes for noise"};
+          "standard deviation: noise at the output; it does not show the bias from accelerometer "
+          "noise, and it counts distortion as noise"};
 }
 
 MeasuredResponse by_realisations(const std::vector<Record>& records,
@@ -102,9 +102,9 @@ MeasuredResponse by_realisations(const std::vector<Record>& records,
       {{"noise_deviation_" + response_unit, roots_of(found.noise_variance)},
        {"distortion_variance_" + response_unit + "_squared", std::move(found.distortion_variance)}},
       {},
-      "standard deviation: of the mean, noise and distortion together; distortion: what one "
-      "realisation adds, unbiased, hence below zero at some lines of a linear sensor; even and "
-      "odd distortion are not told apart"};
+      "standard deviation: of the mean, noise and distortion together; distortion: of one "
+      "realisation, an unbiased estimate, so it is below zero at some lines of a linear sensor; "
+      "even and odd distortion are not distinguished"};
 }
 
 MeasuredResponse by_detection_lines(const Channels& record, const std::size_t period_samples) {
@@ -117,7 +117,7 @@ MeasuredResponse by_detection_lines(const Channels& record, const std::size_t pe
        {"even_distortion_power_n2_m2", std::move(found.even_power)}},
       std::move(found.detection),
       odd_known ? "standard deviation: noise and odd distortion together"
-                : "no odd line was left out of the drive: odd distortion is not told, and the "
+                : "the drive has no odd detection line: odd distortion is not known, and the "
                   "standard deviation is that of noise alone"};
   if (odd_known) {
     measured.evidence.push_back({"odd_distortion_power_n2_m2", std::move(found.odd_power)});
@@ -145,15 +145,15 @@ MeasuredResponse measure_response(const std::vector<Record>& records,
                                           options.period_samples)},
               {},
               {},
-              "standard deviation: noise; distortion repeats with the period and is not told"};
+              "standard deviation: noise; distortion repeats with the period and is not included"};
     case ResponseMethod::welch:
       return {{"Welch", report::CurveStyle::line,
                signals::welch_response(first.input, first.output, first.rate_hz,
                                        {options.segment_samples})},
               {},
               {},
-              "standard deviation: from the coherence; leakage and noise of the accelerometer bias "
-              "unseen"};
+              "standard deviation: from the coherence; it does not show the bias from leakage and "
+              "accelerometer noise"};
     case ResponseMethod::local_polynomial:
       return by_local_polynomial(first);
     case ResponseMethod::robust:

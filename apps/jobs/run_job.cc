@@ -191,11 +191,11 @@ report::RunFolder new_run_folder(const CaseOptions& chosen, const sensor_case::C
 
 void check_settling(const sensor_case::Case& parameters) {
   if (parameters.separation.settling_s >= 0.5 * parameters.records.duration_s)
-    throw signals::UserError("Separation/Settling time (" +
-                             report::Cell(parameters.separation.settling_s).exact() +
-                             " s) must be less than half of Records/Duration (" +
-                             report::Cell(parameters.records.duration_s).exact() +
-                             " s): the scores leave it out; shorten it or lengthen the records");
+    throw signals::UserError(
+        "Separation/Settling time (" + report::Cell(parameters.separation.settling_s).exact() +
+        " s) must be less than half of Records/Duration (" +
+        report::Cell(parameters.records.duration_s).exact() +
+        " s), because the scores leave it out; shorten it or lengthen the records");
 }
 
 }  // namespace

@@ -126,8 +126,7 @@ report::Figure steady_figure(const std::vector<SteadyCurves>& sensors) {
   figure.name = "steady_moments";
   figure.title = "Steady base moment over wind and base acceleration";
   figure.caption =
-      "Sizes of the moments. Points: static equilibrium of the whole solid at finite strain; "
-      "lines: "
+      "Absolute moments. Points: static equilibrium of the whole solid at finite strain; lines: "
       "the linear model. Quasi-steady drag with Cd(Re) of wire and blades.";
   figure.panels = {
       logarithmic_panel(sensors, &SteadyCurves::wind, "Wind speed [m/s]"),

@@ -279,11 +279,11 @@ TransientOutcome resume_transient(const fs::path& folder, const bool show_progre
   const fs::path case_file = folder / "resolved.prm";
   if (!fs::exists(case_file))
     throw signals::UserError(folder.string() +
-                             ": holds no run to go on with (no resolved.prm in it); name the "
+                             ": holds no run that can be resumed (no resolved.prm in it); name the "
                              "folder that 'vibrissa transient' made");
   if (fs::exists(folder / "summary.json"))
     throw signals::UserError(folder.string() +
-                             ": this run is done; there is nothing to go on with");
+                             ": this run is complete; there is nothing to resume");
   sensor_case::CaseFile file(case_file);
   const sensor_case::Case parameters = file.read();
   const sensor_case::Inputs inputs = sensor_case::make_inputs(parameters);

@@ -17,7 +17,7 @@ fs::path trial_program(const std::string& name) {
     if (fs::exists(folder / name)) return folder / name;
   throw signals::UserError(name + " is neither in " + here.string() +
                            " nor in libexec/vibrissa beside it: build the target " + name +
-                           ", or install the package anew");
+                           ", or install the package again");
 }
 
 void become_trial_program(const std::string& name, const std::vector<std::string>& arguments) {

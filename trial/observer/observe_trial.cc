@@ -181,17 +181,17 @@ int main(int argc, char** argv) try {
       "How often could anyone be right? Asks an observer who knows the form of every effect, the "
       "noise of the bench and how often what is asked, about sensors like those of a blind trial.");
   Options options;
-  app.add_option("--benches", options.n_benches, "How many, of 22 sensors each")
+  app.add_option("--benches", options.n_benches, "Number of benches, with 22 sensors each")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "All sensors follow from it")->capture_default_str();
-  auto* as_built = app.add_flag("--as-built", options.as_built,
-                                "Every sensor is a little off in modulus, damping, gain and drag");
+  app.add_option("--seed", options.seed, "Seed of all random draws")->capture_default_str();
+  auto* as_built =
+      app.add_flag("--as-built", options.as_built,
+                   "Every sensor deviates by a few percent in modulus, damping, gain and drag");
   app.add_flag("--further", options.further,
-               "Where answers are left, do each further experiment; not with --as-built")
+               "Where several answers remain, adds each further experiment; not with --as-built")
       ->excludes(as_built);
-  app.add_option("--asked", options.asked,
-                 "How often none, one, two and three effects are asked, to each other; 0: never")
+  app.add_option("--asked", options.asked, "Relative frequencies of 0, 1, 2 and 3 true effects")
       ->check(CLI::Range(0., 1e6))
       ->capture_default_str();
   app.add_flag("--json", options.json, "Machine-readable result on standard output");
