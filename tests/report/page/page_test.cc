@@ -101,7 +101,8 @@ TEST_F(ReportPage, EveryFigureHasATitleACaptionNumbersAndItsCsv) {
   const std::string markup = markup_of(html_);
   EXPECT_EQ(count(markup, "<figure"), 5u);
   EXPECT_EQ(count(markup, "<figcaption>"), 5u);
-  EXPECT_EQ(count(markup, "<details><summary>In "), 5u);
+  EXPECT_EQ(count(markup, "<details><summary>Ranges of the curves"), 4u);
+  EXPECT_EQ(count(markup, "<details><summary>List of the shapes"), 1u);
   EXPECT_EQ(count(markup, "data-save=\"figures\""), 4u);
   EXPECT_EQ(count(markup, "data-save=\"views\""), 1u);
   EXPECT_EQ(count(markup, "data-save=\"tables\""), 1u);
