@@ -143,7 +143,7 @@ void add_run(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
       ->check(CLI::Range(1, 5))
       ->capture_default_str();
   command->add_flag("--further", options->run.further,
-                    "Where answers are left, do the recomupdated experiment, and one by chance");
+                    "Where answers are left, do the recommended experiment, and one by chance");
   command->add_option("--threads", options->run.n_threads, "Of each rank")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

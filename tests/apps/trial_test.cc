@@ -153,21 +153,20 @@ TEST_F(WrittenTrial, CountsWhatFurtherExperimentsResolve) {
   };
   json undecided = answer("sensor_lowpass", 0.6);
   // That no effect is known can never be ruled out.
-  undecided["recomupdated"] = after("delay", {"delay", "outside_catalogue"});
+  undecided["recommended"] = after("delay", {"delay", "outside_catalogue"});
   undecided["by_chance"] = after("delay", {"delay", "sensor_lowpass"});
   add("single", delay, undecided);
-  undecided["recomupdated"] = after("sensor_lowpass", {"sensor_lowpass"});
+  undecided["recommended"] = after("sensor_lowpass", {"sensor_lowpass"});
   undecided.erase("by_chance");
   add("single", delay, undecided);
   // An experiment that came to no answer resolved nothing.
-  undecided["recomupdated"] = {{"experiment", "wide_band"}, {"message", "no such file"}};
+  undecided["recommended"] = {{"experiment", "wide_band"}, {"message", "no such file"}};
   add("single", delay, undecided);
   const trial::TrialScore score = trial::score_trial(trial_, labels_);
-  const trial::Share recomupdated =
-                         score.shares.at("undecided, the recomupdated experiment resolves"),
+  const trial::Share recommended =
+                         score.shares.at("undecided, the recommended experiment resolves"),
                      by_chance = score.shares.at("undecided, another one resolves");
-  EXPECT_EQ(std::pair(recomupdated.hits, recomupdated.of),
-            std::pair(std::size_t{1}, std::size_t{3}));
+  EXPECT_EQ(std::pair(recommended.hits, recommended.of), std::pair(std::size_t{1}, std::size_t{3}));
   EXPECT_EQ(std::pair(by_chance.hits, by_chance.of), std::pair(std::size_t{0}, std::size_t{1}));
 }
 
@@ -258,7 +257,8 @@ TEST(Trial, OfTenSensorsIsMadeRunAndScored) {
   EXPECT_LE(shares["wrong name above 0.8"]["hits"], 3);
   ASSERT_EQ(vibrissa("trial score --key '" + folder.file("elsewhere") + "' '" + trial + "'").status,
             0);
-  EXPECT_NE(content(trial + "/score/report.html").find(" of 10 sealed sensors"), std::string::npos);
+  EXPECT_NE(content(trial + "/score/report.html").find(" of 10 sensors with sealed labels"),
+            std::string::npos);
   // Answers that are there are not made again.
   const auto again = vibrissa("trial run --json --max-effects 2 '" + trial + "'");
   EXPECT_EQ(json::parse(again.output)["there_before"], 10);

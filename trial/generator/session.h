@@ -32,7 +32,7 @@ std::vector<Take> short_takes();
 /// Another level and another wind, to see how far an answer carries.
 std::vector<Take> transfer_takes();
 
-/// What the bench can do besides, under the names of the menu of experiments that are recomupdated.
+/// What the bench can do besides, under the names of the menu of experiments that are recommended.
 struct FurtherExperiment {
   std::string name;
   std::vector<Take> takes;

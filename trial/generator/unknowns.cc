@@ -297,7 +297,7 @@ const Unknown& find_unknown(const std::string& id) {
   for (const auto* list : {&named_unknowns(), &nameless_unknowns()})
     for (const Unknown& unknown : *list)
       if (unknown.id == id) return unknown;
-  throw signals::UserError("unknown \"" + id + "\" is in no list of the trial's generator");
+  throw signals::UserError("the generator of trials has no effect \"" + id + "\"");
 }
 
 }  // namespace vibrissa::trial

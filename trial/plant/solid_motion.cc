@@ -51,7 +51,9 @@ bool is_of_the_solid(const World& world) {
 
 SolidMotion::SolidMotion(const World& world) : shedding_(world.shedding) {
   if (!is_of_the_solid(world))
-    throw signals::UserError("the solid of a trial has neither hinge nor mount nor further mode");
+    throw signals::UserError(
+        "the finite-strain solid of a trial cannot simulate a hinge law, a mount or a further "
+        "mode");
   sensor_ = std::make_unique<fem::Sensor>(parameters_of(world));
 }
 
