@@ -101,7 +101,7 @@ NominalModel nominal_from(const signals::ReducedModel& model) {
   std::sort(numbers.begin(), numbers.end(), stronger);
   if (numbers.empty() || nominal.modes[numbers.front()].base_gain == 0.)
     throw signals::UserError("model '" + model.name +
-                             "': no mode is moved by base acceleration along its axial direction");
+                             "': base acceleration along the axial direction excites no mode");
   set_joint_share(nominal, model, numbers.front());
   const double strongest = std::abs(nominal.modes[numbers.front()].base_gain);
   std::erase_if(numbers, [&](const std::size_t k) {

@@ -39,7 +39,7 @@ std::vector<double> simulate_moment(const UpdatedModel& model, const signals::Re
   const bool base = model.nominal.has_base && inputs.has(channel::base_acceleration);
   const bool wind = model.nominal.has_wind && inputs.has(channel::wind_speed);
   if (!base && !wind)
-    throw signals::UserError("the record has no input that the model knows: it needs " +
+    throw signals::UserError("the record has no input of the model: it needs " +
                              std::string(model.nominal.has_base ? channel::base_acceleration : "") +
                              (model.nominal.has_base && model.nominal.has_wind ? " or " : "") +
                              std::string(model.nominal.has_wind ? channel::wind_speed : ""));

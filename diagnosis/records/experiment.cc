@@ -448,8 +448,8 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
   }
   if (!experiment.has_base && !experiment.has_wind && split == signals::Split::fit)
     throw signals::UserError(
-        "no record can be compared with the simulation: it needs a fit record that is long enough "
-        "and whose excitation is measured and simulated");
+        "no record can be compared with the simulation: give a fit record that is long enough and "
+        "whose excitation is measured and simulated");
   experiment.scales = scales_of(experiment);
   if (experiment.moment_noise <= 0.)
     experiment.moment_noise = 1e-3 * experiment.scales.moment_rms_n_m;

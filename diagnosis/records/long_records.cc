@@ -36,8 +36,9 @@ void add_pieces(const signals::DatasetRecord& entry, signals::Dataset& out) {
   }
   const double piece_s = static_cast<double>(length) / record.sampling_rate_hz();
   std::ostringstream guess;
-  guess << entry.name << ": long; of its " << std::round(record.duration_s()) << " s " << n_pieces
-        << " pieces of " << std::round(piece_s) << " s are used, spread over it";
+  guess << entry.name << ": the record is long; " << n_pieces << " pieces of "
+        << std::round(piece_s) << " s, spread over its " << std::round(record.duration_s())
+        << " s, are used";
   out.guesses.push_back(guess.str());
 }
 

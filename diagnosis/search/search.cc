@@ -135,9 +135,7 @@ class Searcher {
     result.candidates = candidates(Kept::possible);
     result.refuted = candidates(Kept::refuted);
     if (result.candidates.empty())
-      throw signals::UserError(
-          "no answer has a likelihood that is a number: are the records' values in the units that "
-          "they are said to be?");
+      throw signals::UserError("no answer has a finite likelihood: check the units of the records");
     set_probabilities(result);
     result.fits = std::move(fits_);
     return result;

@@ -44,7 +44,7 @@ TEST(DiagnoseCommand, LeavesTheExplanationInAFolder) {
   ASSERT_EQ(result.status, 0) << result.errors;
   EXPECT_EQ(content(folder.file("out/verdict.txt")), result.output);
   EXPECT_TRUE(fs::exists(folder.file("out/resonance_gap.json")));
-  EXPECT_THAT(content(folder.file("out/report.html")), HasSubstr("Likeliest: stiffness"));
+  EXPECT_THAT(content(folder.file("out/report.html")), HasSubstr("Most probable: stiffness"));
 }
 
 TEST(DiagnoseCommand, SaysNothingWhereItsFolderIsTaken) {
@@ -125,7 +125,7 @@ TEST(DiagnoseCommand, LeavesVerdictRankingAndFigures) {
       (practice / "case019" / "real").string() + "' -o '" + folder.file("out") + "'");
   ASSERT_EQ(result.status, 0) << result.errors;
   const auto answer = nlohmann::json::parse(content(folder.file("out/diagnosis.json")));
-  EXPECT_EQ(answer["schema"], "vibrissa-diagnosis-1");
+  EXPECT_EQ(answer["schema"], "vibrissa-diagnosis-2");
   EXPECT_THAT(result.output, HasSubstr(answer["verdict"].get<std::string>()));
   for (const char* name :
        {"ranking.csv", "verdict.txt", "run.json", "figures/gap_map.csv", "figures/response.csv",

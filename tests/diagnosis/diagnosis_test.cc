@@ -75,7 +75,7 @@ TEST(Diagnose, DoubtsACauseThatRecordsItHasNotSeenDoNotConfirm) {
   ASSERT_TRUE(diagnosis.nearest_known);
   EXPECT_EQ(diagnosis.nearest_known->name, "stiffness");
   EXPECT_THAT(diagnosis.findings, not_confirmed);
-  EXPECT_NE(verdict_text(diagnosis).find("does not carry over"), std::string::npos);
+  EXPECT_NE(verdict_text(diagnosis).find("cross-validation fails"), std::string::npos);
 }
 
 TEST(Diagnose, TellsWhatComesNearestWhereNothingKnownExplainsTheGap) {
@@ -244,7 +244,8 @@ TEST(Diagnose, IsTooPoorFromRecordsThatAreAllTooShort) {
     diagnose(test::nominal_of(test::OneModeRig{}, false), dataset);
     FAIL();
   } catch (const TooPoorData& error) {
-    EXPECT_THAT(error.what(), HasSubstr("base_high: 300 samples are too few"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("base_high: the record is not used: 300 samples are too few"));
   }
 }
 

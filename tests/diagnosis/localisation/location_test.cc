@@ -43,7 +43,7 @@ TEST(Location, FindsNothingWhereThereIsNothing) {
     EXPECT_FALSE(location.varies_in_time) << seed;
     EXPECT_FALSE(location.present_at_rest) << seed;
     EXPECT_GT(location.p_value, 0.01) << seed;
-    EXPECT_EQ(location_sentence(location), "No gap beyond noise.");
+    EXPECT_EQ(location_sentence(location), "No gap larger than noise.");
   }
 }
 

@@ -102,7 +102,7 @@ TEST(EffectPower, WindEffectsAreNotShownWithoutWind) {
        {"drag_error", "flow_lag", "turbulence", "vortex_shedding", "relative_drag"}) {
     EXPECT_FALSE(power_of(powers, id).shown) << id;
     EXPECT_EQ(power_of(powers, id).needs, "wind") << id;
-    EXPECT_FALSE(power_of(powers, id).exact.found) << id;
+    EXPECT_FALSE(power_of(powers, id).exact.detected) << id;
   }
   EXPECT_TRUE(power_of(powers, "delay").shown);
   EXPECT_EQ(power_of(powers, "cross_axis").needs, "transverse acceleration");
@@ -129,8 +129,8 @@ TEST(EffectPower, AsBuiltHidesAtLeastWhatAnExactSensorHides) {
   for (const EffectPower& power : powers)
     EXPECT_LE(power.as_built.nats, 1.01 * power.exact.nats) << power.effect;
   // A gain of two percent is no finding on a sensor whose gains are known to two percent.
-  EXPECT_TRUE(power_of(powers, "sensor_gain").exact.found);
-  EXPECT_FALSE(power_of(powers, "sensor_gain").as_built.found);
+  EXPECT_TRUE(power_of(powers, "sensor_gain").exact.detected);
+  EXPECT_FALSE(power_of(powers, "sensor_gain").as_built.detected);
 }
 
 TEST(EffectPower, FitsGainWhatWasPredicted) {

@@ -81,8 +81,8 @@ TEST(ExperimentPlan, RefusesNoiseThatIsNone) {
 }
 
 TEST(UndecidedProbability, CountsEffectsUnfoundAndMistaken) {
-  const auto detectability = [](bool found, std::vector<std::string> alike) {
-    return Detectability{.found = found, .alike = std::move(alike)};
+  const auto detectability = [](bool detected, std::vector<std::string> alike) {
+    return Detectability{.detected = detected, .alike = std::move(alike)};
   };
   const auto effect = [&](const std::string& id, const Detectability& both) {
     return EffectPower{.effect = id, .shown = true, .exact = both, .as_built = both};

@@ -71,7 +71,7 @@ TEST(ResonanceGap, NoMountOfAUsualFrequencyReachesTheReferenceStudysGap) {
   const double q = std::pow(31.47 / 37.32, 2);
   EXPECT_NEAR(value(mount, "frequency"), 37.32 * std::sqrt(q * (1. + 0.4 / (1. - q))), 1e-6);
   EXPECT_LT(value(mount, "frequency"), 60.);
-  EXPECT_THAT(mount.note, HasSubstr("frequency outside its usual 60 .. 200"));
+  EXPECT_THAT(mount.note, HasSubstr("frequency outside its usual range 60 .. 200"));
 }
 
 TEST(ResonanceGap, SaysWhichDamperIsLeft) {
