@@ -56,12 +56,11 @@ json score_json(const ErrorScore& score) {
 }
 
 /// A quantity before and after correction; null where there is none.
-template <typename Figure>
-json before_after(const std::optional<Figure>& fit_parameter, double Figure::*before,
-                  double Figure::*after) {
-  if (!fit_parameter) return nullptr;
-  return {{"before", json_number((*fit_parameter).*before)},
-          {"after", json_number((*fit_parameter).*after)}};
+template <typename Quantity>
+json before_after(const std::optional<Quantity>& quantity, double Quantity::*before,
+                  double Quantity::*after) {
+  if (!quantity) return nullptr;
+  return {{"before", json_number((*quantity).*before)}, {"after", json_number((*quantity).*after)}};
 }
 
 json held_out_json(const HeldOutScore& score) {

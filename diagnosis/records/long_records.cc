@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t n_pieces = 4;
 
-// A multiple of the period; a period that is longer than a piece is kept whole.
+// A multiple of the period; a period that is longer than a piece is not divided.
 std::size_t whole_periods(const std::size_t n_samples, const std::size_t period) {
   if (period == 0) return n_samples;
   return n_samples < period ? period : n_samples / period * period;

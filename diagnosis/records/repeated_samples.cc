@@ -20,7 +20,7 @@ struct Line {
   double intercept = 0., slope = 1.;
 };
 
-/// Least squares of the indices over their numbers.
+/// Least-squares line of the indices over their numbers.
 Line line_through(const std::vector<std::size_t>& indices) {
   const double n = static_cast<double>(indices.size()), middle = 0.5 * (n - 1.);
   double sum = 0., moment = 0., square = 0.;
@@ -62,7 +62,7 @@ double unknown_age(const std::span<const double> x) {
   const double period = line_through(renewals(x)).slope;
   for (int q = 1; q <= longest; ++q) {
     const double renewed = q / period;
-    // The place in the period slips by less than a step over the whole record.
+    // The position in the period drifts by less than a step over the whole record.
     if (std::abs(renewed - std::round(renewed)) * static_cast<double>(x.size()) < 1.)
       return period / q;
   }
