@@ -127,7 +127,7 @@ Result observe(const Options& options) {
   std::vector<trial::EffectLadder> ladders;
   {
     signals::Progress progress("effects", trial::named_unknowns().size(), options.is_talkative());
-    ladders = trial::optimise_ladders(change, [&] { progress.advance(); });
+    ladders = trial::effect_ladders(change, [&] { progress.advance(); });
   }
   signals::Progress progress("benches", options.n_benches, options.is_talkative());
   std::mt19937_64 random(options.seed);
