@@ -49,8 +49,8 @@ std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
   return ChainSimulator(chain).predict(experiment_.records);
 }
 
-void FitPosterior::renew_slow_variance(const Eigen::VectorXd& x,
-                                       const std::vector<Prediction>& at) {
+void FitPosterior::update_slow_variance(const Eigen::VectorXd& x,
+                                        const std::vector<Prediction>& at) {
   for (BinVariances* parts : {&misfit_, &power_, &form_}) parts->clear();
   for (std::size_t r = 0; r < at.size(); ++r) {
     const PreparedRecord& record = experiment_.records[r];

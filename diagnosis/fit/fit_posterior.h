@@ -41,7 +41,7 @@ class FitPosterior {
 
   std::vector<Prediction> predict(const Eigen::VectorXd& x) const;
   /// Updates the parts of the variance that depend on the mean; at: the predictions at x.
-  void renew_slow_variance(const Eigen::VectorXd& x, const std::vector<Prediction>& at);
+  void update_slow_variance(const Eigen::VectorXd& x, const std::vector<Prediction>& at);
 
   /// Variance per sample of the accelerometer [(m/s^2)^2].
   double acceleration_variance(const Eigen::VectorXd& x) const;

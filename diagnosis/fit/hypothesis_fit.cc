@@ -215,7 +215,7 @@ void set_at(HypothesisFit& fit, const Experiment& experiment, FitPosterior& post
   fit.x = state.x;
   fit.n_iterations = state.n_iterations;
   fit.log_posterior = state.log_posterior;
-  posterior.renew_slow_variance(fit.x, state.predictions);
+  posterior.update_slow_variance(fit.x, state.predictions);
   if (!state.derivatives) state.derivatives = posterior.derivatives(fit.x, state.predictions);
   Eigen::VectorXd gradient;
   posterior.linearise(fit.x, state.predictions, *state.derivatives, gradient, fit.information);

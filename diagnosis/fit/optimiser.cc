@@ -74,7 +74,7 @@ std::optional<Step> take_step(const FitPosterior& posterior,
 
 OptimiserState begin_optimiser(FitPosterior& posterior, const Eigen::VectorXd& x) {
   OptimiserState state{.x = x, .predictions = posterior.predict(x)};
-  posterior.renew_slow_variance(x, state.predictions);
+  posterior.update_slow_variance(x, state.predictions);
   state.log_posterior = posterior.log_likelihood(x, state.predictions) + posterior.log_prior(x);
   return state;
 }
@@ -96,26 +96,26 @@ void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_para
   constexpr double most_astray = 0.2;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;
-  for (int n_renewals = 0; !state.ended;) {
-    posterior.renew_slow_variance(state.x, state.predictions);
+  for (int n_computed = 0; !state.ended;) {
+    posterior.update_slow_variance(state.x, state.predictions);
     state.log_posterior =
         posterior.log_likelihood(state.x, state.predictions) + posterior.log_prior(state.x);
-    const bool renewed = !state.derivatives;
-    if (renewed) {
-      if (n_renewals++ == n_iterations) return;
+    const bool is_new = !state.derivatives;
+    if (is_new) {
+      if (n_computed++ == n_iterations) return;
       state.derivatives = posterior.derivatives(state.x, state.predictions);
       ++state.n_iterations;
     }
     posterior.linearise(state.x, state.predictions, *state.derivatives, gradient, information);
     const double damping = state.damping;
     const auto step =
-        take_step(posterior, fit_parameters, state, gradient, information, renewed ? 5 : 1);
-    if (!step && !renewed) state.damping = damping;
+        take_step(posterior, fit_parameters, state, gradient, information, is_new ? 5 : 1);
+    if (!step && !is_new) state.damping = damping;
     const double gain = step ? step->gain : 0.;
     const bool hopeless =
         state.n_iterations >= 3 && state.log_posterior + n_hopeful_gains * gain < options.to_beat;
     const bool is_little = gain < options.tolerance;
-    state.ended = hopeless || (renewed && is_little);
+    state.ended = hopeless || (is_new && is_little);
     if (state.ended) return;
     const bool astray = !step || std::abs(gain - step->predicted) > most_astray * step->predicted;
     if (astray || is_little) state.derivatives.reset();

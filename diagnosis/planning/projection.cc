@@ -25,7 +25,7 @@ FisherChanges nominal_changes(const Experiment& experiment,
                               const Eigen::VectorXd& x) {
   FitPosterior posterior(experiment, fit_parameters, Hypothesis{});
   const std::vector<Prediction> at = posterior.predict(x);
-  posterior.renew_slow_variance(x, at);
+  posterior.update_slow_variance(x, at);
   std::vector<double> deviation;
   for (std::size_t r = 0; r < at.size(); ++r)
     for (const double variance :
@@ -185,7 +185,7 @@ class LeastSquaresProjection {
     const double predicted = cost(z, predicted_residual);
     const double least_gain = predicted > far ? worthwhile_when_far : worthwhile;
     if (cost_ - predicted < least_gain * cost_) {
-      renew_or_end();
+      recompute_or_end();
       return;
     }
     Eigen::VectorXd there = residual(z);
@@ -210,7 +210,7 @@ class LeastSquaresProjection {
   }
 
   /// No step improves: the point is optimal, unless the derivatives belong to another point.
-  void renew_or_end() {
+  void recompute_or_end() {
     if (fresh_ || predicted_well_)
       ended_ = true;
     else

@@ -30,9 +30,9 @@ double drag_per_velocity(const Chain& chain, const PreparedRecord& record) {
 }
 
 Complex reading_of_source(const Chain& chain, const PreparedRecord& record, std::size_t k) {
-  const Complex polled = record.acceleration[k];
-  if (record.renewed.empty()) return polled;
-  return polled + chain.new_sample_share * (record.renewed[k] - polled);
+  const Complex reading = record.acceleration[k];
+  if (record.source_acceleration.empty()) return reading;
+  return reading + chain.new_sample_share * (record.source_acceleration[k] - reading);
 }
 
 std::vector<Complex> bins_of_lines(const PreparedRecord& record,

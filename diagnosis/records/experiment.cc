@@ -157,7 +157,7 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
   out.acceleration = spectrum_of(reading);
   const NoiseLines noise_of = noise_lines(reading, out.sampling_rate_hz, entry.excitation.base);
   if (entry.excitation.base && noise_of.of_source) {
-    out.renewed = noise_of.spectrum;
+    out.source_acceleration = noise_of.spectrum;
     out.unknown_age_s = noise_of.age_range / std::sqrt(12.) / out.sampling_rate_hz;
   }
   const double n = static_cast<double>(out.n_samples);
@@ -181,7 +181,7 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
         ++out.n_acceleration_noise;
       }
     average_periods(out.acceleration, n_periods);
-    average_periods(out.renewed, n_periods);
+    average_periods(out.source_acceleration, n_periods);
   }
   out.noise_share =
       signal_share(out.acceleration, n * noise * noise, driven_lines(out, entry, excited));
@@ -193,7 +193,7 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
     const double lost = std::max(0., std::norm(out.acceleration[k]) / noise_power - 3.);
     out.noise_share[k] = std::max(share, share * share + (1. - share) * (1. - share) * lost);
     out.acceleration[k] *= share;
-    if (!out.renewed.empty()) out.renewed[k] *= share;
+    if (!out.source_acceleration.empty()) out.source_acceleration[k] *= share;
   }
 }
 
@@ -446,7 +446,7 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
     experiment.has_base |= entry.excitation.base && record.magnet;
     experiment.has_wind |= entry.excitation.wind && record.magnet;
     experiment.has_cross |= !record.cross_acceleration.empty();
-    experiment.has_repeats |= !record.renewed.empty();
+    experiment.has_repeats |= !record.source_acceleration.empty();
   }
   if (!experiment.has_base && !experiment.has_wind && split == signals::Split::fit)
     throw signals::UserError(

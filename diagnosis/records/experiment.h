@@ -27,8 +27,9 @@ struct PreparedRecord {
               n_evaluated = 0;  // evaluated samples (free of transients)
 
   std::vector<Complex> acceleration;  // k = 0 .. n/2, with reduced noise; empty: not measured
-  std::vector<Complex> renewed;       // of its source's samples; empty: no sample-and-hold repeats
-  double unknown_age_s = 0.;          // standard deviation of the reading time of the source
+  std::vector<Complex>
+      source_acceleration;    // of its source's samples; empty: no sample-and-hold repeats
+  double unknown_age_s = 0.;  // standard deviation of the reading time of the source
   std::vector<Complex> cross_acceleration;  // empty: not measured
   std::vector<double> wind;                 // one value per sample; empty: not measured
   /// Share of the accelerometer noise that remains at line k of the whole record.

@@ -58,7 +58,7 @@ ResidualExcess residual_excess(const Experiment& fitted_on, const Experiment& he
   const Eigen::VectorXd x = evaluation_parameters(fitted_on, fit);
   FitPosterior posterior(as_fitted, fit.fit_parameters, fit.hypothesis);
   const std::vector<Prediction> at = posterior.predict(x);
-  posterior.renew_slow_variance(x, at);
+  posterior.update_slow_variance(x, at);
   const double a_variance = posterior.acceleration_variance(x);
   const Chain nominal = fitted_on.nominal_chain();
   ResidualExcess worst;

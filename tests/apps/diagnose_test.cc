@@ -169,8 +169,8 @@ std::string coarse_case(const Folder& folder) {
   return folder.file("coarse.prm");
 }
 
-/// Of a record that `simulate` writes for the sensor with this setting; the diagnosis has the case
-/// alone.
+/// Diagnosis of a record that `simulate` writes for the sensor with this setting; the diagnosis
+/// knows the unchanged case.
 nlohmann::json diagnosis_of_simulated(const std::string& setting) {
   const Folder folder;
   const std::string model = coarse_case(folder), record = folder.file("real.csv");
@@ -196,7 +196,7 @@ double first_model_frequency_hz(const std::string& setting) {
 TEST(DiagnoseCommand, FindsNothingInWhatItsOwnSimulatorWrote) {
   const auto answer = diagnosis_of_simulated("Records/Seed=7");
   EXPECT_EQ(answer["verdict"], "none");
-  // Of what was tried: how far any answer is trusted, trials of other sensors say.
+  // Among the tested answers, because probability_of_tried comes from trials with other sensors.
   EXPECT_GT(answer["ranking"][0]["probability"].get<double>(),
             0.5 * answer["probability_of_tried"].get<double>());
 }

@@ -66,14 +66,14 @@ void score_parameters(const nlohmann::json& label, const diagnosis::RankedAnswer
   for (const SameQuantity& same : same_quantities) {
     if (!label["parameters"].contains(same.label)) continue;
     const double truth = same.factor * label["parameters"][same.label].get<double>();
-    for (const diagnosis::ParameterEstimate& ours : answer.parameters) {
-      if (ours.effect != same.effect || ours.name != same.parameter) continue;
-      const bool covered = ours.ci95[0] <= truth && truth <= ours.ci95[1];
+    for (const diagnosis::ParameterEstimate& estimate : answer.parameters) {
+      if (estimate.effect != same.effect || estimate.name != same.parameter) continue;
+      const bool covered = estimate.ci95[0] <= truth && truth <= estimate.ci95[1];
       score.parameters += 1;
       score.parameters_covered += covered;
       if (!covered)
         std::printf("       %s %s: %g (%g..%g), label %g\n", same.effect, same.parameter,
-                    ours.value, ours.ci95[0], ours.ci95[1], truth);
+                    estimate.value, estimate.ci95[0], estimate.ci95[1], truth);
     }
   }
 }

@@ -69,7 +69,7 @@ TEST_F(ReportPage, NoTextOfAFileBecomesMarkup) {
   // Title twice, verdict, headings, table, command line: as text, unchanged otherwise.
   EXPECT_GT(count(markup, "&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;"), 6u);
   EXPECT_GT(count(markup, "{{style}}"), 6u) << "what is filled in is not filled in again";
-  // The page's own: data, dygraphs, three.js with its controls, two of ours.
+  // Scripts of the page: data, dygraphs, three.js with its controls, and two of this project.
   EXPECT_EQ(count(html_, "</script>"), 6u);
 }
 
