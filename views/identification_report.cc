@@ -42,7 +42,7 @@ report::Table output_only_table(const separation::OutputOnlyIdentification& foun
                        {"± sd", "Hz", 2},
                        {"damping ratio", ""},
                        {"± sd", "", 2},
-                       {"found at model orders", ""}});
+                       {"number of model orders", ""}});
   for (const auto& mode : found.modes) {
     table.add_row({"mode", mode.frequency_hz.value, mode.frequency_hz.standard_deviation,
                    mode.damping_ratio.value, mode.damping_ratio.standard_deviation, mode.n_orders});
