@@ -36,9 +36,8 @@ void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
                   [&](const auto& entry) { return tells_something(nominal, entry); }))
     return;
   std::string text =
-      "too little data to say anything: no fit record is long enough and has an excitation that "
-      "was "
-      "measured and that the simulation knows";
+      "too little data for a diagnosis: no fit record is long enough and has an excitation that is "
+      "both measured and simulated";
   for (const Finding& finding : findings) {
     text += '\n';
     if (!finding.record.empty()) text.append(finding.record).append(": ");
@@ -51,14 +50,14 @@ bool has_moving(const Experiment& experiment) {
   return experiment.has_base || experiment.has_wind;
 }
 
-/// How well the joint is known after a fit.
+/// Standard deviation of the joint's share of compliance after a fit.
 double joint_share_deviation(const Experiment& experiment, const HypothesisFit& fit) {
   const auto index = static_cast<Eigen::Index>(index_of_joint_share);
   return std::min(experiment.nominal.joint_share_deviation,
                   std::sqrt(fit.covariance(index, index)));
 }
 
-/// Scores of a fit on records that it has not seen, for an answer of its own.
+/// Scores one answer's fit on held-out records.
 void score_answer(RankedAnswer& answer, const HypothesisFit& fit, const Experiment& experiment,
                   const Experiment& held_out, const DiagnoseOptions& options) {
   answer.held_out = score_held_out(experiment, held_out, fit, options.held_out);
@@ -66,7 +65,7 @@ void score_answer(RankedAnswer& answer, const HypothesisFit& fit, const Experime
     answer.residual_excess = residual_excess(experiment, held_out, fit);
 }
 
-/// Of the first few answers; answers that share a fit share its scores.
+/// Scores the first few answers; answers with the same fit share its scores.
 void score_answers(Diagnosis& out, const SearchResult& result, const Experiment& experiment,
                    const Experiment& held_out, const DiagnoseOptions& options) {
   for (std::size_t i = 0; i < std::min(options.n_scored, out.ranking.size()); ++i) {
@@ -95,30 +94,30 @@ std::optional<RankedAnswer> nearest_known(const SearchResult& result, const Expe
   return std::nullopt;
 }
 
-/// The same where the held-out records themselves refuted what comes nearest.
+/// Finding where held-out records rejected the nearest known answer.
 std::optional<Finding> refuted_by_held_out(const Diagnosis& diagnosis) {
   if (!diagnosis.nearest_known || !diagnosis.nearest_known->residual_excess) return std::nullopt;
   const ResidualExcess& left = *diagnosis.nearest_known->residual_excess;
   if (!contradicted_by(left)) return std::nullopt;
   return Finding{.kind = FindingKind::not_confirmed,
                  .record = left.record,
-                 .message = "what explains the fit records best, " + diagnosis.nearest_known->name +
-                            ", does not carry over to this one"};
+                 .message = "cross-validation fails: " + diagnosis.nearest_known->name +
+                            " explains the fit records best but does not predict this record"};
 }
 
-/// A cause that does not carry over to records that it has not seen is not understood.
+/// Finding where held-out records do not confirm the answer.
 std::optional<Finding> contradiction(const Diagnosis& diagnosis) {
   const RankedAnswer& best = diagnosis.ranking.front();
   if (diagnosis.verdict == outside_catalogue) return refuted_by_held_out(diagnosis);
   if (diagnosis.verdict == "none") return std::nullopt;
   if (!best.held_out || !best.held_out->overall.gap_closed_ci95) return std::nullopt;
-  // Of what cannot be predicted nothing closes; it is confirmed by its power.
+  // Random effects cannot be predicted and close no gap; their power confirms them.
   if (!best.held_out->not_predictable.empty()) return std::nullopt;
   if ((*best.held_out->overall.gap_closed_ci95)[1] >= 0.5) return std::nullopt;
   return Finding{.kind = FindingKind::not_confirmed,
                  .message =
-                     "held-out records do not confirm it: less than half of their gap "
-                     "closes; the cause, or its size, does not carry over to them"};
+                     "held-out records do not confirm the answer: it closes less than half of "
+                     "their gap, so the cause or its size is not valid for them"};
 }
 
 void set_gap(Diagnosis& out, const UpdatedModel& simulation, const signals::Dataset& real,

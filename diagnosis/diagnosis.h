@@ -22,7 +22,7 @@
 
 namespace vibrissa::diagnosis {
 
-/// The data are too poor to say anything; the message says what is missing. Programs end with exit
+/// There are too few data for a diagnosis; the message says what is missing. Programs end with exit
 /// status 3.
 class TooLittleData : public std::runtime_error {
  public:
@@ -34,22 +34,23 @@ struct ParameterEstimate {
   std::string effect{}, name{}, unit{};
   double value = 0.;
   std::array<double, 2> ci95{};
-  bool at_limit = false;  // of what is tried: the interval tells nothing
+  bool at_limit = false;  // at the limit of the searched range: the interval has no meaning
 };
 
 struct RankedAnswer {
   std::string name{};
   double probability = 0.;
   std::vector<ParameterEstimate> parameters{};
-  /// Of stiffness and mass in the finite-element model's own parameters (material_estimates.h).
+  /// Stiffness and mass as parameters of the finite-element model (material_estimates.h).
   std::vector<ParameterEstimate> materials{};
-  std::optional<HeldOutScore> held_out{};           // of the first few
-  std::optional<ResidualExcess> residual_excess{};  // of the same
-  std::vector<EffectShare> shares{};                // of the first, when it is a combination
+  std::optional<HeldOutScore> held_out{};           // for the first few answers
+  std::optional<ResidualExcess> residual_excess{};  // for the same answers
+  std::vector<EffectShare> shares{};  // for the first answer, when it is a combination
 };
 
 struct Gap {
-  double nrmse = 0.;  // nominal model, held-out records; fit records when there are none
+  double nrmse = 0.;  // prediction error of the nominal model on held-out records (on fit records
+                      // when there are none)
   double noise_floor = 0.;
   double p_value = 1.;
 };
@@ -60,33 +61,33 @@ struct Diagnosis {
   std::string verdict = "none";
   std::vector<RankedAnswer> ranking{};  // most probable first
   double probability_of_unlisted = 0.;
-  /// Of any answer that was tried, listed or not; what is left to 1 is something that these records
-  /// do not show, or that was not tried (calibration.h).
+  /// Probability that any tested answer is right, listed or not. The rest to 1 is not decided by
+  /// these records or was not tested (calibrated_odds.h).
   double probability_of_tried = 1.;
-  /// Of no known effect: outside_catalogue as it was tried, and its share of what is left
-  /// (unknown_share()).
+  /// Probability of a cause that is not in the catalogue: outside_catalogue as tested, plus its
+  /// share of the undecided rest (unknown_share()).
   double probability_of_outside = 0.;
-  /// The known answer that comes nearest, where the verdict is outside_catalogue.
+  /// The nearest known answer, where the verdict is outside_catalogue.
   std::optional<RankedAnswer> nearest_known{};
-  /// Fewest answers, that no known effect is there among them, that have 95 % of what all of them
-  /// have (confidence_set.h).
+  /// Smallest set of answers, outside_catalogue included, that holds 95 % of their total
+  /// probability (confidence_set.h).
   std::vector<std::string> confidence_set{};
   std::vector<std::vector<std::string>> indistinguishable{};
   std::vector<UntestedEffect> untested{};
   NextExperiment next{};
   std::vector<Finding> findings{};
-  std::vector<std::string> guesses{};  // of the dataset
-  /// Nominal model and best answer beside the records.
+  std::vector<std::string> guesses{};  // made while the dataset was read
+  /// Nominal model and best answer compared with the records.
   ResponseComparison response{};
   TraceComparison trace{};
-  /// The simulation with the best answer's effects and every calibration as fitted.
+  /// The simulation with the effects of the best answer and all fitted calibration parameters.
   UpdatedModel updated{};
-  /// What they do to the resonance and to the response below it; nothing where no known effect
-  /// explains the records.
+  /// Change of the resonance and of the response below it by these effects; nothing where no known
+  /// effect explains the records.
   std::optional<ResonanceChange> resonance{};
-  /// What that does to the wind speed that is read from held-out records.
+  /// Error of the wind speed read from held-out records, before and after correction.
   std::optional<WindSpeedError> wind_speed{};
-  /// And to the wind's moment, where its truth is known.
+  /// Quality of the separated wind moment, where its true value is known.
   std::optional<SeparationQuality> separation{};
 };
 
@@ -95,24 +96,24 @@ struct DiagnoseOptions {
   HeldOutOptions held_out{};
   std::size_t n_scored = 3;       // answers with a held-out score
   std::size_t n_ranked = 12;      // answers listed
-  double simulated_rate_hz = 0.;  // 0: the simulation has none
-  /// Experiments of the menu that the bench can do; empty: all.
+  double simulated_rate_hz = 0.;  // 0: the simulation has no sampling rate
+  /// Experiments of the menu that the bench can make; empty: all.
   std::vector<std::string> possible_experiments = {};
 };
 
-/// Compares a simulation with records: noise, where, what, how far, how sure and what next. Throws
-/// UserError for data that spoil everything (finding.h), TooLittleData when no fit record can be
-/// compared.
-/// Proven by tests/diagnosis/diagnosis_test.cc.
+/// Compares a simulation with records: noise, location of the gap, cause with its probability,
+/// improvement, next experiment. Throws UserError for wrong data (spoils_everything() in
+/// finding.h), TooLittleData when no fit record can be compared. Proven by
+/// tests/diagnosis/diagnosis_test.cc.
 Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& real,
                    const DiagnoseOptions& options = {});
 
-/// Value and 95 % interval of each parameter that an answer names, back from the coordinates of the
-/// fit and within the parameter's bounds.
+/// Value and 95 % interval of each parameter of an answer, transformed back from the fit's
+/// coordinates and limited to the parameter's bounds.
 std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
                                                    const std::string& name);
 
-/// The experiment's simulation with what a fit has added to it: its chain as a model to keep.
+/// The experiment's simulation with the effects and calibration parameters of a fit, as a model.
 UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fit);
 
 }  // namespace vibrissa::diagnosis

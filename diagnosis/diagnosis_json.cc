@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "diagnosis/model/json_number.h"
 #include "diagnosis/model/words.h"
@@ -56,13 +55,12 @@ json score_json(const ErrorScore& score) {
   return out;
 }
 
-/// The two members of a parameter that the updated model changes; null where there is none.
-template <typename Figure>
-json before_after(const std::optional<Figure>& fit_parameter, double Figure::*before,
-                  double Figure::*after) {
-  if (!fit_parameter) return nullptr;
-  return {{"before", json_number((*fit_parameter).*before)},
-          {"after", json_number((*fit_parameter).*after)}};
+/// A quantity before and after correction; null where there is none.
+template <typename Quantity>
+json before_after(const std::optional<Quantity>& quantity, double Quantity::*before,
+                  double Quantity::*after) {
+  if (!quantity) return nullptr;
+  return {{"before", json_number((*quantity).*before)}, {"after", json_number((*quantity).*after)}};
 }
 
 json held_out_json(const HeldOutScore& score) {
@@ -112,18 +110,26 @@ json answer_json(const RankedAnswer& answer) {
 std::string verdict_line(const Diagnosis& diagnosis) {
   const double probability = diagnosis.ranking.empty() ? 0. : diagnosis.ranking.front().probability;
   const std::string odds = " (probability " + percent(probability) + ")";
-  if (diagnosis.verdict == "none") return "Verdict: no cause needed, noise explains it" + odds;
+  if (diagnosis.verdict == "none") return "Verdict: no cause; noise explains the difference" + odds;
   if (diagnosis.verdict == "outside_catalogue")
-    return "Verdict: something is there that no known effect explains" + odds;
-  return "Verdict: " + joined(effect_ids(diagnosis.verdict), " + ") + odds +
-         (is_recalibration(diagnosis.verdict) ? ": recalibrate" : ": missing physics");
+    return "Verdict: a cause that is not in the catalogue" + odds;
+  return "Verdict: " + joined(effect_ids(diagnosis.verdict), " + ") + odds + ". " +
+         consequence(diagnosis);
 }
 
 std::string placed(const Finding& finding) {
   return (finding.record.empty() ? "" : finding.record + ": ") + finding.message;
 }
 
-/// The first finding that makes the answer doubtful, and how many more there are.
+/// What a calibration effect changes: "stiffness", "sensor gain", "drag".
+std::string quantity_of(const std::string& effect) {
+  if (effect == "drag_error") return "drag";
+  std::string words = effect;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+/// The first finding that makes the answer doubtful, and the number of further ones.
 std::string doubt_line(const Diagnosis& diagnosis) {
   std::string first;
   std::size_t n = 0;
@@ -136,7 +142,7 @@ std::string doubt_line(const Diagnosis& diagnosis) {
 /// "0.711 (0.69 .. 0.73)", the unit behind the value.
 std::string value_text(const ParameterEstimate& p) {
   return three_digits(p.value) + (p.unit == "1" ? "" : " " + p.unit) +
-         (p.at_limit ? " (the limit of what is tried)"
+         (p.at_limit ? " (limit of the searched range)"
                      : " (" + three_digits(p.ci95[0]) + " .. " + three_digits(p.ci95[1]) + ")");
 }
 
@@ -158,42 +164,42 @@ json resonance_json(const std::optional<ResonanceChange>& change) {
 std::string parameters_line(const RankedAnswer& answer) {
   std::string text;
   for (const ParameterEstimate& p : answer.parameters)
-    text += (text.empty() ? "  " : "; ") + p.effect + " " + p.name + " " + value_text(p);
+    text += (text.empty() ? "Parameters: " : "; ") + p.effect + " " + p.name + " " + value_text(p);
   return text;
 }
 
 std::string materials_line(const RankedAnswer& answer) {
   std::string text;
   for (const ParameterEstimate& p : answer.materials)
-    text += (text.empty() ? "In the model's parameters: " : "; ") + p.name + " " + value_text(p);
+    text += (text.empty() ? "As parameters of the finite-element model: " : "; ") + p.name + " " +
+            value_text(p);
   return text;
 }
 
 std::string held_out_line(const HeldOutScore& score) {
   const ErrorScore& all = score.overall;
-  std::string text = "Held out: error " + percent(all.nrmse_before) + " -> " +
-                     percent(all.nrmse_after) + ", noise floor " + percent(all.noise_floor);
+  std::string text = "Held-out records: prediction error " + percent(all.nrmse_before) + " -> " +
+                     percent(all.nrmse_after) + " after correction, noise floor " +
+                     percent(all.noise_floor);
   if (all.gap_closed) text += "; gap closed " + percent(*all.gap_closed);
   if (all.gap_closed && all.gap_closed_ci95)
     text += " (" + percent((*all.gap_closed_ci95)[0]) + " .. " +
             percent((*all.gap_closed_ci95)[1]) + ")";
   if (!score.not_predictable.empty())
-    text += "; of " + joined(score.not_predictable, ", ") + " nothing can be predicted";
+    text += "; not predictable: " + joined(score.not_predictable, ", ");
   return text;
 }
 
 std::string vibration_part(const HeldOutScore& score) {
   if (!score.vibration_left) return "";
-  std::ostringstream text;
-  text.precision(1);
-  text << std::fixed << "vibration left when the predicted one is subtracted "
-       << score.vibration_left->before_db << " dB -> " << score.vibration_left->after_db << " dB";
-  return text.str();
+  return "vibration left after subtracting the prediction: " +
+         one_decimal(score.vibration_left->before_db) + " dB -> " +
+         one_decimal(score.vibration_left->after_db) + " dB";
 }
 
 std::string wind_speed_part(const Diagnosis& diagnosis) {
   if (!diagnosis.wind_speed) return "";
-  return "wind speed off by " + three_digits(diagnosis.wind_speed->before_m_s) + " m/s -> " +
+  return "wind speed error " + three_digits(diagnosis.wind_speed->before_m_s) + " m/s -> " +
          three_digits(diagnosis.wind_speed->after_m_s) + " m/s";
 }
 
@@ -216,13 +222,15 @@ std::string shares_line(const RankedAnswer& answer) {
 std::string nearest_line(const Diagnosis& diagnosis) {
   if (!diagnosis.nearest_known) return "";
   const RankedAnswer& nearest = *diagnosis.nearest_known;
-  std::string text = "Nearest: " + nearest.name;
+  std::string text = "Nearest known answer: " + nearest.name;
   if (nearest.held_out && nearest.held_out->overall.gap_closed)
     text += " closes " + percent(*nearest.held_out->overall.gap_closed) + " of the gap";
   if (nearest.residual_excess && contradicted_by(*nearest.residual_excess))
-    return text + ", but leaves " + three_digits(1. + nearest.residual_excess->excess) +
-           " times the power that noise and its form allow in " + nearest.residual_excess->record;
-  return text + ", but leaves more than noise";
+    return text +
+           ", but fails the residual test: " + three_digits(1. + nearest.residual_excess->excess) +
+           " times the power that noise and model form error allow in " +
+           nearest.residual_excess->record;
+  return text + ", but fails the residual test";
 }
 
 std::string others_line(const Diagnosis& diagnosis) {
@@ -230,14 +238,15 @@ std::string others_line(const Diagnosis& diagnosis) {
   for (std::size_t i = 1; i < std::min<std::size_t>(4, diagnosis.ranking.size()); ++i) {
     const RankedAnswer& answer = diagnosis.ranking[i];
     if (answer.probability < 0.005) break;
-    text += (text.empty() ? "Else: " : ", ") + answer.name + " " + percent(answer.probability);
+    text +=
+        (text.empty() ? "Alternatives: " : ", ") + answer.name + " " + percent(answer.probability);
   }
   const double untold = 1. - diagnosis.probability_of_tried;
   if (untold >= 0.005)
-    text +=
-        (text.empty() ? "Else: " : "; ") + ("what these records do not show " + percent(untold));
+    text += (text.empty() ? "Alternatives: " : "; ") +
+            ("not decided by these records: " + percent(untold));
   if (diagnosis.verdict != outside_catalogue && diagnosis.probability_of_outside >= 0.005)
-    text += "; of all that no known effect " + percent(diagnosis.probability_of_outside);
+    text += "; outside the catalogue in total: " + percent(diagnosis.probability_of_outside);
   return text;
 }
 
@@ -253,7 +262,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
   for (const UntestedEffect& entry : diagnosis.untested)
     untested.push_back({{"effect", entry.effect}, {"reason", entry.reason}});
   const json document{
-      {"schema", "vibrissa-diagnosis-1"},
+      {"schema", "vibrissa-diagnosis-2"},
       {"gap",
        {{"nrmse", json_number(diagnosis.gap.nrmse)},
         {"noise_floor_nrmse", json_number(diagnosis.gap.noise_floor)},
@@ -293,6 +302,18 @@ bool is_recalibration(const std::string& answer) {
   });
 }
 
+std::string consequence(const Diagnosis& diagnosis) {
+  if (!is_recalibration(diagnosis.verdict)) return "The simulation lacks this physics";
+  std::vector<std::string> settings;
+  if (!diagnosis.ranking.empty())
+    for (const ParameterEstimate& p : diagnosis.ranking.front().parameters)
+      if (p.name == "ratio" && is_recalibration(p.effect))
+        settings.push_back("set " + quantity_of(p.effect) + " to " + three_digits(p.value) +
+                           " times the simulated value");
+  return "The simulation needs recalibration" +
+         (settings.empty() ? "" : ": " + joined(settings, ", "));
+}
+
 std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_lines) {
   std::vector<std::string> lines;
   const auto add = [&](const std::string& line) {
@@ -308,8 +329,8 @@ std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_line
   if (!diagnosis.ranking.empty()) {
     add(parameters_line(diagnosis.ranking.front()));
     add(materials_line(diagnosis.ranking.front()));
-    add("Gap: error " + percent(diagnosis.gap.nrmse) + " of the signal, noise alone " +
-        percent(diagnosis.gap.noise_floor));
+    add("Gap: prediction error " + percent(diagnosis.gap.nrmse) + " of the signal (rms), " +
+        percent(diagnosis.gap.noise_floor) + " by noise alone");
     if (diagnosis.ranking.front().held_out) {
       add(held_out_line(*diagnosis.ranking.front().held_out));
       add(separation_line(diagnosis));
@@ -320,7 +341,7 @@ std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_line
   add(others_line(diagnosis));
   if (!diagnosis.untested.empty()) add("Not tested: " + untested_sentence(diagnosis.untested));
   for (std::size_t i = 0; i < std::min<std::size_t>(2, diagnosis.indistinguishable.size()); ++i)
-    add("Not told apart here: " + joined(diagnosis.indistinguishable[i], ", "));
+    add("Not distinguished by these records: " + joined(diagnosis.indistinguishable[i], ", "));
   if (diagnosis.next.name != "none")
     add("Measure next: " + diagnosis.next.name + " - " + diagnosis.next.why);
   for (const Finding& finding : diagnosis.findings)

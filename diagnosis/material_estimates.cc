@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t ratio_number = 0, wire_share_number = 2;
 
-/// From ln of the ratio and its gradient by the coordinates of some parameters.
+/// Estimate from the logarithm of a ratio and its gradient by fit parameters.
 ParameterEstimate estimate(const HypothesisFit& fit, const std::string& effect,
                            const std::string& name, const double log_ratio,
                            const std::vector<std::pair<std::size_t, double>>& gradient) {
@@ -79,10 +79,10 @@ std::vector<ParameterEstimate> material_estimates(const NominalModel& nominal,
   std::vector<ParameterEstimate> out;
   if (names("stiffness")) add_stiffness(nominal, fit, out);
   if (names("mass")) add_mass(nominal, fit, out);
-  // A parameter that hardly moves the resonance is not told by it.
-  constexpr double told_within = 100.;
+  // A parameter that hardly changes the resonance cannot be determined from it.
+  constexpr double largest_ratio = 100.;
   std::erase_if(out, [](const ParameterEstimate& estimate) {
-    return !(estimate.ci95[1] < told_within * estimate.ci95[0]);
+    return !(estimate.ci95[1] < largest_ratio * estimate.ci95[0]);
   });
   return out;
 }

@@ -7,11 +7,12 @@
 
 namespace vibrissa::diagnosis {
 
-/// What an answer's stiffness and mass are in the finite-element model's own parameters: ratios
-/// silicone_modulus, wire_modulus and fin_density (or wire_density) of what the model took, with 95
-/// % intervals by the fit's covariance. Along the model's sensitivities at its nominal values, so
-/// large changes are a few per cent off. Empty where the model does not tell them, or the answer
-/// names neither effect. Proven by tests/diagnosis/material_estimates_test.cc.
+/// An answer's stiffness and mass as parameters of the finite-element model: ratios of
+/// silicone_modulus, wire_modulus and fin_density (or wire_density) to their values in the model,
+/// with 95 % intervals from the fit's covariance. They use the model's sensitivities at its nominal
+/// values, so large changes have an error of a few percent. Empty when the model has no
+/// sensitivities or the answer names neither effect. Proven by
+/// tests/diagnosis/material_estimates_test.cc.
 std::vector<ParameterEstimate> material_estimates(const NominalModel& nominal,
                                                   const HypothesisFit& fit,
                                                   const std::string& answer);

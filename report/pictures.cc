@@ -22,12 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Starts of the lines by which the child tells its parent what it did.
+// Prefixes of the lines by which the child reports to its parent.
 const std::string made_line = "drawn: ", problem_line = "not drawn: ",
                   last_line = "all figures done";
 
 constexpr const char* scene_ending = ".scene.json";
-constexpr const char* csv_only = "figures are CSV only";
+constexpr const char* csv_only = "figures are available as CSV only";
 
 bool has_display() {
   const char* display = std::getenv("DISPLAY");
@@ -55,14 +55,14 @@ std::vector<fs::path> draw(const fs::path& folder, const std::string& name) {
   }
   const std::string stem = name.substr(0, name.size() - std::string(scene_ending).size());
   if (fs::exists(folder / figures / (stem + ".json")))
-    throw signals::UserError("figures/" + name + ": " + stem + ".json takes the name " + stem +
-                             ".png; give one of them another name");
+    throw signals::UserError("figures/" + name + ": " + stem + ".json uses the same picture name " +
+                             stem + ".png; rename one of them");
   const fs::path made = figures / (stem + ".png");
   draw_mode(read_mode_picture(folder / figures / name), folder, folder / made);
   return {made};
 }
 
-/// Fills made and problems from the child's lines. Whether it came to its end.
+/// Fills made and problems from the child's lines. Returns whether the child finished.
 bool read_lines(const std::string& output, PictureReport& report) {
   bool done = false;
   std::istringstream lines(output);
@@ -127,8 +127,8 @@ PictureReport draw_pictures(const fs::path& folder, const PictureOptions& option
   }
   const auto ways = attempts(folder, options);
   if (ways.empty()) {
-    report.message =
-        std::string("no display and no xvfb-run: ") + csv_only + "; install the package xvfb";
+    report.message = std::string("there is no display and no xvfb-run: ") + csv_only +
+                     "; install the package xvfb";
     return report;
   }
   std::string reasons, chatter;
@@ -159,7 +159,7 @@ int draw_folder(const fs::path& folder) {
     std::cout << report.message << std::endl;
     return report.made.empty() || !report.problems.empty() ? 1 : 0;
   }
-  // VTK aborts without a display; that must not leave a core file in the user's folder.
+  // VTK aborts without a display; the abort must not leave a core file in the user's folder.
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   const OpenDisplay display;

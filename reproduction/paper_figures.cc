@@ -39,7 +39,7 @@ report::Curve step_curve(const signals::ReducedModel& beam, const double amplitu
   return curve;
 }
 
-// Static moment per base acceleration about the moment axis, as a size.
+// Absolute static moment per base acceleration about the moment axis.
 double static_gain_kg_m(const signals::ReducedModel& model) {
   const std::vector<double> zero_hz = {0.};
   return std::abs(signals::base_response(model, zero_hz)[0]);
@@ -61,8 +61,8 @@ report::Figure step_responses(const signals::Beam& wire) {
   figure.name = "figure_07_step_responses";
   figure.title = "Analytical beam: base moment after a step of base acceleration";
   figure.caption =
-      "The whisker's free wire, clamped rigidly, eight modes and the static remainder. The moment "
-      "is proportional to the amplitude.";
+      "Free wire of the whisker with a rigid clamp; eight modes and the static correction. The "
+      "moment is proportional to the amplitude.";
   figure.panels.resize(1);
   figure.panels[0].x_label = "Time [s]";
   figure.panels[0].y_label = "Base moment [mN mm]";
@@ -92,8 +92,8 @@ report::Figure steady_responses(const PaperSensors& sensors) {
   figure.name = "figure_08_steady_responses";
   figure.title = "Steady base moment: nonlinear in wind, linear in acceleration";
   figure.caption =
-      "Sizes of the moments; quasi-steady drag with Cd(Re) of wire and blades. Linear model; "
-      "vibrissa static has the whole solid at finite strain.";
+      "Absolute values of the moments. Linear model with quasi-steady drag, Cd(Re) of wire and "
+      "blades; vibrissa static computes the whole solid at finite strain.";
   figure.panels = {wind, base};
   return figure;
 }
@@ -108,7 +108,7 @@ report::Figure base_responses(const PaperSensors& sensors) {
   }
   report::Figure figure = views::bode_figure(curves);
   figure.name = "figure_09_bode";
-  figure.title = "Base acceleration to base moment";
+  figure.title = "Frequency response from base acceleration to base moment";
   return figure;
 }
 
@@ -126,10 +126,10 @@ report::Figure estimates(const PaperTrial& trial, const std::string& name,
 report::Figure experiment_spectra(const PaperTrial& trial) {
   report::Figure figure = views::spectra_figure(trial.records, trial.separated);
   figure.name = "figure_12_spectra";
-  figure.title = "Simulated experiment: power spectra";
+  figure.title = "Simulated experiment: power spectral densities";
   figure.caption =
-      "Base lines at 12, 15, 19, 23, 26 and 29 Hz; wind about 1.6 Hz. One-sided densities by "
-      "Welch's method.";
+      "Base motion at 12, 15, 19, 23, 26 and 29 Hz; wind mostly near 1.6 Hz. One-sided densities "
+      "by Welch's method.";
   figure.panels[0].x_range = report::Range{0.5, 100.};
   return figure;
 }

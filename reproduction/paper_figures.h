@@ -14,13 +14,13 @@ report::Figure step_responses(const signals::Beam& wire);
 report::Figure steady_responses(const PaperSensors& sensors);
 /// Figure 9: base acceleration -> base moment of the three sensors.
 report::Figure base_responses(const PaperSensors& sensors);
-/// Figures 10 and 11: the wind moment, true and estimated; and what was recorded.
+/// Figures 10 and 11: the recorded signals, and the true and the estimated wind moment.
 report::Figure estimates(const PaperTrial& trial, const std::string& name,
                          const std::string& title);
 /// Figure 12: power spectra of the experiment.
 report::Figure experiment_spectra(const PaperTrial& trial);
 
-/// Exponent p of |M| ~ u^p between two wind speeds, and of a likewise (which is 1).
+/// Exponent p of |M| ~ u^p between two wind speeds. (The exponent in base acceleration is 1.)
 double wind_exponent(const signals::ReducedModel& model, double low_m_s, double high_m_s);
 
 }  // namespace vibrissa::reproduction

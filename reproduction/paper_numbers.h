@@ -10,14 +10,14 @@
 
 namespace vibrissa::reproduction {
 
-/// One number of the reference paper beside ours.
+/// One number of the reference paper and the same number of this program.
 struct PaperNumber {
   std::string what, unit;
-  std::optional<double> paper, ours;  // nothing: not stated, not found
-  std::string why;                    // they differ, or agree
+  std::optional<double> paper, ours;  // nothing: not stated by the paper, not determined here
+  std::string why;                    // explanation of a difference or agreement
 };
 
-/// All that `vibrissa reproduce` finds.
+/// All results of `vibrissa reproduce`.
 struct Reproduction {
   PaperSensors sensors;
   PaperTrial simulation, experiment;
@@ -28,7 +28,7 @@ struct Reproduction {
 std::vector<PaperNumber> paper_numbers(const Reproduction& reproduction);
 report::Table numbers_table(const std::vector<PaperNumber>& numbers);
 report::Table readings_table(const std::vector<FdafReading>& readings);
-/// What makes the paper's other setting fail, in words, from the readings' own numbers.
+/// Explains in words, from the computed numbers, why the paper's other settings fail.
 std::string explain(const std::vector<FdafReading>& readings);
 nlohmann::json reproduction_json(const Reproduction& reproduction);
 

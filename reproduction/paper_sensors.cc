@@ -15,12 +15,12 @@ namespace {
 
 fem::SensorParameters read_sensor(const std::filesystem::path& file) {
   fem::SensorParameters parameters = sensor_case::CaseFile(file).read().sensor;
-  parameters.model.sensitivities = false;  // nothing here asks for them
+  parameters.model.sensitivities = false;  // not needed here
   return parameters;
 }
 
 signals::ReducedModel built_sensor(signals::ReducedModel model) {
-  model.name = "built flow sensor (simulated with its published figures)";
+  model.name = "built flow sensor (simulated with its published parameters)";
   const double first_hz = model.modes.front().frequency_hz;
   for (auto& mode : model.modes) {
     if (mode.frequency_hz > first_hz * (1. + 1e-3)) break;

@@ -10,12 +10,12 @@ namespace vibrissa::reproduction {
 /// The flow sensor of the reference paper, twice.
 struct FlowSensors {
   signals::ReducedModel simulated;  // from its case
-  /// Stands for the built flow sensor, which exists only on paper: the simulated one with its first
-  /// pair moved to 31.47 Hz and a damping ratio of 0.027, its other figures left.
+  /// The built flow sensor, of which only published parameters exist: the simulated one with its
+  /// first pair of modes at 31.47 Hz and a damping ratio of 0.027, all other parameters unchanged.
   signals::ReducedModel built;
 };
 
-/// Solves the case. Throws UserError for one that does not describe a sensor.
+/// Solves the case. Throws UserError for a case that does not describe a sensor.
 FlowSensors make_flow_sensors(const std::filesystem::path& flow_case, bool show_progress);
 
 /// The three sensors of the reference paper, and its analytical beam.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double period_s = 1.;
 
-// Ten lines on whole periods of one second, spread over the band, one beside the resonance.
+// Ten lines with whole periods in one second, spread over the band, one of them near the resonance.
 std::vector<double> simulation_lines() {
   return signals::multisine_lines(1., 200., 10, 1. / period_s);
 }
@@ -30,12 +30,12 @@ separation::Identification identify_in_time(
   const auto [fit, held_out] = separation::hold_out_last_third(record);
   separation::IdentifyOptions options;
   options.method = method;
-  options.hold = separation::Hold::band_limited;  // as the rig moves between samples
+  options.hold = separation::Hold::band_limited;  // as for the motion of the rig between samples
   return separation::identify_bvrm(fit, held_out, options);
 }
 
-// One mode and a direct term from the lines of whole periods after the first, in which the sensor
-// still settles; the last third is held out.
+// One mode and a direct term, fitted to the lines of whole periods. The first period, which
+// contains transients, and the last third, which is held out, are not used.
 separation::Identification identify_from_periods(const signals::Record& record) {
   const double rate = record.sampling_rate_hz();
   const auto period = static_cast<std::size_t>(period_s * rate);
@@ -97,7 +97,7 @@ PaperTrial separate(sensor_case::RigRecords records, separation::Identification 
   return {std::move(records), std::move(identified), std::move(separated), convergence, early_db};
 }
 
-// Energy beyond so many taps of the sensor's response to one sample of acceleration.
+// Share of the energy of the sensor's impulse response after this many taps.
 double missing_energy(const signals::ReducedModel& model, const double rate_hz,
                       const std::size_t n_taps) {
   std::vector<double> impulse(4096, 0.);
@@ -139,7 +139,8 @@ PaperTrial simulate_paper_experiment(const PaperSensors& sensors) {
   parameters.records.accelerometer_noise_m_s2 = paper::accelerometer_noise_m_s2;
   parameters.records.moment_noise_n_m = paper::moment_noise_n_m;
   const std::vector<double> lines_hz = {12., 15., 19., 23., 26., 29.};
-  // n S(n) of von Karman's density is largest at n L / U = 0.146: this scale puts it at 1.6 Hz.
+  // n S(n) of von Karman's density is largest at n L / U = 0.146; this length scale puts it at 1.6
+  // Hz.
   constexpr double length_scale_m = 0.146 * 2. / 1.6;
   auto records =
       sensor_case::measure_on_rig(sensors.built, parameters,
@@ -167,13 +168,13 @@ std::vector<FdafReading> compare_fdaf_readings(const PaperSensors& sensors,
                         missing_energy(sensors.built, rate, fdaf.n_taps())});
   };
   auto options = separation::paper_experiment_fdaf();
-  add("L = 200 the block, ring-down held", options);
+  add("L = 200 is the block, filter covers the ring-down", options);
   options.filter_length = 200;
-  add("L = 200 block and filter", options);
+  add("L = 200 is block and filter", options);
   options = separation::paper_simulation_fdaf();
-  add("L = 20 the block, ring-down held", options);
+  add("L = 20 is the block, filter covers the ring-down", options);
   options.filter_length = 20;
-  add("L = 20 block and filter", options);
+  add("L = 20 is block and filter", options);
   return readings;
 }
 

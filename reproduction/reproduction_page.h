@@ -7,8 +7,8 @@
 
 namespace vibrissa::reproduction {
 
-/// The paper's numbers beside ours, its figures, and what was tried. Proven by
-/// tests/apps/reproduce_test.cc.
+/// Report page: numbers of the paper and of this program, the paper's figures, settings of the
+/// adaptive filter. Proven by tests/apps/reproduce_test.cc.
 report::Page reproduction_page(const Reproduction& reproduction,
                                const std::vector<report::Figure>& figures);
 

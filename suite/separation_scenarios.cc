@@ -46,7 +46,7 @@ std::vector<double> lines(const ScenarioRig& rig, const std::vector<double>& fre
                                         signals::MultisinePhase::schroeder);
 }
 
-// From 5 to 200 Hz and again, ten seconds each, at equal time for each octave.
+// Repeated sweeps from 5 to 200 Hz in ten seconds, with equal time for each octave.
 std::vector<double> swept_sine(const ScenarioRig& rig) {
   const auto sweep = signals::sample({.low_hz = 5.,
                                       .high_hz = 200.,
@@ -58,7 +58,7 @@ std::vector<double> swept_sine(const ScenarioRig& rig) {
   return a;
 }
 
-// Half-sine gusts of 20 ms, one to two seconds apart: something touches the whisker.
+// Half-sine pulses of 20 ms, one to two seconds apart, as if something touches the whisker.
 std::vector<double> contacts(const ScenarioRig& rig) {
   std::vector<double> u(n_samples(rig), 0.);
   constexpr std::size_t width = 10;
@@ -88,14 +88,14 @@ std::vector<Scenario> noisy_references(const ScenarioRig& rig) {
   for (const double x : a) power += x * x / static_cast<double>(a.size());
   for (const int snr_db : {0, 10, 20, 30, 40}) {
     scenarios.push_back(measure(rig, "reference at " + std::to_string(snr_db) + " dB",
-                                "accelerometer noise so far below the vibration",
+                                "accelerometer noise at this level below the vibration",
                                 {a, turbulence(rig)},
                                 std::sqrt(power * std::pow(10., -0.1 * snr_db))));
   }
   return scenarios;
 }
 
-// The accelerometer says nothing above 40 Hz, where the vibration goes on.
+// The accelerometer measures nothing above 40 Hz, although the vibration continues there.
 void remove_high_band(signals::Record& record) {
   const auto a = record.channel(base_acceleration);
   signals::RealFft fft(a.size());
@@ -110,18 +110,20 @@ void remove_high_band(signals::Record& record) {
 }
 
 Scenario missing_band(const ScenarioRig& rig) {
-  auto scenario = measure(rig, "missing reference band", "the accelerometer is blind above 40 Hz",
-                          {lines(rig, broad_lines_hz, 0.4), turbulence(rig)});
+  auto scenario =
+      measure(rig, "missing reference band", "the accelerometer measures nothing above 40 Hz",
+              {lines(rig, broad_lines_hz, 0.4), turbulence(rig)});
   remove_high_band(scenario.record);
   remove_high_band(*scenario.vibration_only);
   return scenario;
 }
 
-// Identified on the sensor as it was, separated while it softens.
+// The model is identified before the sensor softens, and used while it softens.
 Scenario drifting(const ScenarioRig& rig) {
   const auto a = lines(rig, broad_lines_hz, 0.4);
-  auto scenario = measure(rig, "drifting resonance", "the first resonance falls by 5 % meanwhile",
-                          {a, turbulence(rig)});
+  auto scenario =
+      measure(rig, "drifting resonance", "the first resonance falls by 5 % during the record",
+              {a, turbulence(rig)});
   const auto fixed = signals::simulate(rig.sensor, {rate_hz, a.size(), a}).base_moment;
   const auto moved =
       drifting_moment(rig.sensor, 0.95 * rig.sensor.modes[0].frequency_hz, a, rate_hz);
@@ -145,8 +147,8 @@ sensor_case::RecordedInput recording(const fs::path& file, const std::string& co
 bool is_there(const ScenarioRig& rig, const fs::path& file, const std::string& scenario,
               std::vector<std::string>& left_out) {
   if (!rig.recordings.empty() && fs::exists(rig.recordings / file)) return true;
-  left_out.push_back(scenario + ": needs " + file.string() +
-                     " in the folder of recordings (--recordings)");
+  left_out.push_back(scenario + ": the file " + file.string() +
+                     " is missing in the folder of recordings (--recordings)");
   return false;
 }
 
@@ -206,7 +208,7 @@ std::vector<double> drifting_moment(const signals::ReducedModel& model, const do
     const double f_hz = mode.frequency_hz + share * (last_hz - mode.frequency_hz);
     const auto step =
         signals::make_oscillator_step(2. * std::numbers::pi * f_hz * h, mode.damping_ratio);
-    // The rest took this mode's part as static: that is taken back.
+    // The static part of this mode, which the other modes' response contains, is subtracted.
     moment[i] += lever * (step.stiffness * q + step.damping * p + participation * acceleration[i]);
     const double f0 = -participation * acceleration[i];
     const double f1 = i + 1 < moment.size() ? -participation * acceleration[i + 1] : f0;
@@ -230,7 +232,7 @@ std::vector<Scenario> make_scenarios(const ScenarioRig& rig, std::vector<std::st
   add_recorded(rig, scenarios, left_out);
   scenarios.push_back(measure(rig, "swept sine", "5 to 200 Hz in ten seconds, turbulence",
                               {swept_sine(rig), turbulence(rig)}));
-  scenarios.push_back(measure(rig, "contacts", "half-sine touches of 20 ms as the stimulus",
+  scenarios.push_back(measure(rig, "contacts", "half-sine contact pulses of 20 ms as the stimulus",
                               {lines(rig, broad_lines_hz, 0.4), contacts(rig)}));
   for (auto& scenario : noisy_references(rig)) scenarios.push_back(std::move(scenario));
   scenarios.push_back(missing_band(rig));

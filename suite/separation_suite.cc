@@ -36,7 +36,8 @@ struct Method {
   std::function<std::vector<double>(const Scenario&)> separate;
 };
 
-// The best FIR filter in hindsight, as long as the adaptive ones: their bound.
+// The best fixed FIR filter of the same length for the whole record: upper bound of the adaptive
+// filters.
 std::vector<double> by_wiener(const Scenario& scenario) {
   return separation::wiener_filter(scenario.record, {}).wind_moment;
 }
@@ -119,7 +120,7 @@ report::Figure suite_figure(const std::vector<ScenarioResult>& results) {
   }
   report::Figure figure;
   figure.name = "separation_suite";
-  figure.title = "Signal to distortion of each method in each scenario";
+  figure.title = "Signal-to-distortion ratio (SDR) of each method in each scenario";
   for (std::size_t i = 0; i < results.size(); ++i) {
     figure.caption += std::to_string(i + 1) + ": " + results[i].name + ", " + results[i].about +
                       (i + 1 < results.size() ? "; " : ".");

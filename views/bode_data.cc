@@ -20,7 +20,7 @@ std::vector<double> bode_frequencies(const double low_hz, const double high_hz,
     }
   }
   std::sort(f.begin(), f.end());
-  // Modes come in pairs that only rounding tells apart.
+  // Modes come in pairs that differ only by rounding.
   const auto alike = [](const double a, const double b) { return b - a < 1e-9 * b; };
   f.erase(std::unique(f.begin(), f.end(), alike), f.end());
   return f;
@@ -40,8 +40,8 @@ BodeCurve bode_curve(const separation::Bvrm& model, const std::vector<double>& f
 
 namespace {
 
-// In (-360, 0], so that the half turn at low frequency (the moment opposes the acceleration) starts
-// at -180 degrees and a lag goes down.
+// In (-360, 0] degrees: the phase starts at -180 degrees at low frequency, because the moment
+// opposes the acceleration, and falls with a lag.
 double phase_deg(const std::complex<double> value) {
   const double degrees = std::arg(value) * 180. / std::numbers::pi;
   return degrees > 1e-6 ? degrees - 360. : degrees;
@@ -84,9 +84,9 @@ report::Figure bode_figure(const std::vector<BodeCurve>& curves) {
   }
   report::Figure figure;
   figure.name = "bode";
-  figure.title = "Base acceleration to base moment";
+  figure.title = "Frequency response from base acceleration to base moment";
   figure.caption =
-      "Frequency response from base acceleration to base moment, convention exp(+j w t).";
+      "Magnitude, phase and (for records) coherence, with the time convention exp(+j ω t).";
   figure.panels = {magnitude, phase};
   if (!coherence.curves.empty()) figure.panels.push_back(coherence);
   return figure;

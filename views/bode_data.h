@@ -10,12 +10,12 @@
 
 namespace vibrissa::views {
 
-/// Frequencies of a smooth Bode diagram: logarithmic, with more points about each resonance; as
-/// many for resonances that differ by rounding. Test: BodeFrequencies.
+/// Frequencies of a smooth Bode diagram: logarithmic, with more points about each resonance.
+/// Resonances that differ only by rounding count once. Proven by tests/apps/bode_test.cc.
 std::vector<double> bode_frequencies(double low_hz, double high_hz,
                                      const std::vector<double>& resonance_hz);
 
-/// One curve of a Bode diagram, base acceleration -> base moment [N m s^2/m].
+/// One curve of a Bode diagram: response from base acceleration to base moment [N m s^2/m].
 struct BodeCurve {
   std::string label;
   report::CurveStyle style = report::CurveStyle::line;
@@ -25,8 +25,7 @@ struct BodeCurve {
 BodeCurve bode_curve(const signals::ReducedModel& model, const std::vector<double>& frequency_hz);
 BodeCurve bode_curve(const separation::Bvrm& model, const std::vector<double>& frequency_hz);
 
-/// Magnitude and phase (unwrapped below 180 degrees at low frequency), and coherence where it is
-/// known.
+/// Magnitude and phase (-180 degrees at low frequency), and coherence where it is known.
 report::Figure bode_figure(const std::vector<BodeCurve>& curves);
 
 }  // namespace vibrissa::views

@@ -1,7 +1,6 @@
 #include "views/diagnosis_page.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/model/words.h"
@@ -27,9 +26,9 @@ std::string in_words(const std::string& answer) {
 
 std::string headline(const Diagnosis& d) {
   if (d.verdict == "none")
-    return "No cause is needed: noise explains how the bench differs from the simulation";
+    return "No cause: noise explains the difference between bench and simulation";
   if (d.verdict == diagnosis::outside_catalogue)
-    return "Something is there that no known effect explains";
+    return "The difference between bench and simulation has a cause that is not in the catalogue";
   std::string words = in_words(d.verdict);
   words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
   const bool several = d.verdict.find('+') != std::string::npos;
@@ -41,13 +40,11 @@ std::string range(const double low, const double high, std::string (*text)(doubl
   return text(low) + " to " + text(high);
 }
 
-/// What the headline means for the simulation, and what makes it doubtful.
+/// What the headline means for the simulation, and findings that make it doubtful.
 std::vector<std::string> verdict(const Diagnosis& d) {
   std::vector<std::string> lines;
   if (d.verdict != "none" && d.verdict != diagnosis::outside_catalogue)
-    lines.push_back(diagnosis::is_recalibration(d.verdict)
-                        ? "The simulation has the right physics and wants recalibration."
-                        : "The simulation lacks this physics.");
+    lines.push_back(diagnosis::consequence(d) + ".");
   for (const diagnosis::Finding& finding : d.findings)
     if (casts_doubt(finding.kind))
       lines.push_back("Doubtful: " + (finding.record.empty() ? "" : finding.record + ": ") +
@@ -63,17 +60,17 @@ void add_scores(std::vector<report::KeyNumber>& numbers, const diagnosis::ErrorS
                                                       (*score.gap_closed_ci95)[1], percent)
                            : ""});
   numbers.push_back(
-      {"Error of the signal, updated", percent(score.nrmse_after),
-       "before " + percent(score.nrmse_before) + ", noise alone " + percent(score.noise_floor)});
+      {"Prediction error after correction", percent(score.nrmse_after),
+       "before " + percent(score.nrmse_before) + ", by noise alone " + percent(score.noise_floor)});
 }
 
 std::vector<report::KeyNumber> key_numbers(const Diagnosis& d) {
   std::vector<report::KeyNumber> numbers;
   if (!d.ranking.empty()) {
     const RankedAnswer& first = d.ranking.front();
-    numbers.push_back(
-        {"Probability of the answer", percent(first.probability),
-         "anything else, shown by these records or not, " + percent(d.probability_of_unlisted)});
+    numbers.push_back({"Probability of the answer", percent(first.probability),
+                       "rest (not listed or not decided by these records): " +
+                           percent(d.probability_of_unlisted)});
     if (first.held_out) add_scores(numbers, first.held_out->overall);
   }
   if (d.resonance)
@@ -82,19 +79,20 @@ std::vector<report::KeyNumber> key_numbers(const Diagnosis& d) {
                            " Hz; below it the response is " + number(d.resonance->slow_gain_ratio) +
                            " times the simulated one"});
   if (d.wind_speed)
-    numbers.push_back({"Error of the wind speed, updated", number(d.wind_speed->after_m_s) + " m/s",
+    numbers.push_back({"Wind speed error after correction",
+                       number(d.wind_speed->after_m_s) + " m/s",
                        "before " + number(d.wind_speed->before_m_s) + " m/s"});
   return numbers;
 }
 
-/// Bands in which the gap stands out of the noise.
+/// Bands in which the gap is significantly larger than the noise.
 report::Table band_table(const diagnosis::Location& location) {
   constexpr double significant_p = 0.01;
   report::Table table({{"record kind", ""},
                        {"from", "Hz", 3},
                        {"to", "Hz", 3},
-                       {"error over signal", "%", 3},
-                       {"error power over noise power", "", 3},
+                       {"prediction error", "% of signal", 3},
+                       {"error power / noise power", "", 3},
                        {"p-value", "", 2}});
   for (const diagnosis::ChannelGap& channel : location.map)
     for (const diagnosis::BandGap& band : channel.bands)
@@ -104,7 +102,7 @@ report::Table band_table(const diagnosis::Location& location) {
   return table;
 }
 
-/// Of the first answer and of those that are not improbable.
+/// Parameters of the first answer and of all answers that are not improbable.
 report::Table parameter_table(const Diagnosis& d) {
   report::Table table({{"answer", ""},
                        {"effect", ""},
@@ -113,7 +111,7 @@ report::Table parameter_table(const Diagnosis& d) {
                        {"95 % from", "", 3},
                        {"95 % to", "", 3},
                        {"unit", ""},
-                       {"at limit", ""}});
+                       {"at limit of range", ""}});
   constexpr double improbable = 0.01;
   for (const RankedAnswer& answer : d.ranking) {
     if (answer.probability < improbable && &answer != &d.ranking.front()) continue;
@@ -146,28 +144,28 @@ void add_score_row(report::Table& table, const std::string& name,
 
 report::Table held_out_table(const diagnosis::HeldOutScore& score) {
   report::Table table({{"record", ""},
-                       {"error before", "%", 3},
-                       {"error after", "%", 3},
+                       {"prediction error before", "%", 3},
+                       {"after correction", "%", 3},
                        {"noise floor", "%", 3},
                        {"gap closed", "%", 4},
                        {"95 % from", "%", 4},
                        {"95 % to", "%", 4}});
-  add_score_row(table, "all together", score.overall);
+  add_score_row(table, "all records", score.overall);
   for (const diagnosis::ErrorScore& record : score.records)
     add_score_row(table, record.record, record);
   return table;
 }
 
 report::Table finding_table(const Diagnosis& d) {
-  report::Table table({{"record", ""}, {"what the data say of themselves", ""}});
+  report::Table table({{"record", ""}, {"finding", ""}});
   for (const diagnosis::Finding& finding : d.findings)
     table.add_row({finding.record.empty() ? "all" : finding.record, finding.message});
-  for (const std::string& guess : d.guesses) table.add_row({"all", "guessed: " + guess});
+  for (const std::string& guess : d.guesses) table.add_row({"all", "assumed: " + guess});
   return table;
 }
 
 report::Table untested_table(const Diagnosis& d) {
-  report::Table table({{"effect", ""}, {"why it is neither found nor excluded", ""}});
+  report::Table table({{"effect", ""}, {"reason", ""}});
   for (const diagnosis::UntestedEffect& entry : d.untested)
     table.add_row({entry.effect, entry.reason});
   return table;
@@ -187,83 +185,84 @@ void add_figure(report::PageSection& section, const std::vector<report::Figure>&
 report::PageSection where(const Diagnosis& d, const std::vector<report::Figure>& figures) {
   report::PageSection section{.heading = "Where", .text = {location_sentence(d.location)}};
   if (!d.location.links.empty())
-    section.text.push_back(
-        "Likely place in the measuring chain: " + diagnosis::joined(d.location.links, ", ") + ".");
-  add(section, "bands", "Bands where the gap stands out of the noise", band_table(d.location));
+    section.text.push_back("Probable location in the measuring chain: " +
+                           diagnosis::joined(d.location.links, ", ") + ".");
+  add(section, "bands", "Bands in which the gap is significantly larger than the noise",
+      band_table(d.location));
   for (report::PageTable& table : section.tables) table.folded = true;
   add_figure(section, figures, "gap_map");
   return section;
 }
 
-report::PageSection what(const Diagnosis& d, const std::vector<report::Figure>& figures) {
-  report::PageSection section{.heading = "What"};
+report::PageSection cause(const Diagnosis& d, const std::vector<report::Figure>& figures) {
+  report::PageSection section{.heading = "Cause"};
   if (d.nearest_known)
     section.text.push_back("Nearest known answer: " + in_words(d.nearest_known->name) +
-                           ", which leaves more than noise.");
+                           "; it fails the residual test.");
   for (const auto& set : d.indistinguishable)
-    section.text.push_back("Not told apart by these records: " + diagnosis::joined(set, ", ") +
+    section.text.push_back("Not distinguished by these records: " + diagnosis::joined(set, ", ") +
                            ".");
   add(section, "ranking", "Answers, the most probable first", ranking_table(d));
-  add(section, "parameters", "What the answers say in numbers", parameter_table(d));
+  add(section, "parameters", "Parameters of the answers", parameter_table(d));
   if (!d.ranking.empty())
-    add(section, "shares", "What each effect of the first answer closes",
+    add(section, "shares", "Share of the gap that each effect of the first answer closes",
         share_table(d.ranking.front()));
   add_figure(section, figures, "ranking");
   return section;
 }
 
 std::string separation_sentence(const Diagnosis& d) {
-  std::ostringstream text;
-  text.precision(1);
-  text << std::fixed;
+  std::string text;
   if (!d.ranking.empty() && d.ranking.front().held_out &&
       d.ranking.front().held_out->vibration_left) {
     const auto& left = *d.ranking.front().held_out->vibration_left;
-    text << "Vibration left when the predicted one is subtracted: " << left.before_db
-         << " dB before, " << left.after_db << " dB after. ";
+    text += "Vibration left after subtracting the prediction: " +
+            diagnosis::one_decimal(left.before_db) + " dB before, " +
+            diagnosis::one_decimal(left.after_db) + " dB after correction. ";
   }
   if (d.separation)
-    text << "Wind moment, signal to distortion: " << d.separation->before_db << " dB before, "
-         << d.separation->after_db << " dB after.";
-  return text.str();
+    text += "Signal-to-distortion ratio of the wind moment: " +
+            diagnosis::one_decimal(d.separation->before_db) + " dB before, " +
+            diagnosis::one_decimal(d.separation->after_db) + " dB after correction.";
+  return text;
 }
 
-report::PageSection how_far(const Diagnosis& d, const std::vector<report::Figure>& figures) {
+report::PageSection improvement(const Diagnosis& d, const std::vector<report::Figure>& figures) {
   report::PageSection section{
-      .heading = "How far",
-      .text = {"Errors on records that were not used to fit: root mean square of the error over "
-               "that of the measured moment."}};
+      .heading = "Improvement",
+      .text = {"Prediction errors on held-out records, which were not used for the fit: rms error "
+               "divided by the rms of the measured moment."}};
   if (const std::string text = separation_sentence(d); !text.empty()) section.text.push_back(text);
   if (!d.ranking.empty() && d.ranking.front().held_out)
-    add(section, "held_out", "Held-out records, by the first answer",
+    add(section, "held_out", "Held-out records, corrected by the first answer",
         held_out_table(*d.ranking.front().held_out));
   add_figure(section, figures, "response");
   if (!d.trace.time_s.empty()) section.figures.push_back(held_out_record_figure(d));
   return section;
 }
 
-report::PageSection what_next(const Diagnosis& d) {
-  report::PageSection section{.heading = "What next"};
+report::PageSection next_section(const Diagnosis& d) {
+  report::PageSection section{.heading = "Next experiment"};
   if (d.next.name == "none")
-    section.text.push_back("Nothing needs to be measured: " + d.next.why + ".");
+    section.text.push_back("No further measurement is needed: " + d.next.why + ".");
   else
     section.text.push_back("Measure " + in_words(d.next.name) + ": " + d.next.why +
-                           ". Probability that it tells two answers apart: " +
+                           ". Probability that it distinguishes two remaining answers: " +
                            percent(d.next.split_probability) + ".");
   if (!d.next.would_separate.empty())
-    section.text.push_back("It would separate " + diagnosis::joined(d.next.would_separate, ", ") +
+    section.text.push_back("It distinguishes " + diagnosis::joined(d.next.would_separate, ", ") +
                            ".");
   add(section, "untested", "Not tested by these records", untested_table(d));
-  add(section, "findings", "About the data", finding_table(d));
+  add(section, "findings", "Findings about the data", finding_table(d));
   return section;
 }
 
 report::Table explanation_table(const diagnosis::ResonanceDiagnosis& d) {
   report::Table table({{"explanation", ""},
                        {"odds", "%", 2},
-                       {"what it takes", ""},
+                       {"value needed", ""},
                        {"within the usual range", ""},
-                       {"damping left", "", 3}});
+                       {"remaining damping ratio", "", 3}});
   for (const diagnosis::ResonanceExplanation& explanation : d.explanations) {
     std::vector<std::string> needed;
     for (const diagnosis::NeededValue& value : explanation.parameters)
@@ -271,7 +270,7 @@ report::Table explanation_table(const diagnosis::ResonanceDiagnosis& d) {
                        (value.unit == "1" ? "" : " " + value.unit) + " (usual " +
                        range(value.usual_low, value.usual_high, number) + ")");
     table.add_row({explanation.name(), 100. * explanation.odds,
-                   explanation.possible ? diagnosis::joined(needed, "; ") : "cannot bring it there",
+                   explanation.possible ? diagnosis::joined(needed, "; ") : "impossible",
                    explanation.inside_usual_range ? "yes" : "no", explanation.damping_left});
   }
   return table;
@@ -281,26 +280,28 @@ report::Table explanation_table(const diagnosis::ResonanceDiagnosis& d) {
 
 report::Page diagnosis_page(const Diagnosis& d) {
   const std::vector<report::Figure> figures = diagnosis_plots(d);
-  return {.title = "Why the bench differs from the simulation",
-          .headline = headline(d),
-          .verdict = verdict(d),
-          .numbers = key_numbers(d),
-          .sections = {where(d, figures), what(d, figures), how_far(d, figures), what_next(d)}};
+  return {
+      .title = "Why the bench differs from the simulation",
+      .headline = headline(d),
+      .verdict = verdict(d),
+      .numbers = key_numbers(d),
+      .sections = {where(d, figures), cause(d, figures), improvement(d, figures), next_section(d)}};
 }
 
 report::Page resonance_gap_page(const diagnosis::ResonanceDiagnosis& d) {
   const std::string simulated = number(d.simulated.frequency_hz) + " Hz",
                     measured = number(d.measured.frequency_hz) + " Hz";
-  report::PageSection what{.heading = "What could explain it",
-                           .text = {"Odds by what is usual; figures alone cannot tell."}};
-  add(what, "explanations", "Explanations, the likeliest first", explanation_table(d));
-  report::PageSection next{.heading = "What next"};
+  report::PageSection what{.heading = "Possible causes",
+                           .text = {"Two resonance frequencies alone do not decide. The odds "
+                                    "follow from the usual ranges of the parameters."}};
+  add(what, "explanations", "Explanations, the most probable first", explanation_table(d));
+  report::PageSection next{.heading = "Next experiment"};
   next.text.push_back("Measure " + in_words(d.next.name) + ": " + d.next.why + ".");
   return {
-      .title = "What could explain the gap between two resonances",
-      .headline = "Likeliest: " + in_words(d.verdict),
+      .title = "Possible causes of the difference between two resonances",
+      .headline = "Most probable: " + in_words(d.verdict),
       .verdict = {"The simulation resonates at " + simulated + ", the sensor at " + measured + "."},
-      .numbers = {{"Stiffness over mass, measured over simulated", number(d.modal_ratio), ""}},
+      .numbers = {{"Stiffness/mass ratio, measured / simulated", number(d.modal_ratio), ""}},
       .sections = {std::move(what), std::move(next)}};
 }
 

@@ -6,10 +6,11 @@
 
 namespace vibrissa::views {
 
-/// Verdict, where, what, how far, what next. Proven by tests/apps/diagnosis_page_test.cc.
+/// Report page with verdict, location of the gap, cause, improvement, next experiment. Proven by
+/// tests/apps/diagnosis_page_test.cc.
 report::Page diagnosis_page(const diagnosis::Diagnosis& diagnosis);
 
-/// What could explain a gap between two resonances, without records.
+/// Report page with possible causes of the difference between two resonances, without records.
 report::Page resonance_gap_page(const diagnosis::ResonanceDiagnosis& diagnosis);
 
 }  // namespace vibrissa::views

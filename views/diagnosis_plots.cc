@@ -28,16 +28,16 @@ report::Panel panel_over_frequency(const std::string& title) {
 }
 
 report::Panel gap_by_kind(const std::vector<diagnosis::ChannelGap>& map) {
-  report::Panel panel = panel_over_frequency("Where the nominal simulation is wrong");
+  report::Panel panel = panel_over_frequency("Error of the nominal simulation by kind of record");
   for (const diagnosis::ChannelGap& channel : map)
-    // Of records with both, which alone show what neither does.
+    // Records with base motion and wind.
     panel.curves.push_back(excess_curve(
         channel.channel == "product" ? "base and wind" : channel.channel, channel.bands));
   return panel;
 }
 
 report::Panel gap_by_level(const std::vector<diagnosis::LevelGap>& levels) {
-  report::Panel panel = panel_over_frequency("Under base motion, by its level");
+  report::Panel panel = panel_over_frequency("Error under base motion by level (rms)");
   for (const diagnosis::LevelGap& level : levels)
     panel.curves.push_back(
         excess_curve(report::Cell(level.level_m_s2).rounded(3) + " m/s²", level.bands));
@@ -45,9 +45,11 @@ report::Panel gap_by_level(const std::vector<diagnosis::LevelGap>& levels) {
 }
 
 report::Panel gap_in_time(const std::vector<diagnosis::GapInTime>& records) {
-  constexpr std::size_t most_curves = 8;  // more cannot be told apart
-  report::Panel panel{
-      .title = "Along the records", .x_label = "Time [s]", .y_label = over_noise, .log_y = true};
+  constexpr std::size_t most_curves = 8;  // more curves cannot be distinguished
+  report::Panel panel{.title = "Error along the records",
+                      .x_label = "Time [s]",
+                      .y_label = over_noise,
+                      .log_y = true};
   for (std::size_t i = 0; i < std::min(records.size(), most_curves); ++i)
     panel.curves.push_back(
         {.label = records[i].record, .x = records[i].time_s, .y = records[i].excess});
@@ -55,13 +57,13 @@ report::Panel gap_in_time(const std::vector<diagnosis::GapInTime>& records) {
 }
 
 report::Figure gap_map(const diagnosis::Location& location) {
-  report::Figure figure{
-      .name = "gap_map",
-      .title = "Gap map",
-      .caption =
-          "Whitened error of the nominal model by third-octave band and kind of record, by level "
-          "of the base motion (rms) and along each record; 1 is noise alone.",
-      .panels = {gap_by_kind(location.map)}};
+  report::Figure figure{.name = "gap_map",
+                        .title = "Gap map",
+                        .caption =
+                            "Power of the nominal model's error divided by the noise power, in "
+                            "third-octave bands by kind of record and by level of the base motion "
+                            "(rms), and along each record. A value of 1 means noise alone.",
+                        .panels = {gap_by_kind(location.map)}};
   if (!location.by_level.empty()) figure.panels.push_back(gap_by_level(location.by_level));
   if (!location.in_time.empty()) figure.panels.push_back(gap_in_time(location.in_time));
   return figure;
@@ -80,7 +82,7 @@ report::Figure response_figure(const diagnosis::Diagnosis& diagnosis) {
                       .y_label = "|M / a| [N m s²/m]",
                       .log_x = true,
                       .log_y = true};
-  panel.curves.push_back({.label = "measured, ± 2 deviations of noise",
+  panel.curves.push_back({.label = "measured, ± 2 standard deviations of noise",
                           .style = report::CurveStyle::band,
                           .x = response.frequency_hz,
                           .y_low = low,
@@ -92,8 +94,8 @@ report::Figure response_figure(const diagnosis::Diagnosis& diagnosis) {
                           .x = response.frequency_hz,
                           .y = response.updated});
   return {.name = "response",
-          .title = "Response before and after",
-          .caption = "At the lines that the drive excites.",
+          .title = "Response before and after correction",
+          .caption = "Values at the excited lines.",
           .panels = {panel}};
 }
 
@@ -121,18 +123,18 @@ report::Panel trace_panel(const diagnosis::Diagnosis& diagnosis, const std::size
 
 report::Figure trace_figure(const diagnosis::Diagnosis& diagnosis) {
   const std::vector<double>& time_s = diagnosis.trace.time_s;
-  // A second shows the swings; the CSV beside the picture holds what is drawn.
+  // One second shows the oscillation; the CSV file holds the same samples.
   std::size_t n = 0;
   while (n < time_s.size() && time_s[n] < time_s.front() + 1.) ++n;
   return {.name = "held_out_trace",
-          .title = "Held-out record before and after",
-          .caption = "Free simulation of a record that was not used to fit.",
+          .title = "Held-out record before and after correction",
+          .caption = "Free simulation of a record that was not used for the fit.",
           .panels = {trace_panel(diagnosis, n)}};
 }
 
 report::Figure ranking_figure(const std::vector<diagnosis::RankedAnswer>& ranking) {
   report::Panel panel{.title = "Probability of each answer",
-                      .x_label = "Probability",
+                      .x_label = "Probability [1]",
                       .y_label = "Answer",
                       .x_range = report::Range{0., 1.}};
   report::Curve heads{.style = report::CurveStyle::points, .colour = 0};
@@ -146,7 +148,7 @@ report::Figure ranking_figure(const std::vector<diagnosis::RankedAnswer>& rankin
   panel.curves.push_back(std::move(heads));
   return {.name = "ranking",
           .title = "Answers",
-          .caption = "How probable each answer is, given these records.",
+          .caption = "Posterior probability of each answer, given these records.",
           .panels = {panel}};
 }
 
@@ -164,8 +166,8 @@ std::vector<report::Figure> diagnosis_plots(const diagnosis::Diagnosis& diagnosi
 report::Figure held_out_record_figure(const diagnosis::Diagnosis& diagnosis) {
   report::Figure figure = trace_figure(diagnosis);
   report::Panel whole = trace_panel(diagnosis, diagnosis.trace.time_s.size());
-  whole.title += ", whole";
-  figure.panels.front().title = "Its first second";
+  whole.title += ", whole record";
+  figure.panels.front().title = "The first second";
   figure.panels.insert(figure.panels.begin(), std::move(whole));
   figure.name = "held_out_record";
   return figure;
@@ -174,8 +176,8 @@ report::Figure held_out_record_figure(const diagnosis::Diagnosis& diagnosis) {
 report::Table ranking_table(const diagnosis::Diagnosis& diagnosis) {
   report::Table table({{"answer", ""},
                        {"probability", "", 3},
-                       {"error before", "", 3},
-                       {"error after", "", 3},
+                       {"prediction error before", "", 3},
+                       {"after correction", "", 3},
                        {"noise floor", "", 3},
                        {"gap closed", "", 3}});
   for (const diagnosis::RankedAnswer& answer : diagnosis.ranking) {

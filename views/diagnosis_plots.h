@@ -8,14 +8,15 @@
 
 namespace vibrissa::views {
 
-/// Gap map, ranking, response and held-out trace before and after; what the data do not give is
-/// left out. Proven by tests/apps/diagnose_test.cc.
+/// Gap map, ranking, response and held-out trace before and after correction; plots without data
+/// are left out. Proven by tests/apps/diagnose_test.cc.
 std::vector<report::Figure> diagnosis_plots(const diagnosis::Diagnosis& diagnosis);
 
-/// The trace among diagnosis_plots() below the whole record that it is the first second of.
+/// The whole held-out record, and below it its first second, which diagnosis_plots() shows alone.
 report::Figure held_out_record_figure(const diagnosis::Diagnosis& diagnosis);
 
-/// One row an answer: probability, held-out errors before and after, share of the gap closed.
+/// One row per answer: probability, prediction errors on held-out records before and after
+/// correction, share of the gap closed.
 report::Table ranking_table(const diagnosis::Diagnosis& diagnosis);
 
 }  // namespace vibrissa::views

@@ -8,11 +8,10 @@ std::string plane_text(const std::vector<separation::PlaneEstimate>& points) {
   const auto number = [](const double value) { return report::Cell(value).rounded(4); };
   std::string text;
   for (const auto& point : points) {
-    text += (text.empty() ? "" : "; ") + number(point.value.real()) + " +- " +
+    text += (text.empty() ? "" : "; ") + number(point.value.real()) + " ± " +
             number(point.real_deviation);
     if (point.value.imag() != 0.) {
-      text +=
-          ", j(" + number(point.value.imag()) + " +- " + number(point.imaginary_deviation) + ")";
+      text += ", j(" + number(point.value.imag()) + " ± " + number(point.imaginary_deviation) + ")";
     }
   }
   return text.empty() ? "none" : text;
@@ -23,11 +22,11 @@ std::string plane_text(const std::vector<separation::PlaneEstimate>& points) {
 report::Table identification_table(const separation::FittedBvrm& fit) {
   report::Table table({{"mode", ""},
                        {"frequency", "Hz", 6},
-                       {"+- sd", "Hz", 2},
+                       {"± sd", "Hz", 2},
                        {"damping ratio", ""},
-                       {"+- sd", "", 2},
+                       {"± sd", "", 2},
                        {"static gain", "kg m"},
-                       {"+- sd", "kg m", 2}});
+                       {"± sd", "kg m", 2}});
   std::size_t number = 0;
   for (const auto& mode : fit.modes) {
     table.add_row({++number, mode.frequency_hz.value, mode.frequency_hz.standard_deviation,
@@ -38,18 +37,18 @@ report::Table identification_table(const separation::FittedBvrm& fit) {
 }
 
 report::Table output_only_table(const separation::OutputOnlyIdentification& found) {
-  report::Table table({{"what", ""},
+  report::Table table({{"kind", ""},
                        {"frequency", "Hz", 6},
-                       {"+- sd", "Hz", 2},
+                       {"± sd", "Hz", 2},
                        {"damping ratio", ""},
-                       {"+- sd", "", 2},
-                       {"stands in orders", ""}});
+                       {"± sd", "", 2},
+                       {"number of model orders", ""}});
   for (const auto& mode : found.modes) {
     table.add_row({"mode", mode.frequency_hz.value, mode.frequency_hz.standard_deviation,
                    mode.damping_ratio.value, mode.damping_ratio.standard_deviation, mode.n_orders});
   }
   for (const auto& line : found.undamped_hz) {
-    table.add_row({"does not decay", line.value, line.standard_deviation, report::Cell(),
+    table.add_row({"undamped line", line.value, line.standard_deviation, report::Cell(),
                    report::Cell(), report::Cell()});
   }
   return table;

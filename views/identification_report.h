@@ -9,10 +9,10 @@ namespace vibrissa::views {
 
 report::Table identification_table(const separation::FittedBvrm& fit);
 
-/// One row a mode, and one without damping for each frequency that does not decay.
+/// One row per mode, and one row without damping for each undamped line.
 report::Table output_only_table(const separation::OutputOnlyIdentification& found);
 
-/// What else the records say of the model, in words.
+/// Poles, zeros and the residual test of the model, as text.
 std::string evidence_text(const separation::ModelEvidence& evidence);
 
 }  // namespace vibrissa::views

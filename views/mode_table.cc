@@ -27,8 +27,8 @@ report::Table modes_table(const fem::Sensor& sensor) {
                        {"effective mass x", "kg"},
                        {"effective mass y", "kg"},
                        {"effective mass z", "kg"},
-                       {"moment participation x", "kg^1/2 m"},
-                       {"moment participation y", "kg^1/2 m"}});
+                       {"moment participation x", "√kg·m"},
+                       {"moment participation y", "√kg·m"}});
   for (std::size_t k = 0; k < sensor.modes().size(); ++k) {
     const auto& mode = sensor.modes()[k];
     const auto mass = mode.effective_mass_kg();
@@ -74,7 +74,7 @@ std::optional<ObservedOrder> observed_order(const std::vector<ConvergenceLevel>&
   const auto size = [](const ConvergenceLevel& level, const double p) {
     return std::pow(static_cast<double>(level.resolution), -p);
   };
-  // The ratio of the changes rises with the order: bisection.
+  // The ratio of the changes rises with the order, so bisection finds it.
   double low = 0.01, high = 20.;
   for (int i = 0; i < 100; ++i) {
     const double p = 0.5 * (low + high);

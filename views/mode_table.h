@@ -22,12 +22,13 @@ struct ConvergenceLevel {
   double frequency_hz = 0.;
 };
 
-/// The sensor on three meshes, of resolution first, first + 1, first + 2. given: the sensor already
-/// solved, not solved again.
+/// The sensor on three meshes with resolutions first, first + 1 and first + 2. given: the sensor
+/// that is already solved; it is not solved again.
 std::vector<ConvergenceLevel> refine(const fem::Sensor& given, unsigned int first);
 
-/// Order p of |f - f_limit| = c h^p through the last three levels, h = 1 / resolution, and the
-/// limit. Nothing when the changes do not fall (not yet in the asymptotic range).
+/// Order p of |f - f_limit| = c h^p through the last three levels, with h = 1 / resolution, and the
+/// limit. Nothing when the changes do not fall, because the meshes are not yet in the asymptotic
+/// range.
 struct ObservedOrder {
   double order = 0., limit_hz = 0.;
 };

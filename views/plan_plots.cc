@@ -11,10 +11,10 @@ namespace {
 using diagnosis::EffectPower;
 using diagnosis::SensorKind;
 
-/// So many names stand on one panel without touching.
+/// Number of names that fit on one panel without overlap.
 constexpr std::size_t most_names = 16;
 
-/// Effects that the experiment shows, the strongest first.
+/// Effects that the experiment can show, the strongest first.
 std::vector<const EffectPower*> by_strength(const diagnosis::ExperimentPlan& plan) {
   std::vector<const EffectPower*> out;
   for (const EffectPower& effect : plan.effects)
@@ -25,13 +25,14 @@ std::vector<const EffectPower*> by_strength(const diagnosis::ExperimentPlan& pla
   return out;
 }
 
-/// What could be taken for it on a sensor as built, in brackets.
+/// The effect, and in brackets the first effect that it may be mistaken for on a sensor with
+/// building tolerances.
 std::string name_of(const EffectPower& effect) {
   const std::vector<std::string>& alike = effect.on(SensorKind::as_built).alike;
   return alike.empty() ? effect.effect : effect.effect + " (" + alike.front() + "?)";
 }
 
-/// Of all points and what is needed, with room at either end.
+/// Range of all points and of the detection threshold, with a margin at either end.
 report::Range evidence_range(std::span<const EffectPower* const> effects) {
   report::Range range{diagnosis::detection_threshold_nats, diagnosis::detection_threshold_nats};
   for (const EffectPower* effect : effects)
@@ -45,13 +46,13 @@ report::Range evidence_range(std::span<const EffectPower* const> effects) {
 
 report::Panel strength_panel(std::span<const EffectPower* const> effects,
                              const report::Range& range) {
-  report::Panel panel{.title = "What would be found at typical strength",
-                      .x_label = "Evidence [nats]",
+  report::Panel panel{.title = "Detectability of effects at typical strength",
+                      .x_label = "Expected log likelihood ratio [nats]",
                       .log_x = true,
                       .x_range = range};
   for (const SensorKind kind : diagnosis::sensor_kinds) {
     const bool exact = kind == SensorKind::exact;
-    report::Curve curve{.label = exact ? "otherwise as simulated" : "as built",
+    report::Curve curve{.label = exact ? "exact simulation" : "building tolerances",
                         .style = report::CurveStyle::points};
     for (std::size_t i = 0; i < effects.size(); ++i) {
       curve.x.push_back(effects[i]->on(kind).nats);
@@ -62,7 +63,7 @@ report::Panel strength_panel(std::span<const EffectPower* const> effects,
   for (const EffectPower* effect : effects) panel.y_names.push_back(name_of(*effect));
   std::reverse(panel.y_names.begin(), panel.y_names.end());
   panel.curves.push_back(
-      {.label = "needed",
+      {.label = "detection limit",
        .style = report::CurveStyle::dashed,
        .x = {diagnosis::detection_threshold_nats, diagnosis::detection_threshold_nats},
        .y = {0.5, static_cast<double>(effects.size()) + 0.5}});
@@ -79,8 +80,10 @@ report::Cell limit_cell(const EffectPower& effect, SensorKind kind) {
 
 report::Figure plan_figure(const diagnosis::ExperimentPlan& plan) {
   report::Figure figure{.name = "plan",
-                        .title = "What the experiment could say",
-                        .caption = "In brackets what could be taken for an effect."};
+                        .title = "What the planned experiment can detect",
+                        .caption =
+                            "An effect right of the detection limit is detected. In brackets: an "
+                            "effect that it may be mistaken for."};
   const std::vector<const EffectPower*> effects = by_strength(plan);
   const report::Range range = evidence_range(effects);
   std::span<const EffectPower* const> left = effects;
@@ -99,11 +102,11 @@ report::Table limits_table(const diagnosis::ExperimentPlan& plan) {
                        {"parameter", ""},
                        {"unit", ""},
                        {"typical", "", 3},
-                       {"limit otherwise as simulated", "", 3},
-                       {"limit as built", "", 3},
+                       {"limit with an exact simulation", "", 3},
+                       {"limit with building tolerances", "", 3},
                        {"needs", ""},
-                       {"could be, otherwise as simulated", ""},
-                       {"could be, as built", ""}});
+                       {"alike with an exact simulation", ""},
+                       {"alike with building tolerances", ""}});
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
     const EffectPower& effect = plan.effects[i];
     table.add_row({i + 1, effect.effect, effect.parameter, effect.unit, effect.typical,

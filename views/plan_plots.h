@@ -6,13 +6,13 @@
 
 namespace vibrissa::views {
 
-/// Evidence for each effect at its typical strength, strongest first, on a sensor that is as
-/// simulated otherwise and on one as built; in brackets what it could be taken for. Proven by
-/// tests/apps/plan_test.cc.
+/// Expected log likelihood ratio of each effect at its typical strength, strongest first, for an
+/// exact simulation and with building tolerances; in brackets an effect that it may be mistaken
+/// for. Proven by tests/apps/plan_test.cc.
 report::Figure plan_figure(const diagnosis::ExperimentPlan& plan);
 
-/// One row an effect: number, name, size parameter, typical value, limits on both kinds of sensor,
-/// what it could be taken for.
+/// One row per effect: number, name, size parameter, typical value, detection limits on both kinds
+/// of sensor, effects that it may be mistaken for.
 report::Table limits_table(const diagnosis::ExperimentPlan& plan);
 
 }  // namespace vibrissa::views

@@ -20,7 +20,7 @@ std::vector<report::Figure> named(const RunPageParts& parts,
   return figures;
 }
 
-/// Of the method of that name; nothing where there is no score.
+/// Signal-to-distortion ratio of a method; nothing where there is no score.
 std::optional<double> sdr_db(const RunPageParts& parts, const std::string& name) {
   for (const SeparatedSignal& signal : parts.separated)
     if (signal.name == name) return signal.sdr_db;
@@ -32,20 +32,22 @@ std::vector<report::KeyNumber> key_numbers(const RunPageParts& parts) {
       {"First resonance", four_digits(parts.resonance_hz) + " Hz",
        "damping ratio " + four_digits(parts.damping_ratio)},
       {"Fit of the identified model", four_digits(parts.identified.held_out_fit_percent) + " %",
-       "on records that it has not seen"}};
+       "on held-out data"}};
   const auto separated = sdr_db(parts, "bvrm"), raw = sdr_db(parts, "nothing removed");
   if (separated && raw)
-    numbers.push_back({"Wind moment, signal to distortion", four_digits(*separated) + " dB",
-                       "nothing removed " + four_digits(*raw) + " dB"});
+    numbers.push_back({"Signal-to-distortion ratio of the wind moment",
+                       four_digits(*separated) + " dB",
+                       "without separation " + four_digits(*raw) + " dB"});
   return numbers;
 }
 
 std::string headline(const RunPageParts& parts) {
-  std::string text = "The sensor resonates at " + four_digits(parts.resonance_hz) + " Hz";
+  std::string text = "The first resonance is at " + four_digits(parts.resonance_hz) + " Hz";
   const auto separated = sdr_db(parts, "bvrm"), raw = sdr_db(parts, "nothing removed");
   if (separated && raw)
-    text += "; taking the vibration out improves the wind moment by " +
-            report::Cell(*separated - *raw).rounded(3) + " dB";
+    text +=
+        "; removing the vibration improves the signal-to-distortion ratio of the wind moment by " +
+        report::Cell(*separated - *raw).rounded(3) + " dB";
   return text;
 }
 
@@ -56,18 +58,19 @@ report::Page run_page(const RunPageParts& parts) {
                                  .tables = {{"modes", "Modes of the sensor", parts.modes}},
                                  .scenes = parts.shapes};
   report::PageSection response{
-      .heading = "Response to vibration of the base",
+      .heading = "Response to base vibration",
       .text = {"Base vibration response model of order " + std::to_string(parts.identified.order) +
                "."},
       .tables = {{"identified", "Identified modes with standard deviations (sd)",
                   identification_table(parts.identified.fit)}},
       .figures = named(parts, {"bode"})};
   report::PageSection records{.heading = "Records", .figures = named(parts, {"records"})};
-  report::PageSection separation{.heading = "Separation of wind and vibration",
-                                 .text = {metric_notes(parts.settling_s)},
-                                 .tables = {{"metrics", "Methods against the true wind moment",
-                                             separation_table(parts.separated)}},
-                                 .figures = named(parts, {"separation", "spectra"})};
+  report::PageSection separation{
+      .heading = "Separation of wind and vibration",
+      .text = {metric_notes(parts.settling_s)},
+      .tables = {{"metrics", "Scores of the methods against the true wind moment",
+                  separation_table(parts.separated)}},
+      .figures = named(parts, {"separation", "spectra"})};
   report::Page page{.title = "Run: from mesh to separated signals",
                     .headline = headline(parts),
                     .numbers = key_numbers(parts),

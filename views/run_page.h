@@ -10,19 +10,20 @@
 
 namespace vibrissa::views {
 
-/// What the main job has to say.
+/// Results of `vibrissa run`.
 struct RunPageParts {
   report::Table modes;
   double resonance_hz = 0., damping_ratio = 0.;  // of the first mode
   std::optional<std::string> calibration_note{};
   separation::Identification identified{};
   std::vector<SeparatedSignal> separated{};
-  double settling_s = 0.;                     // left out of the scores
+  double settling_s = 0.;                     // at the start of the record, left out of the scores
   std::vector<report::Figure> figures{};      // "bode", "records", "separation" and "spectra"
-  std::vector<report::ModePicture> shapes{};  // of modes; empty without VTK files
+  std::vector<report::ModePicture> shapes{};  // mode shapes; empty without VTK files
 };
 
-/// Resonances and shapes, response, records, separation. Proven by tests/apps/commands_test.cc.
+/// Report page with resonances and mode shapes, response, records, separation. Proven by
+/// tests/apps/commands_test.cc.
 report::Page run_page(const RunPageParts& parts);
 
 }  // namespace vibrissa::views

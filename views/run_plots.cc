@@ -44,12 +44,12 @@ report::Panel channel_panel(const signals::Record& record, const std::string& ch
   return panel;
 }
 
-// Methods shown beside the truth; what removes nothing or cannot be had in practice only crowds.
+// Methods shown beside the true signal; references that are no practical method are left out.
 bool shown(const SeparatedSignal& signal) {
   return signal.name != "nothing removed" && signal.name != "true response";
 }
 
-// A share of the measured moment: as it is, and as a method gives it.
+// A part of the measured moment: the true one and a method's estimate.
 struct Share {
   std::string label;
   const std::vector<double>& truth_n_m;
@@ -99,7 +99,7 @@ report::Panel separation_panel(const sensor_case::RigRecords& records, const Sha
 report::Figure records_figure(const sensor_case::RigRecords& records) {
   report::Figure figure;
   figure.name = "records";
-  figure.title = "What the rig records with base vibration and wind";
+  figure.title = "Base moment under base vibration and wind";
   figure.caption = "Measured base acceleration, wind speed and base moment.";
   figure.panels = {
       channel_panel(records.both, signals::channel::base_acceleration,
@@ -117,14 +117,16 @@ report::Figure separation_figure(const sensor_case::RigRecords& records,
   report::Figure figure;
   figure.name = "separation";
   figure.title = "Wind and vibration moment: true and separated";
-  figure.caption = "The wind's in the whole record, and both in one second from its middle.";
+  figure.caption =
+      "Wind moment over the whole record; wind moment and vibration moment over one second from "
+      "the middle of the record.";
   const std::size_t first = (n - count) / 2;
   figure.panels = {separation_panel(records, wind_share(records), signals, 0, n),
                    separation_panel(records, wind_share(records), signals, first, count),
                    separation_panel(records, vibration_share(records), signals, first, count)};
   figure.panels[0].title = "Whole record";
-  figure.panels[1].title = "One second from its middle";
-  figure.panels[2].title = "The same second, what is due to the base";
+  figure.panels[1].title = "Wind moment, one second from the middle";
+  figure.panels[2].title = "Vibration moment, the same second";
   return figure;
 }
 
@@ -132,7 +134,7 @@ report::Figure spectra_figure(const sensor_case::RigRecords& records,
                               const std::vector<SeparatedSignal>& signals) {
   report::Panel panel;
   panel.x_label = "Frequency [Hz]";
-  panel.y_label = "Moment density [(N m)\u00b2/Hz]";
+  panel.y_label = "Power spectral density [(N m)\u00b2/Hz]";
   panel.log_x = panel.log_y = true;
   const double rate = records.both.sampling_rate_hz();
   signals::WelchOptions options;
@@ -153,7 +155,7 @@ report::Figure spectra_figure(const sensor_case::RigRecords& records,
   panel.curves.back().style = report::CurveStyle::dashed;
   report::Figure figure;
   figure.name = "spectra";
-  figure.title = "Power spectra of measured, true and separated moment";
+  figure.title = "Power spectral densities of the measured, true and separated moments";
   figure.caption = "One-sided densities by Welch's method.";
   figure.panels = {panel};
   return figure;

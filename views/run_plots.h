@@ -8,11 +8,11 @@
 
 namespace vibrissa::views {
 
-/// Base acceleration, wind, and the measured moment of the record with both.
+/// Base acceleration, wind speed and measured moment of the record with base vibration and wind.
 report::Figure records_figure(const sensor_case::RigRecords& records);
 
-/// True moments of wind and vibration beside each method's estimates: the wind's in the whole
-/// record, and both in its middle second.
+/// True wind moment and vibration moment with each method's estimates: the wind moment over the
+/// whole record, and both over its middle second.
 report::Figure separation_figure(const sensor_case::RigRecords& records,
                                  const std::vector<SeparatedSignal>& signals);
 

@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t n_animated_modes = 6;
 constexpr double standard_gravity_m_s2 = 9.80665;
 
-/// As the pictures find it: several processes write a part each, and a list of them.
+/// Path of a VTK file relative to the run folder. Several processes write one part each and a list
+/// of the parts (.pvtu).
 std::string shown_file(const std::string& name) {
   return std::string("vtk/").append(name).append(fem::n_processes() == 1 ? ".vtu" : ".pvtu");
 }
@@ -26,7 +27,7 @@ report::ModePicture mode_picture(const fem::Mode& mode, const std::size_t number
   title.append(", ").append(report::Cell(mode.frequency_hz).rounded(4)).append(" Hz");
   return {.name = name,
           .title = title,
-          .caption = "Shape at a size that can be seen; the size has no meaning.",
+          .caption = "Mode shape; its amplitude is arbitrary.",
           .vtu = shown_file(name + "_0"),
           .displacement = "displacement_m",
           .colour_label = "Displacement (relative)",
@@ -41,7 +42,7 @@ report::ModePicture bent_sensor(const std::filesystem::path& folder, const fem::
                  0.);
   return {.name = name,
           .title = "Stress at 1 g of base acceleration",
-          .caption = "Held steadily at 1 g; the bending is enlarged, the stress is not.",
+          .caption = "Static load of 1 g. The deformation is magnified; the stress is not.",
           .vtu = shown_file(name),
           .displacement = "displacement_m",
           .colour_field = "von_mises_stress_Pa",

@@ -8,9 +8,9 @@
 
 namespace vibrissa::views {
 
-/// The sensor in its first six modes, each as an animation, and bent by 1 g of base acceleration,
-/// with the stresses of that: VTK files of a folder named vtk, and what to show of them, the bent
-/// sensor last. Collective. Proven by tests/apps/commands_test.cc.
+/// Writes VTK files of the first six modes and of the sensor under 1 g of base acceleration with
+/// its stresses, and returns the pictures to show, the loaded sensor last. folder is named vtk.
+/// Collective. Proven by tests/apps/commands_test.cc.
 std::vector<report::ModePicture> write_shapes(const std::filesystem::path& folder,
                                               const fem::Sensor& sensor);
 

@@ -43,15 +43,15 @@ void score_against_truth(SeparatedSignal& signal, const std::span<const double> 
 }
 
 const std::string paper_ratio_note =
-    "Paper's ratio: power of the wind estimate over that of the vibration estimate, which a method "
-    "that removes nothing makes infinite. ";
+    "Paper's ratio: power of the wind estimate divided by that of the vibration estimate; it is "
+    "infinite for a method that removes nothing. ";
 
 std::string four_digits(const double value) {
   return report::Cell(value).rounded(4);
 }
 
 std::string settling_note(const double settling_s) {
-  return "The first " + four_digits(settling_s) + " s are left out.";
+  return "The first " + four_digits(settling_s) + " s are left out of all scores.";
 }
 
 double root_mean_square(const std::span<const double> x) {
@@ -79,7 +79,7 @@ SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n
   const auto skipped = static_cast<std::size_t>(settling_s * rate_hz);
   if (skipped + 64 > record.n_samples()) {
     throw signals::UserError("the record of " + std::to_string(record.duration_s()) +
-                             " s is too short to leave out the settling time of " +
+                             " s is too short for the settling time of " +
                              std::to_string(settling_s) +
                              " s; shorten it (--settling, or Separation/Settling time of a case)");
   }
@@ -155,10 +155,10 @@ report::Table blind_separation_table(const std::vector<SeparatedSignal>& signals
 }
 
 std::string blind_metric_notes(const double settling_s) {
-  return "Vibration left: power that goes with the base acceleration by a linear response, over "
-         "that of the measured moment, not below what chance shows. It does not tell whether wind "
-         "was lost as well; the figures that do (SDR and others) need the true wind moment "
-         "(--truth COLUMN). " +
+  return "Vibration left: power that is linearly coherent with the base acceleration, divided by "
+         "that in the measured moment, but not less than its statistical detection limit. It does "
+         "not show whether wind was lost as well; the scores that do (SDR and others) need the "
+         "true wind moment (--truth COLUMN). " +
          paper_ratio_note + settling_note(settling_s);
 }
 
@@ -179,11 +179,11 @@ report::Table warping_table(const std::vector<SeparatedSignal>& signals,
 }
 
 std::string metric_notes(const double settling_s) {
-  return "SDR: signal to distortion against the true wind moment. Wind band power: estimate over "
-         "truth in " +
+  return "SDR: signal-to-distortion ratio against the true wind moment. Wind band power: power of "
+         "the estimate divided by that of the true wind moment, from " +
          four_digits(wind_band.low_hz) + " to " + four_digits(wind_band.high_hz) +
-         " Hz. DTW: dynamic time warping, unit steps, absolute cost per pair of the path, window "
-         "+-" +
+         " Hz. DTW: dynamic time warping with unit steps, mean absolute cost per pair of the path, "
+         "window ±" +
          four_digits(1e3 * dtw_window_s) + " ms. " + paper_ratio_note + settling_note(settling_s);
 }
 

@@ -11,17 +11,18 @@
 
 namespace vibrissa::views {
 
-/// One method's estimate of the wind moment of a record, with its score where the truth is known.
+/// One method's estimate of the wind moment of a record, with its scores where the true wind moment
+/// is known.
 struct SeparatedSignal {
   std::string name;
   std::vector<double> wind_moment_n_m;
-  /// Power of the wind estimate over that of the vibration estimate, what the reference paper calls
-  /// SNR; nothing when the method removes nothing.
+  /// Power of the wind estimate divided by that of the vibration estimate, called SNR by the
+  /// reference paper; nothing when the method removes nothing.
   std::optional<double> paper_snr_db;
   double rms_n_m = 0.;
-  /// Power that goes with the base acceleration, over that of the measured moment, but never less
-  /// than two standard deviations of what chance shows (separation/metrics/coherent_power.h).
-  /// Nothing when there is no base acceleration, or none that the measured moment goes with.
+  /// Power coherent with the base acceleration, divided by that in the measured moment, but at
+  /// least two of its standard deviations (separation/metrics/coherent_power.h). Nothing when there
+  /// is no base acceleration, or when the measured moment is not coherent with it.
   std::optional<double> vibration_left_db;
   std::optional<double> sdr_db, mse_n2_m2, nrmse, band_difference_db, dtw_n_m, delay_ms;
 };
@@ -32,25 +33,25 @@ SeparatedSignal score(const std::string& name, std::vector<double> wind_moment_n
                       double settling_s);
 
 /// {"methods": [{"name", "sdr_db", "mse", "nrmse", "band_power_difference_db", "dtw_n_m_per_pair",
-///  "delay_ms", "paper_snr_db", "rms_n_m", "vibration_left_db"}]}; null where no truth is given,
-///  but for the last three; those where their members say so.
+/// "delay_ms", "paper_snr_db", "rms_n_m", "vibration_left_db"}]}. All but the last three are null
+/// without the true wind moment.
 nlohmann::json separation_json(const std::vector<SeparatedSignal>& signals);
-/// The scores as columns of a table, and one signal's cells of them.
+/// The scores as table columns, and the cells of one signal.
 std::vector<report::Column> metric_columns();
 std::vector<report::Cell> metric_cells(const SeparatedSignal& signal);
-/// One row a method.
+/// One row per method.
 report::Table separation_table(const std::vector<SeparatedSignal>& signals);
-/// What can be said without the true wind moment, and what it means; one row a method.
+/// Scores that need no true wind moment, one row per method, and notes on their meaning.
 report::Table blind_separation_table(const std::vector<SeparatedSignal>& signals);
 std::string blind_metric_notes(double settling_s);
 
-/// What the time warping of the DTW score lays beside what: method, time of the truth and time of
-/// the estimate [s], one row a pair. truth: not empty.
+/// The path of the DTW score: method, time of the true signal and time of the estimate [s], one row
+/// per pair. truth: not empty.
 report::Table warping_table(const std::vector<SeparatedSignal>& signals,
                             const signals::Record& record, std::span<const double> truth,
                             double settling_s);
 
-/// What the columns mean: windows, bands, normalisation.
+/// Notes on the columns: windows, bands, normalisation.
 std::string metric_notes(double settling_s);
 
 }  // namespace vibrissa::views

@@ -19,8 +19,8 @@ namespace {
 using signals::DatasetRecord;
 namespace channel = signals::channel;
 
-/// How often a channel takes its extreme value when that is a stop: more often than the value next
-/// to it, which the steps of a converter would fill as well.
+/// Number of samples at the channel's extreme value where this value is a stop: it occurs more
+/// often than the next value. (The steps of a converter would fill the next value as well.)
 std::size_t samples_at_stop(std::span<const double> x, double side) {
   std::map<double, std::size_t> counts;
   for (const double v : x) ++counts[-side * v];  // extreme first
@@ -36,12 +36,13 @@ void check_clipping(const DatasetRecord& entry, std::vector<Finding>& findings) 
     if (!entry.record.has(name)) continue;
     const auto x = entry.record.channel(name);
     std::size_t n = samples_at_stop(x, 1.);
-    // Calm is a natural lower stop of wind.
+    // Zero wind is a natural lower limit and no clipping.
     if (name != channel::wind_speed) n += samples_at_stop(x, -1.);
     if (n > 0)
       findings.push_back({FindingKind::clipped_channel, entry.name,
                           name + " is clipped: " + std::to_string(n) +
-                              " samples stand at its extremes; measure at a lower level or range"});
+                              " samples are at its lowest or highest value; measure at a lower "
+                              "level or with a larger range"});
   }
 }
 
@@ -51,7 +52,8 @@ void check_repeats(const DatasetRecord& entry, std::vector<Finding>& findings) {
     findings.push_back({FindingKind::repeated_samples, entry.name,
                         three_digits(100. * repeat_share(entry.record.channel(name))) +
                             " % of the samples of " + name +
-                            " equal the one before: it is polled faster than it is renewed"});
+                            " equal the sample before (sample-and-hold repeats): the channel is "
+                            "read faster than its source delivers new samples"});
   };
   check(channel::base_acceleration, entry.excitation.base);
   check(channel::base_moment, entry.excitation.base || entry.excitation.wind);
@@ -60,12 +62,12 @@ void check_repeats(const DatasetRecord& entry, std::vector<Finding>& findings) {
 void check_channels(const DatasetRecord& entry, std::vector<Finding>& findings) {
   if (entry.excitation.wind && !entry.record.has(channel::wind_speed))
     findings.push_back({FindingKind::missing_wind, entry.name,
-                        "wind acts but wind_speed_m_s is missing: the record cannot be used, and "
-                        "effects of wind cannot be told from it"});
+                        "wind_speed_m_s is missing although wind acts: the record is not used, and "
+                        "it cannot show effects of wind"});
   if (entry.excitation.base && !entry.record.has(channel::base_acceleration))
-    findings.push_back({FindingKind::missing_acceleration, entry.name,
-                        "the base moves but base_acceleration_m_s2 is missing: the record cannot "
-                        "be used"});
+    findings.push_back(
+        {FindingKind::missing_acceleration, entry.name,
+         "base_acceleration_m_s2 is missing although the base moves: the record is not used"});
 }
 
 void check_axes(const DatasetRecord& entry, std::vector<Finding>& findings) {
@@ -74,12 +76,13 @@ void check_axes(const DatasetRecord& entry, std::vector<Finding>& findings) {
     return;
   const double axial = rms_about_mean(entry.record.channel(channel::base_acceleration)),
                cross = rms_about_mean(entry.record.channel(channel::cross_acceleration));
-  // A stage that is meant to move along one axis does not move thrice as much across it.
+  // A stage that is driven along one axis does not move three times as much across it.
   constexpr double too_much = 3.;
   if (cross > too_much * axial && axial > 0.)
-    findings.push_back({FindingKind::swapped_columns, entry.name,
-                        "cross_acceleration_m_s2 is " + three_digits(cross / axial) +
-                            " times base_acceleration_m_s2 (rms): the columns seem exchanged"});
+    findings.push_back(
+        {FindingKind::swapped_columns, entry.name,
+         "cross_acceleration_m_s2 is " + three_digits(cross / axial) +
+             " times base_acceleration_m_s2 (rms): the two columns seem to be exchanged"});
 }
 
 void check_length(const NominalModel& nominal, const DatasetRecord& entry,
@@ -87,23 +90,23 @@ void check_length(const NominalModel& nominal, const DatasetRecord& entry,
   const std::size_t n = entry.record.n_samples(), fewest = fewest_samples(nominal, entry);
   if (n < fewest)
     findings.push_back({FindingKind::too_short, entry.name,
-                        std::to_string(n) +
-                            " samples are too few: the first hold the decay of "
-                            "an unknown start; at least " +
+                        "the record is not used: " + std::to_string(n) +
+                            " samples are too few, because the first samples contain transients; "
+                            "record at least " +
                             std::to_string(fewest) +
-                            " are needed, or whole periods in steady "
-                            "state (period_samples). It is left out"});
+                            " samples, or whole periods in steady state (period_samples)"});
 }
 
 void check_setup(const DatasetRecord& entry, std::vector<Finding>& findings) {
   if (!is_simulated(entry.setup))
-    findings.push_back({FindingKind::unsimulated_setup, entry.name,
-                        to_string(entry.setup) +
-                            ": neither the sensor's moment of inertia nor the coil's force is "
-                            "known, so this cannot be simulated. It is left out"});
+    findings.push_back(
+        {FindingKind::unsimulated_setup, entry.name,
+         to_string(entry.setup) +
+             ": the record is not used, because this setup cannot be simulated: neither the "
+             "sensor's moment of inertia nor the coil's force is known"});
 }
 
-/// One finding a rate.
+/// Adds one finding for each sampling rate.
 void check_rates(const signals::Dataset& real, double simulated_rate_hz,
                  std::vector<Finding>& findings) {
   std::map<double, std::vector<std::string>> by_rate;
@@ -115,11 +118,11 @@ void check_rates(const signals::Dataset& real, double simulated_rate_hz,
                           by_rate.size() > 1 ? joined(names, ", ") : "",
                           "sampled at " + signals::to_text(rate_hz) + " Hz, the simulation at " +
                               signals::to_text(simulated_rate_hz) +
-                              " Hz: compared in continuous frequency, which is sound below both "
-                              "halves"});
+                              " Hz: they are compared at continuous frequencies, which is valid "
+                              "below half of both sampling rates"});
 }
 
-/// What the fit records hold that can be compared with the simulation.
+/// Which kinds of fit records can be compared with the simulation.
 struct Holdings {
   bool quiet = false, base = false, wind = false, held_out = false;
   std::vector<double> levels{};  // of base motion, rms, m/s^2
@@ -156,19 +159,20 @@ void check_what_is_there(const NominalModel& nominal, const signals::Dataset& re
     if (missing) findings.push_back({kind, "", message});
   };
   add(!there.quiet, FindingKind::no_quiet_record,
-      "no fit record at rest: drift, hum and the noise of both channels cannot be told from what "
-      "motion brings");
+      "no fit record at rest: drift, hum and the noise of both channels cannot be distinguished "
+      "from effects of motion; add a quiet record");
   add(!there.held_out, FindingKind::no_held_out,
-      "no usable held_out record: how far the gap closes cannot be scored");
+      "no usable held_out record: the improvement (gap closed) cannot be scored");
   add(nominal.has_base && !there.base, FindingKind::no_base_motion,
-      "no usable fit record with base motion: sensor_gain and drag_error cannot be told from one "
-      "another, and effects of the base not at all");
+      "no usable fit record with base motion: sensor_gain and drag_error cannot be distinguished, "
+      "and effects of the base cannot be detected");
   add(nominal.has_wind && !there.wind, FindingKind::no_wind,
-      "no usable fit record with wind: sensor_gain and reference_gain cannot be told from one "
-      "another, and effects of wind not at all");
+      "no usable fit record with wind: sensor_gain and reference_gain cannot be distinguished, and "
+      "effects of wind cannot be detected");
   add(has_one_level(there.levels), FindingKind::one_level,
       "base motion at one level only: hardening < 0, softening_history and joint_friction cannot "
-      "be told from one another, and what depends on level hardly from what does not");
+      "be distinguished, and effects that depend on level can hardly be distinguished from those "
+      "that do not; add a second level");
 }
 
 }  // namespace

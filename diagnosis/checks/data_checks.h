@@ -8,9 +8,9 @@
 
 namespace vibrissa::diagnosis {
 
-/// Looks for bad and poor data: extremes that repeat, channels that stand still, a response that no
-/// sensor has (units, exchanged columns, sign), equal neighbours, records that are too short, and
-/// what is missing. simulated_rate_hz: 0 when the simulation has none. Proven by
+/// Looks for wrong and insufficient data: clipping, constant channels, a response that no sensor
+/// has (units, exchanged columns, sign), sample-and-hold repeats, records that are too short, and
+/// missing records. simulated_rate_hz: 0 when the simulation has no sampling rate. Proven by
 /// tests/diagnosis/checks/data_checks_test.cc and dead_channels_test.cc.
 std::vector<Finding> check_data(const NominalModel& nominal, const signals::Dataset& real,
                                 double simulated_rate_hz = 0.);

@@ -20,7 +20,8 @@ std::string hint(const DatasetRecord& entry, const std::string& name) {
   const bool exchanged = name == channel::base_acceleration && !entry.excitation.wind &&
                          entry.record.has(channel::wind_speed) &&
                          !is_constant(entry.record.channel(channel::wind_speed));
-  return exchanged ? ", and wind_speed_m_s moves instead: are the columns exchanged?" : "";
+  return exchanged ? " (wind_speed_m_s varies instead: check whether the columns are exchanged)"
+                   : "";
 }
 
 void check_constant(const DatasetRecord& entry, const std::string& name,
@@ -30,23 +31,24 @@ void check_constant(const DatasetRecord& entry, const std::string& name,
   if (!is_constant(x)) return;
   if (name == channel::wind_speed && x.front() != 0.) {
     findings.push_back({FindingKind::steady_wind, entry.name,
-                        "wind_speed_m_s is " + three_digits(x.front()) +
-                            " throughout: what wind does over time cannot be told from it"});
+                        "wind_speed_m_s is constant at " + three_digits(x.front()) +
+                            ": the response to changes of the wind cannot be determined"});
     return;
   }
   findings.push_back({FindingKind::constant_channel, entry.name,
-                      name + " is " + three_digits(x.front() + 0.) +  // no minus zero
-                          " throughout though excitation is " + to_string(entry.excitation) +
-                          hint(entry, name) + "; mend the record or take it out of dataset.json"});
+                      name + " is constant at " + three_digits(x.front() + 0.) +  // no minus zero
+                          " although the excitation is " + to_string(entry.excitation) +
+                          hint(entry, name) +
+                          "; correct the record or remove it from dataset.json"});
 }
 
-/// A stretch of equal samples.
+/// Consecutive equal samples.
 struct Run {
   std::size_t first = 0, count = 0;
 };
 
-/// The longest stretch in which x stands still and y does not. Extremes are a clipped channel's,
-/// and steps of a converter are coarse beside what moves within a few samples.
+/// The longest run in which x is constant and y is not. Runs at the extreme values are left out:
+/// they belong to clipping.
 Run longest_run(std::span<const double> x, std::span<const double> y) {
   const auto [low, high] = std::minmax_element(x.begin(), x.end());
   Run longest;
@@ -65,7 +67,8 @@ void check_stuck(const DatasetRecord& entry, const std::string& name, const std:
                  std::vector<Finding>& findings) {
   if (!entry.record.has(name) || !entry.record.has(mover)) return;
   const auto x = entry.record.channel(name), y = entry.record.channel(mover);
-  // A channel that is polled ten times too fast repeats ten times; a lost one stands for longer.
+  // A channel that is read ten times too fast repeats each sample ten times; lost samples give
+  // longer runs.
   constexpr std::size_t fewest_samples = 32;
   const Run run = longest_run(x, y);
   if (run.count < fewest_samples) return;
@@ -73,16 +76,17 @@ void check_stuck(const DatasetRecord& entry, const std::string& name, const std:
   std::sort(values.begin(), values.end());
   const auto n_values =
       static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
-  // Of a converter with few steps any of them may last.
+  // With a converter of few steps any value may last for many samples.
   if (n_values < x.size() / 8) return;
   findings.push_back({FindingKind::stuck_channel, entry.name,
-                      name + " stands at " + three_digits(x[run.first]) + " for " +
+                      name + " stays at " + three_digits(x[run.first]) + " for " +
                           std::to_string(run.count) + " samples from " +
                           three_digits(entry.record.time_s(run.first)) + " s on while " + mover +
-                          " moves: samples were lost; use the part before or after"});
+                          " varies: samples were lost; use the part before or after"});
 }
 
-/// A moment rings on after a blow: one sample far above both of its neighbours is none of it.
+/// A moment decays over many samples after an impact: a single sample far above both of its
+/// neighbours is a fault.
 void check_spikes(const DatasetRecord& entry, std::vector<Finding>& findings) {
   const auto x = entry.record.channel(channel::base_moment);
   std::vector<double> sizes(x.begin(), x.end());
@@ -97,8 +101,8 @@ void check_spikes(const DatasetRecord& entry, std::vector<Finding>& findings) {
     findings.push_back({FindingKind::spike, entry.name,
                         "base_moment_N_m jumps to " + three_digits(x[i]) + " for one sample at " +
                             three_digits(entry.record.time_s(i)) +
-                            " s, far above its neighbours: a fault of the recording; use the part "
-                            "before or after"});
+                            " s, far above its neighbours: this is a fault of the recording; use "
+                            "the part before or after"});
     return;
   }
 }
@@ -149,9 +153,9 @@ void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings)
     if (rms_about_mean(a) > much * acceleration && is_coloured(a) &&
         rms_about_mean(entry.record.channel(channel::base_moment)) > much * moment)
       findings.push_back({FindingKind::moves_at_rest, entry.name,
-                          "excitation is none but the base moves at " +
+                          "the excitation in dataset.json is none, but the base moves with " +
                               three_digits(rms_about_mean(a)) +
-                              " m/s^2 rms and the moment with it: noise cannot be taken from it; "
+                              " m/s^2 rms and the moment follows: the record gives no noise level; "
                               "correct its excitation in dataset.json"});
   }
 }

@@ -7,13 +7,12 @@
 
 namespace vibrissa::diagnosis {
 
-/// Channels that do not follow what the record says of its excitation: constant where they must
-/// move, detectability still for a while between values that differ. Proven by
-/// tests/diagnosis/checks/dead_channels_test.cc.
+/// Channels that contradict the excitation stated for the record: constant where they must vary, or
+/// stuck at one value for a while. Proven by tests/diagnosis/checks/dead_channels_test.cc.
 void check_dead_channels(const signals::DatasetRecord& entry, std::vector<Finding>& findings);
 
-/// Records at rest in which base and moment move, not as white noise does, half as much as where
-/// the base is driven least.
+/// Records at rest in which base and moment move: not as white noise, and at least half as much as
+/// in the record with the smallest base motion.
 void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings);
 
 }  // namespace vibrissa::diagnosis

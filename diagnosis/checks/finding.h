@@ -33,17 +33,17 @@ enum class FindingKind {
 };
 std::string to_string(FindingKind kind);
 
-/// Something about the data that a reader of the answer must know.
+/// A remark about the data that the reader of the diagnosis must know.
 struct Finding {
   FindingKind kind = FindingKind::clipped_channel;
-  std::string record{};  // empty: of the dataset
+  std::string record{};  // empty: the whole dataset
   std::string message{};
 };
 
-/// Is it a mistake that makes every number of the diagnosis wrong?
+/// Does this mistake make every number of the diagnosis wrong?
 bool spoils_everything(FindingKind kind);
 
-/// Does it make an answer doubtful, though not worthless?
+/// Does it make the answer doubtful, but not useless?
 bool casts_doubt(FindingKind kind);
 
 }  // namespace vibrissa::diagnosis

@@ -9,7 +9,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Share of the power that tones off the lines of the period have.
+/// Share of the power that lies in tones off the lines of the period.
 double share_between(const std::vector<double>& power, std::size_t n_periods) {
   std::vector<double> between;
   double all = 0., off = 0.;
@@ -32,18 +32,20 @@ void check_period(const signals::DatasetRecord& entry, std::vector<Finding>& fin
   if (period == 0 || !entry.excitation.base || !entry.record.has(name)) return;
   if (n % period != 0) {
     findings.push_back({FindingKind::partial_period, entry.name,
-                        std::to_string(n) + " samples are no whole number of periods of " +
-                            std::to_string(period) + ": taken as not periodic"});
+                        std::to_string(n) + " samples are not a whole number of periods of " +
+                            std::to_string(period) +
+                            " samples: the record is treated as not periodic"});
     return;
   }
   constexpr double much = 0.2;
   const double share = share_between(powers(spectrum_of(entry.record.channel(name))), n / period);
   if (share > much)
-    findings.push_back({FindingKind::broken_period, entry.name,
-                        "base_acceleration_m_s2 does not repeat after " + std::to_string(period) +
-                            " samples: " + three_digits(100. * share) +
-                            " % of its power lies off the lines of that period; correct "
-                            "period_samples in dataset.json, 0 where nothing repeats"});
+    findings.push_back(
+        {FindingKind::broken_period, entry.name,
+         "base_acceleration_m_s2 does not repeat after " + std::to_string(period) +
+             " samples: " + three_digits(100. * share) +
+             " % of its power lies off the lines of that period; correct period_samples in "
+             "dataset.json (0 for a record that does not repeat)"});
 }
 
 }  // namespace vibrissa::diagnosis

@@ -7,8 +7,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// Does the acceleration repeat after period_samples? Its tones must lie on multiples of the
-/// period's line. Proven by tests/diagnosis/checks/period_check_test.cc.
+/// Checks that the acceleration repeats after period_samples: its tones must lie on multiples of
+/// the period's frequency. Proven by tests/diagnosis/checks/period_check_test.cc.
 void check_period(const signals::DatasetRecord& entry, std::vector<Finding>& findings);
 
 }  // namespace vibrissa::diagnosis

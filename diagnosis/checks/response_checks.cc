@@ -19,11 +19,12 @@ namespace {
 using signals::DatasetRecord;
 namespace channel = signals::channel;
 
-/// Measured over nominal response at lines where the nominal one is not faint.
+/// Ratio of the measured to the nominal response at lines where the nominal response is large
+/// enough.
 struct Ratio {
   double median = 1.;
-  double spread = 0.;    // between quartiles of its logarithm
-  double likeness = 0.;  // normalized product of both: -1 for an opposite sign
+  double spread = 0.;    // interquartile range of its logarithm
+  double likeness = 0.;  // normalised correlation of both: -1 for an opposite sign
 };
 
 double lowest_mode_hz(const NominalModel& nominal) {
@@ -33,7 +34,7 @@ double lowest_mode_hz(const NominalModel& nominal) {
   return lowest / (2. * std::numbers::pi);
 }
 
-/// Spectrum of what a path makes of its input.
+/// Spectrum of a path's output for its measured input.
 std::vector<Complex> driven(std::span<const double> input, double rate_hz,
                             const std::function<Complex(Complex)>& response) {
   std::vector<Complex> out = spectrum_of(input);
@@ -68,9 +69,9 @@ class ResponseRatio {
       largest_ = std::max(largest_, std::abs(predicted_[k]));
   }
 
-  /// Of the lines up to a frequency that are not faint among themselves, nor beside all lines, for
-  /// then they are what noise predicts; nor faint as measured, for then an accelerometer that is
-  /// polled has its images there. Nothing: fewer lines than these.
+  /// Uses the lines up to a frequency that are strong among themselves and among all lines (else
+  /// they are dominated by noise), and strong as measured (else they may be images of
+  /// sample-and-hold repeats). Nothing when there are too few such lines.
   std::optional<Ratio> up_to(double highest_hz, std::size_t fewest_lines) const {
     const double last = std::min(highest_hz / line_hz_, static_cast<double>(measured_.size() - 2));
     double largest = 0., largest_measured = 0., product = 0., measured = 0., predicted = 0.;
@@ -100,29 +101,29 @@ class ResponseRatio {
   double line_hz_ = 1., largest_ = 0.;
 };
 
-/// Both as far as the records tell them.
+/// Both values, as far as the records determine them.
 struct Ratios {
   std::optional<Ratio> all, slow;
-  /// A mode that has moved changes the response about it tenfold, but not well below it.
+  /// A shifted mode changes the response near it tenfold, but not well below it.
   double factor() const { return slow ? slow->median : all->median; }
 };
 
 Ratios ratios_of(const NominalModel& nominal, const ResponseRatio& lines) {
-  // A silicone of a third of its stiffness still has its mode above this.
+  // The first mode is above this even when the silicone has a third of its stiffness.
   constexpr double slow = 0.4;
   constexpr std::size_t fewest_slow_lines = 4;
   return {lines.up_to(std::numeric_limits<double>::infinity(), 1),
           lines.up_to(slow * lowest_mode_hz(nominal), fewest_slow_lines)};
 }
 
-/// A factor of the response that a wrong unit gives.
+/// Factor on the response that a wrong unit causes.
 struct UnitMistake {
   double factor;
   const char* message;
 };
 
 bool near(double factor, double expected) {
-  // Twice the spread of what a built sensor's gain is off by, and half the way between units.
+  // Twice the spread of the gains of built sensors, and half the distance between units.
   constexpr double tolerance = 1.6;
   return factor > expected / tolerance && factor < expected * tolerance;
 }
@@ -136,22 +137,22 @@ void check_factor(double factor, const std::string& record, const std::string& c
       findings.push_back({FindingKind::wrong_unit, record, how_much + mistake.message});
       return;
     }
-  // Beyond the ranges of all effects together.
+  // Outside the ranges of all effects together.
   constexpr double implausible = 30.;
   if (factor > implausible || factor < 1. / implausible)
     findings.push_back({FindingKind::wrong_unit, record,
-                        how_much + "no sensor is off by that; check the units of " + columns +
-                            " and that every channel was connected"});
+                        how_much + "no sensor deviates that much; check the units of " + columns +
+                            " and the connection of every channel"});
 }
 
-/// Well below its resonance a sensor's moment is that of its mass, whatever its stiffness.
+/// Well below its resonance a sensor's moment depends on its mass and not on its stiffness.
 void check_gain(const Ratios& ratios, const std::string& record, std::vector<Finding>& findings) {
   if (!ratios.slow || near(ratios.slow->median, 1.)) return;
-  findings.push_back({FindingKind::unlikely_gain, record,
-                      "well below the first mode the measured response is " +
-                          three_digits(ratios.slow->median) +
-                          " times the simulated one, more than built sensors differ: check the "
-                          "factor from the sensor's reading to base_moment before any physics"});
+  findings.push_back(
+      {FindingKind::unlikely_gain, record,
+       "well below the first mode the measured response is " + three_digits(ratios.slow->median) +
+           " times the simulated one, more than the variation between built sensors: check the "
+           "factor from the sensor's reading to base_moment first"});
 }
 
 void check_sign(const Ratios& ratios, const std::string& record, const std::string& message,
@@ -185,7 +186,7 @@ const std::vector<UnitMistake>& mistakes_of_wind() {
   return mistakes;
 }
 
-/// Is the drive more than its noise?
+/// Is the excitation larger than its noise?
 bool is_driven(const DatasetRecord& entry, double acceleration_noise_m_s2) {
   double square = 0.;
   const auto a = entry.record.channel(channel::base_acceleration);
@@ -205,12 +206,12 @@ void check_base(const NominalModel& nominal, const DatasetRecord& entry,
   const bool implausible = std::abs(std::log10(ratios.all->median)) > 4.;
   if (implausible && exchanged && exchanged->median > 0.05 && exchanged->median < 20. &&
       exchanged->spread < ratios.all->spread) {
-    findings.push_back({FindingKind::swapped_columns, entry.name,
-                        "base_acceleration_m_s2 and base_moment_N_m seem to be exchanged: as "
-                        "they stand the response is " +
-                            three_digits(ratios.all->median) +
-                            " times the simulated one, exchanged " +
-                            three_digits(exchanged->median) + " times"});
+    findings.push_back(
+        {FindingKind::swapped_columns, entry.name,
+         "base_acceleration_m_s2 and base_moment_N_m seem to be exchanged: the response is " +
+             three_digits(ratios.all->median) +
+             " times the simulated one, and after the exchange " + three_digits(exchanged->median) +
+             " times"});
     return;
   }
   const std::size_t n_before = findings.size();
@@ -218,9 +219,9 @@ void check_base(const NominalModel& nominal, const DatasetRecord& entry,
                mistakes_of_base(), findings);
   if (findings.size() == n_before) check_gain(ratios, entry.name, findings);
   check_sign(ratios, entry.name,
-             "well below the first mode base_moment_N_m has the sign of base_acceleration_m_s2 "
-             "that the simulation says it has not: multiply one of them by -1 (the moment is "
-             "positive for wind in +x, hence negative for a steady acceleration in +x)",
+             "base_moment_N_m has the wrong sign relative to base_acceleration_m_s2 well below the "
+             "first mode: multiply one of them by -1 (the moment is positive for wind in +x, hence "
+             "negative for a steady acceleration in +x)",
              findings);
 }
 
@@ -231,8 +232,8 @@ void check_wind(const NominalModel& nominal, const DatasetRecord& entry,
   check_factor(ratios.factor(), entry.name, "wind_speed_m_s and base_moment_N_m",
                mistakes_of_wind(), findings);
   check_sign(ratios, entry.name,
-             "base_moment_N_m falls when wind_speed_m_s rises, against the simulation: multiply "
-             "one of them by -1 (the moment is positive for wind in +x)",
+             "base_moment_N_m falls when wind_speed_m_s rises, contrary to the simulation: "
+             "multiply one of them by -1 (the moment is positive for wind in +x)",
              findings);
 }
 
@@ -256,7 +257,7 @@ void check_rate(const NominalModel& nominal, const DatasetRecord& entry,
                             " Hz, while the first mode is "
                             "at " +
                             three_digits(mode_hz) + " Hz: ";
-  // A whisker is sampled at no less than its mode and no more than a thousand times that.
+  // A plausible sampling rate is between the first mode's frequency and a thousand times that.
   constexpr double milli = 1e-3;
   const bool in_ms = rate_hz < 0.1 * mode_hz && rate_hz / milli > mode_hz;
   if (in_ms)
@@ -266,8 +267,8 @@ void check_rate(const NominalModel& nominal, const DatasetRecord& entry,
     findings.push_back({FindingKind::wrong_unit, entry.name, where + "check the unit of time_s"});
   else
     findings.push_back({FindingKind::slow_rate, entry.name,
-                        where + "half the rate is below it, and what lies above half the rate "
-                                "comes back folded; sample faster"});
+                        where + "half the sampling rate is below it, and higher frequencies are "
+                                "aliased; sample faster"});
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 namespace vibrissa::diagnosis::effects {
 namespace {
 
-/// No resonance of usual damping lies between two of them.
+/// Starting frequencies that are so close that no resonance of usual damping lies between two of
+/// them.
 std::vector<std::vector<double>> scanned_modes() {
   constexpr double damping_ratio = 0.02;
   std::vector<std::vector<double>> out;

@@ -16,7 +16,7 @@ Effect flow_lag() {
                   chain.wind.push_back([tau = v[0]](std::span<double> u, double dt) {
                     if (u.empty()) return;
                     const double x = dt / tau, decay = std::exp(-x);
-                    // Exact for wind that runs linearly between its samples; steady before the
+                    // Exact for wind that is linear between its samples and steady before the
                     // record.
                     const double old_share = (1. - decay) / x - decay,
                                  new_share = 1. - (1. - decay) / x;

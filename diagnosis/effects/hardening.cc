@@ -3,7 +3,7 @@
 namespace vibrissa::diagnosis::effects {
 namespace {
 
-/// A spring that softens keeps a tenth of its tangent: from there on it is straight.
+/// A softening spring keeps a tenth of its tangent stiffness: beyond that point it is linear.
 class Cubic : public JointLaw {
  public:
   explicit Cubic(double coefficient)

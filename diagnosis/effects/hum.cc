@@ -4,8 +4,9 @@
 namespace vibrissa::diagnosis::effects {
 namespace {
 
-/// Mains wander by a tenth of a hertz, and the longest records tell two tones so far apart: a basin
-/// is no wider.
+/// Starting values about the mains frequencies and their harmonics. Mains frequency varies by a
+/// tenth of a hertz, and the step is small because long records resolve such differences, so basins
+/// of attraction are narrow.
 std::vector<std::vector<double>> lines_nearby() {
   std::vector<std::vector<double>> out;
   for (const double line_hz : {50., 60., 100., 120.})

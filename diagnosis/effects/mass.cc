@@ -3,7 +3,7 @@
 namespace vibrissa::diagnosis::effects {
 namespace {
 
-/// The first mode's modal mass so many times what it was; returns the factor on its base forcing.
+/// Multiplies the first mode's modal mass by a ratio; returns the factor on its base forcing.
 double change_density(NominalModel& structure, const ParameterPath& path, const double ratio) {
   const double log_density = -0.5 * std::log(ratio) / path.frequency.front();
   structure.follow(path, log_density);

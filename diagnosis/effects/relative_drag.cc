@@ -9,8 +9,8 @@ double wind_gain(const NominalModel& structure) {
   return structure.modes.empty() ? 0. : structure.modes.front().wind_gain;
 }
 
-/// +1 where the wind blows along the axis of the base motion: what the base's acceleration bends
-/// the whisker to is then the other side than the wind's.
+/// +1 when the wind blows along the axis of the base motion: base acceleration then bends the
+/// whisker opposite to the wind.
 double along_the_axis(const NominalModel& structure) {
   return structure.base_response(0.).real() * wind_gain(structure) > 0. ? -1. : 1.;
 }
@@ -18,8 +18,8 @@ double along_the_axis(const NominalModel& structure) {
 }  // namespace
 
 Effect relative_drag() {
-  // A pendulum of static moment g / a that turns by T / k moves at T' / (g w^2) in the distance of
-  // its centre of percussion; where the air takes hold of it is not far from there.
+  // A pendulum of static moment g / a that rotates by T / k has the velocity T' / (g w^2) at its
+  // centre of percussion. The centre of the drag force is close to it.
   return Effect{.id = "relative_drag",
                 .link = Link::wind,
                 .equation =

@@ -6,7 +6,7 @@ Effect sample_repeat() {
   return Effect{
       .id = "sample_repeat",
       .link = Link::clock,
-      .equation = "a_read(k T) = a(age + floor(k T / Ts) Ts): the source's own samples are taken",
+      .equation = "a_read(k T) = a(age + floor(k T / Ts) Ts): samples of the source are repeated",
       .source =
           "ADXL345 data sheet, rev. E, table 7: data rates; Crochiere and Rabiner 1983, ch. 2",
       .confused_with = "reference_noise; equal neighbours",

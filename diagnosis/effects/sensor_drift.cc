@@ -12,13 +12,14 @@ Effect sensor_drift() {
       .confused_with = "turbulence; quiet record",
       .irreducible = true,
       .model_form_error = 0.01,
-      // What wanders within a second or two may be what the unknown start of a record leaves.
+      // Drift within one or two seconds may be a transient of the record's start.
       .needs = {.moved_s = 3.},
       .parameters = {log_uniform("walk", "N m/s^0.5", 1e-8, 1e-4, 0.)},
       .starts = {{3e-7}, {3e-6}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         chain.ramp_variance_rate += v[0] * v[0];
-        // The walk about the line between its ends (a bridge) has nearly independent lines.
+        // The walk relative to the straight line between its ends (Brownian bridge) has nearly
+        // independent spectral lines.
         chain.noise.push_back([walk = v[0]](const RecordView& view, std::span<double> out) {
           const double n = static_cast<double>(view.n_samples);
           const double step_variance = walk * walk / view.sampling_rate_hz;

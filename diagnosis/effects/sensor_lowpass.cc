@@ -10,8 +10,8 @@ Effect sensor_lowpass() {
       .id = "sensor_lowpass",
       .link = Link::sensor,
       .equation =
-          "M_read = M exp(s h) / (1 + s / (n w))^n, corner at -3 dB; h the half step of a filter "
-          "that is sampled",
+          "M_read = M exp(s h) / (1 + s / (n w))^n, corner at -3 dB; h = half a time step of a "
+          "sampled filter",
       .source = "Doebelin 2004, ch. 3; Millman and Halkias 1972, bandwidth of equal stages",
       .confused_with = "delay; droop",
       .model_form_error = 0.02,
@@ -22,7 +22,7 @@ Effect sensor_lowpass() {
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         const double n = v[2], corner = 2. * std::numbers::pi * v[0];
         const double w = corner / (n * std::sqrt(std::exp2(1. / n) - 1.));
-        // Steps are a small part of the delay that they filter.
+        // The time step is small relative to the delay of the filter.
         const double most = 0.3 / w, h = most * std::tanh(v[1] / most);
         chain.sensor.push_back([n, w, h](Complex s) -> Complex {
           return std::exp(s * h) * std::pow(1. + s / (n * w), -n);

@@ -13,7 +13,7 @@ Effect stage_rocking() {
       .confused_with = "reference_gain; wide band, second accelerometer",
       .model_form_error = 0.03,
       .needs = {.base = true},
-      // With a resonance beyond the band it is a gain: which it is then is not told.
+      // With a resonance above the band it is indistinguishable from a gain.
       .log_prior = -1.7,
       .parameters = {normal("gain", "1", 0., 0.04, -0.3, 0.3, 0.),
                      log_uniform("frequency", "Hz", 50., 600., 200.)},

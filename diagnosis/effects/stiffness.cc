@@ -5,8 +5,8 @@
 namespace vibrissa::diagnosis::effects {
 namespace {
 
-/// By what the finite-element model says of silicone and wire: either makes its part of the first
-/// mode's stiffness as a spring in series with the rest.
+/// Changes the moduli of silicone and wire by the sensitivities of the finite-element model; each
+/// is a spring in series with the rest of the first mode.
 void change_materials(Chain& chain, const ParameterPath& wire, const ParameterPath& silicone,
                       const std::span<const double> v) {
   const double of_wire = std::pow(v[0], v[2]), of_silicone = v[0] / of_wire,
@@ -57,7 +57,7 @@ Effect stiffness() {
         chain.joint_change.spring *= joint;
         chain.joint_change.damper *= std::pow(joint, v[1]);
         mode.frequency_rad_s *= std::sqrt(modal);
-        // zeta = c / (2 sqrt(k m)); so is the viscous moment over the elastic one.
+        // zeta = c / (2 sqrt(k m)); the ratio of viscous to elastic moment changes likewise.
         const double damping = std::pow(modal, v[1] - 0.5);
         mode.damping_ratio *= damping;
         mode.base_rate *= damping;

@@ -29,8 +29,8 @@ Effect temperature_drift() {
       .source = "Ferry 1980, ch. 11; Treloar 1975, ch. 4: modulus of rubber and temperature",
       .confused_with = "sensor_drift; frequency moves here, offset there",
       .model_form_error = 0.05,
-      // Silicone warms over minutes: what seems to drift within a few seconds is the
-      // accelerometer's noise that the mode carries on.
+      // Silicone warms over minutes. An apparent drift within a few seconds is accelerometer noise
+      // that the mode amplifies.
       .needs = {.base = true, .moved_s = 3.},
       .parameters = {uniform("within_record", "1", -0.4, 0.4, 0.),
                      normal("between_records", "1", 0., 0.005, -0.1, 0.1, 0.),

@@ -6,7 +6,7 @@
 namespace vibrissa::diagnosis::effects {
 namespace {
 
-/// Enough branches for a smooth spectrum over the widest spread.
+/// Enough branches for a smooth relaxation spectrum over the widest spread.
 constexpr std::size_t n_branches = 5;
 
 std::array<double, n_branches> branch_times(double tau, double decades) {
@@ -30,7 +30,7 @@ Effect viscoelastic() {
       .confused_with = "damping, stiffness; several octaves, second mode, creep",
       .model_form_error = 0.08,
       .needs = {.base = true},
-      // Half of its times are so slow that it is a change of stiffness.
+      // Half of its prior times are so slow that the effect equals a change of stiffness.
       .log_prior = -0.7,
       .parameters = {log_uniform("strength", "1", 2e-4, 1.5, 0.),
                      log_uniform("tau", "s", 1e-3, 10., 0.01), uniform("decades", "1", 0., 5., 0.)},
@@ -43,7 +43,7 @@ Effect viscoelastic() {
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         const std::optional<JointModel> joint = joint_of(chain);
         if (!joint) return;
-        // The branches stand beside spring and damper, which keep their own.
+        // The branches are parallel to spring and damper, which are unchanged.
         chain.relaxation.push_back([strength = v[0] / n_branches, times = branch_times(v[1], v[2]),
                                     joint = *joint](Complex s) {
           Complex sum = 0.;

@@ -4,8 +4,8 @@
 namespace vibrissa::diagnosis::effects {
 namespace {
 
-/// Adds the power of stride samples of an oscillation at strouhal_over_diameter u, level u^2, to
-/// the lines around it.
+/// Adds the power of stride samples of an oscillation with frequency strouhal_over_diameter u and
+/// amplitude u^2 to the lines around this frequency.
 void deposit(std::span<double> power, double u, double strouhal_over_diameter, double spread,
              double line_hz, double stride) {
   const double centre = strouhal_over_diameter * u / line_hz,
@@ -13,7 +13,7 @@ void deposit(std::span<double> power, double u, double strouhal_over_diameter, d
   const double total = stride * u * u * u * u / 4.;
   const double low = std::max(1., centre - 2. * width);
   const double high = std::min(static_cast<double>(power.size()), centre + 2. * width);
-  // A bell curve from one line to the next: its ratio falls by a constant factor.
+  // Recursive Gaussian: the ratio between neighbouring lines falls by a constant factor.
   const double first = std::ceil(low), z = (first - centre) / width, step = 1. / width;
   double value = total * std::exp(-0.5 * z * z) / (2.5066 * width);
   double ratio = std::exp(-step * (z + 0.5 * step));

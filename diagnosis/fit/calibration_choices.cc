@@ -9,8 +9,8 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A posterior given that some of its parameters are nominal, or negligibly off, and the log
-/// density that it had there.
+/// Posterior conditional on nominal (or negligibly different) values of some parameters, and the
+/// log density of that condition.
 struct AtNominal {
   RecalibratedPosterior posterior;
   double log_density = 0.;
@@ -40,8 +40,8 @@ AtNominal at_nominal(const NominalModel& nominal, const HypothesisFit& fit,
   return out;
 }
 
-/// What tolerances have cost a fit, in nats: as much at most is refunded. A state that has ended
-/// before its top has not paid for what its curvature promises.
+/// Cost of the tolerances in a fit [nats], which is the upper limit of the correction: an
+/// optimisation that stopped before the maximum has not paid the cost that its curvature predicts.
 double cost_of_tolerances(const HypothesisFit& fit) {
   double sum = 0.;
   for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
@@ -57,9 +57,9 @@ double spread_of_range(const Prior& prior) {
   return (prior.high - prior.low) / std::sqrt(12.);
 }
 
-/// Log densities of parameters that may lie anywhere in their range, or are small, over those of
-/// normal distributions of the range's spread. What lies beyond its range by more than its
-/// deviation is unlikely.
+/// Log densities of parameters that are uniform in their range or small, relative to those of
+/// normal distributions with the range's spread. Values outside their range by more than their
+/// standard deviation are improbable.
 double ranges_for_normals(const HypothesisFit& fit, const RecalibratedPosterior& posterior,
                           const std::vector<Eigen::Index>& named) {
   double sum = 0.;
@@ -112,8 +112,8 @@ RecalibratedPosterior recalibrated_posterior(const HypothesisFit& fit,
   RecalibratedPosterior out{fit.x, fit.covariance, fit.log_evidence};
   const auto n = static_cast<Eigen::Index>(named.size());
   if (n == 0) return out;
-  // The tolerance is divided out and a normal distribution of the range's spread put in its place:
-  // a change of information on the diagonal.
+  // The tolerance prior is replaced by a normal distribution with the range's spread, which changes
+  // the information on the diagonal.
   Eigen::VectorXd more(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Prior& tolerance =
@@ -166,7 +166,7 @@ std::vector<CalibrationChoice> calibration_choices(const NominalModel& nominal,
                          ranges_for_normals(fit, exactly.posterior, named);
     const bool leaves_exact = named.empty() && !fit.hypothesis.is_discrepancy();
     choice.log_evidence = leaves_exact ? as_built - std::numbers::ln2 : log_mean(exact, as_built);
-    // Where the recalibrated sensor is unstable there is no answer.
+    // There is no answer when the recalibrated sensor is unstable.
     if (!std::isfinite(choice.log_evidence))
       choice.log_evidence = -std::numeric_limits<double>::infinity();
     choices.push_back(std::move(choice));

@@ -7,42 +7,42 @@
 
 namespace vibrissa::diagnosis {
 
-/// Indices among the parameters of the ratios of a fit's calibrations, but for the given ones.
+/// Indices of the ratios of a fit's calibration parameters, without the given ones.
 std::vector<Eigen::Index> calibrations_but(const HypothesisFit& fit,
                                            const std::vector<std::string>& ids);
 
-/// A fit's parameters when what is named of its calibrations may lie anywhere in its range, in
-/// place of its tolerance. Where calibrations do the same, as gains do, tolerances share between
-/// them what one of them did; once it is named it does all of it.
+/// Posterior of a fit in which the named calibration parameters have their full range instead of
+/// their tolerance. With tolerances, calibration parameters of the same influence (such as gains)
+/// share a change; a named one takes all of it.
 struct RecalibratedPosterior {
   Eigen::VectorXd x;
   Eigen::MatrixXd covariance;
   double log_evidence = 0.;
 };
-/// In Gaussian approximation, ranges as normal distributions of the same spread. named: indices of
-/// ratios among the parameters.
+/// Gaussian approximation, in which ranges are normal distributions of the same spread. named:
+/// indices of ratios among the parameters.
 RecalibratedPosterior recalibrated_posterior(const HypothesisFit& fit,
                                              const std::vector<Eigen::Index>& named);
 
-/// Log of what a calibration's density gains over one that is even in its range, [-top, top], where
-/// half of what is off is so by any order of magnitude: even in ln |x| from a thousandth of top up.
-/// x from nominal, and its variance: what is not told from nominal has the density of its
-/// deviation. An effect whose strength goes by its logarithm would be likelier than a small
-/// calibration that does the same, for that alone. Proven by
+/// Log ratio of a calibration parameter's prior density to the uniform density in [-top, top]. Half
+/// of the prior is uniform in ln |x| from top / 1000 on. x: difference from nominal, with its
+/// variance; a value not significantly different from nominal has the density at its standard
+/// deviation. Without this an effect with a logarithmic prior would be more probable than a small
+/// calibration error with the same influence. Proven by
 /// tests/diagnosis/fit/calibration_choices_test.cc.
 double log_any_magnitude(double top, double x, double variance);
 
-/// Evidence of every set of nuisances that may differ from nominal, the others nominal, best first:
-/// by Savage's and Dickey's ratio from the posterior with all of them free. A shift within what the
-/// nominal form misses of the simulation, or within what form errors of the effects may bring,
-/// counts as nominal. That nothing is named and all is as simulated is left to fit_as_simulated().
+/// Evidence of every set of nuisances that may differ from nominal while the others are nominal,
+/// best first, by the Savage-Dickey density ratio from the posterior with all of them free. A shift
+/// within the misfit of the nominal model, or within the model form errors of the effects, counts
+/// as nominal. fit_as_simulated() covers the case that all are as simulated and none is named.
 std::vector<CalibrationChoice> calibration_choices(const NominalModel& nominal,
                                                    const HypothesisFit& fit);
-/// The one choice of such a fit.
+/// The only choice of a fit as simulated.
 CalibrationChoice as_simulated_choice(const HypothesisFit& fit);
 
-/// A calibration within this of nominal is nominal: the simulation is not known better than its
-/// form follows its own records.
+/// A calibration parameter within this distance of nominal counts as nominal, because the nominal
+/// model follows the simulation only with this accuracy.
 double negligible_calibration(const NominalModel& nominal, const std::string& id);
 
 }  // namespace vibrissa::diagnosis

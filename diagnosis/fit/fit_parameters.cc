@@ -7,12 +7,13 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Spread of the accelerometers' usual noise, of its logarithm.
+/// Spread of the logarithm of the accelerometers' usual noise.
 constexpr double usual_spread = 0.3;
-/// Upper edges of the bands of a discrepancy, in frequencies of the first mode; the last has none.
+/// Upper edges of the bands of a discrepancy, relative to the first mode's frequency; the last band
+/// has none.
 constexpr std::array<double, 4> discrepancy_edges{0.5, 0.9, 1.1, 2.};
 
-/// The joint's share in the damping of the first mode is not more than all of it.
+/// The joint's share in the damping of the first mode is at most 1.
 double most_joint_loss(const NominalModel& nominal) {
   constexpr double most = 1.3, least = 1.;
   if (nominal.modes.empty()) return most;
@@ -60,7 +61,7 @@ std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
   const auto add = [&](const Effect& effect, bool nuisance) {
     for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
       fit_parameters.push_back({&effect, i, effect.parameters[i], nuisance});
-      // As a finding of its own a calibration parameter may lie anywhere in its range.
+      // As a named effect a calibration parameter has its full range.
       if (effect.calibration && !nuisance && i == 0)
         fit_parameters.back().description.prior.kind = Prior::Kind::uniform;
     }
@@ -86,7 +87,7 @@ Chain make_chain(const Experiment& experiment, const std::vector<FitParameter>& 
   chain.joint_loss_factor = x(index_of_joint_loss);
   for (std::size_t i = n_common_parameters; i < fit_parameters.size();) {
     const Effect* effect = fit_parameters[i].effect;
-    if (effect == nullptr) break;  // form error and discrepancy come last
+    if (effect == nullptr) break;  // model form error and discrepancy come last
     std::vector<double> values;
     for (; i < fit_parameters.size() && fit_parameters[i].effect == effect; ++i)
       values.push_back(fit_parameters[i].description.value(x(static_cast<Eigen::Index>(i))));

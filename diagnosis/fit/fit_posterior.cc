@@ -12,7 +12,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Misfit of the nominal form that is always allowed for.
+/// Relative misfit of the nominal model that is always assumed.
 constexpr double least_misfit = 1e-4;
 
 double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
@@ -20,7 +20,7 @@ double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record)
   return std::max(misfit, least_misfit);
 }
 
-/// Minus the log likelihood of what the accelerometer read where nothing moved.
+/// Negative log likelihood of the accelerometer's readings at rest.
 double accelerometer_term(const PreparedRecord& record, double variance) {
   if (record.n_acceleration_noise == 0) return 0.;
   return record.acceleration_noise_power / (static_cast<double>(record.n_samples) * variance) +
@@ -49,8 +49,8 @@ std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
   return ChainSimulator(chain).predict(experiment_.records);
 }
 
-void FitPosterior::renew_slow_variance(const Eigen::VectorXd& x,
-                                       const std::vector<Prediction>& at) {
+void FitPosterior::update_slow_variance(const Eigen::VectorXd& x,
+                                        const std::vector<Prediction>& at) {
   for (BinVariances* parts : {&misfit_, &power_, &form_}) parts->clear();
   for (std::size_t r = 0; r < at.size(); ++r) {
     const PreparedRecord& record = experiment_.records[r];
@@ -214,7 +214,7 @@ void FitPosterior::set_derivative(const Eigen::VectorXd& x, const std::vector<Pr
 
 Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
                                       const std::vector<Prediction>& at) const {
-  // More at a time would only fill the caches.
+  // More chains at a time exceed the caches.
   constexpr std::size_t n_together = 4;
   const BinVariances s = variances(x, at, acceleration_variance(x));
   Eigen::Index n_bins = 0;
@@ -306,7 +306,7 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
   }
 }
 
-/// Takes what the unknown parameters of each record explain out of gradient and information.
+/// Projects the per-record nuisance parameters out of gradient and information.
 void FitPosterior::remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
                                    const Eigen::MatrixXd& mean_columns, Eigen::VectorXd& gradient,
                                    Eigen::MatrixXd& information) const {

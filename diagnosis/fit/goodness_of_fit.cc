@@ -17,7 +17,8 @@ struct Block {
   double gain() const {
     constexpr double fewest = 10.;
     if (count < fewest) return 0.;
-    // Less power than predicted is no fault of bounds: forms are often better than theirs.
+    // Less power than predicted is no failure, because model form errors are often smaller than
+    // their bounds.
     const double mean = std::max(1., power / count);
     return std::max(0., count * (mean - 1. - std::log(mean)) - 0.5 * std::log(count));
   }
@@ -27,7 +28,7 @@ int kind_of(const PreparedRecord& record) {
   return (record.excitation.base ? 1 : 0) + (record.excitation.wind ? 2 : 0);
 }
 
-// The lowest bins hold what wanders, which is no tone.
+// The lowest bins contain drift, which is no tone.
 double loudest_tone(const Experiment& experiment, const std::span<const WhitenedRecord> records) {
   double loudest = 0., count = 0.;
   for (std::size_t r = 0; r < records.size(); ++r) {

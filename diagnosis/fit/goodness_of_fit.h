@@ -7,20 +7,21 @@
 
 namespace vibrissa::diagnosis {
 
-/// How well a fit's variance describes its residual.
+/// Agreement between a fit's variance and its residual.
 struct GoodnessOfFit {
-  /// Mean of the whitened residual's power less one: what neither the effects nor the bounds of
-  /// their form errors explain.
+  /// Mean power of the whitened residual minus one: the part that neither the effects nor the
+  /// bounds of their model form errors explain.
   double excess = 0.;
-  /// Log likelihood that a larger variance would gain in blocks of bins, of records that are moved
-  /// alike, in which the effects' own noise is a tenth or more of the variance:
+  /// Gain in log likelihood by a larger variance in blocks of bins, over records with the same
+  /// excitation, in which the process noise is a tenth or more of the variance:
   ///   sum over blocks with m > 1 of max(0, n (m - 1 - ln m) - ln(n) / 2),  m mean power of n bins;
-  /// noise of the right power with the wrong spectrum has much of it. Some 10 nats by chance.
+  /// It is large for process noise of the right power with the wrong spectrum. About 10 nats occur
+  /// by chance.
   double misshape_nats = 0.;
-  /// The same over all blocks, a bin.
+  /// The same over all blocks, per bin.
   double surplus_nats_per_bin = 0.;
-  /// Largest |error|^2 of a line of the records at rest, but the lowest, less ln(their lines): what
-  /// the loudest tone that the fit lacks stands out of chance.
+  /// Largest |error|^2 of a line of the records at rest (without the lowest lines) minus ln(number
+  /// of lines): significance of the strongest tone that the fit does not explain [nats].
   double tone_nats = 0.;
   PredictedNoise predicted;
 };

@@ -14,8 +14,8 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Coordinates to start from: noise as guessed, nuisances nominal or as in start, effects at one of
-/// their own starts or as in start.
+/// Starting coordinates: noise levels as estimated, nuisances nominal or from start, effects at one
+/// of their own starts or from start.
 Eigen::VectorXd start_vector(const Experiment& experiment,
                              const std::vector<FitParameter>& fit_parameters,
                              const HypothesisFit* start, bool nominal_nuisances) {
@@ -31,7 +31,7 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
     const FitParameter& fit_parameter = fit_parameters[i];
     double& value = x(static_cast<Eigen::Index>(i));
     if (fit_parameter.effect == nullptr) {
-      // Form errors begin at a fifth of their bound, discrepancies at two percent.
+      // The share of model form errors begins at a fifth, discrepancies at two percent.
       value = fit_parameter.description.logarithmic ? std::log(0.02) : 0.2;
       continue;
     }
@@ -46,7 +46,7 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
   return x;
 }
 
-/// All combinations of the starts of effects that the given start does not hold.
+/// All combinations of the starts of the effects that the given start does not contain.
 std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
                                            const std::vector<FitParameter>& fit_parameters,
                                            const Hypothesis& hypothesis, const HypothesisFit* start,
@@ -67,7 +67,7 @@ std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
       }
     starts = std::move(more);
   }
-  // What an effect says of the accelerometer's noise is not said twice.
+  // An effect that describes the accelerometer's noise replaces the noise parameter.
   for (Eigen::VectorXd& x : starts)
     if (make_chain(experiment, fit_parameters, x).reference_variance > 0.)
       x(index_of_acceleration_noise) =
@@ -96,7 +96,7 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix, double& log_determinant) 
          solver.eigenvectors().transpose() * scale.asDiagonal();
 }
 
-/// Of each record.
+/// The fit of each record.
 std::vector<FormErrors> model_form_errors_of(const std::vector<EffectAction>& actions,
                                              const std::vector<Prediction>& predictions) {
   std::vector<FormErrors> out;
@@ -136,7 +136,7 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
   return records;
 }
 
-/// Has a fit moved a nuisance out of its tolerance?
+/// Is a nuisance of the fit outside its tolerance?
 bool has_recalibrated(const HypothesisFit& fit) {
   for (std::size_t i = n_common_parameters; i < fit.fit_parameters.size(); ++i) {
     const Prior& prior = fit.fit_parameters[i].description.prior;
@@ -146,7 +146,7 @@ bool has_recalibrated(const HypothesisFit& fit) {
   return false;
 }
 
-/// Parameters with the nuisances fixed where they are nominal.
+/// Parameters with the nuisances fixed at their nominal values.
 std::vector<FitParameter> with_nominal_calibrations(std::vector<FitParameter> fit_parameters) {
   for (FitParameter& fit_parameter : fit_parameters)
     if (fit_parameter.nuisance) {
@@ -156,7 +156,7 @@ std::vector<FitParameter> with_nominal_calibrations(std::vector<FitParameter> fi
   return fit_parameters;
 }
 
-/// A state on which the nuisances move last.
+/// Optimises the other parameters first and the nuisances afterwards.
 OptimiserState optimise_before_nuisances(FitPosterior& posterior, const Experiment& experiment,
                                          const std::vector<FitParameter>& fit_parameters,
                                          const Hypothesis& hypothesis, const HypothesisFit* start,
@@ -174,7 +174,7 @@ OptimiserState optimise_before_nuisances(FitPosterior& posterior, const Experime
   return state;
 }
 
-/// Calibrations within what is negligible, and what they do beside their ratio left alone.
+/// Limits calibration ratios to negligible values, and fixes their other parameters.
 std::vector<FitParameter> with_negligible_calibrations(const NominalModel& nominal,
                                                        std::vector<FitParameter> fit_parameters) {
   for (FitParameter& fit_parameter : fit_parameters) {
@@ -191,7 +191,8 @@ std::vector<FitParameter> with_negligible_calibrations(const NominalModel& nomin
   return fit_parameters;
 }
 
-/// The calibrations' priors become as wide as form errors shift them. Was any much too narrow?
+/// Widens the calibration priors to the shifts that model form errors may cause. Returns whether
+/// any prior was much too narrow.
 bool loosen_by_forms(HypothesisFit& fit) {
   constexpr double much = 1.5;
   bool was_narrow = false;
@@ -208,13 +209,13 @@ bool loosen_by_forms(HypothesisFit& fit) {
   return was_narrow;
 }
 
-/// What a fit is where its state has ended; the choices are left.
+/// Sets all results of a fit at its optimum, except the choices.
 void set_at(HypothesisFit& fit, const Experiment& experiment, FitPosterior& posterior,
             OptimiserState& state) {
   fit.x = state.x;
   fit.n_iterations = state.n_iterations;
   fit.log_posterior = state.log_posterior;
-  posterior.renew_slow_variance(fit.x, state.predictions);
+  posterior.update_slow_variance(fit.x, state.predictions);
   if (!state.derivatives) state.derivatives = posterior.derivatives(fit.x, state.predictions);
   Eigen::VectorXd gradient;
   posterior.linearise(fit.x, state.predictions, *state.derivatives, gradient, fit.information);
@@ -272,13 +273,13 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
         options);
   };
   OptimiserState state = optimise_from(start == nullptr);
-  // Calibrations of another fit may have taken up what an effect does: both basins are looked at.
+  // Calibration parameters of another fit may have absorbed the effect, so both basins are tried.
   if (start != nullptr && options.n_promising > 1 && has_recalibrated(*start)) {
     OptimiserState other = optimise_from(true);
     if (other.log_posterior > state.log_posterior) state = std::move(other);
   }
-  // An effect that recalibrates, as nuisances do, is aliased with them: where they take up what it
-  // does, it stays near nothing. Beside others it would take up what none of them explains.
+  // A calibration effect is aliased with the nuisances: when they absorb its influence, it stays
+  // near zero. Combined with other effects it would absorb what none of them explains.
   const auto& effects = hypothesis.effects();
   if (effects.size() == 1 && effects.front()->calibration) {
     OptimiserState other = optimise_before_nuisances(posterior, experiment, fit.fit_parameters,
@@ -289,7 +290,7 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
     OptimiserState other =
         best_start(posterior, fit.fit_parameters,
                    {further_start(experiment, fit.fit_parameters, *further)}, options);
-    // Its noise levels are those of a fit without the effect: it takes longer to show its worth.
+    // The noise levels are those of a fit without the effect, so more iterations are needed.
     for (OptimiserState* c : {&state, &other})
       optimise(posterior, fit.fit_parameters, *c, options.max_iterations, options);
     if (other.log_posterior > state.log_posterior) state = std::move(other);

@@ -10,7 +10,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Power by which two fits predict a record differently, around each bin.
+/// Power of the difference of two fits' predictions of a record, around each bin.
 std::vector<double> change(const FittedRecord& a, const FittedRecord& b) {
   std::vector<double> power = powers(difference(a.mean, b.mean));
   for (std::size_t i = 0; i < power.size(); ++i)
@@ -25,7 +25,7 @@ bool adds_nonlinear(const HypothesisFit& fit, const HypothesisFit& fewer) {
                      });
 }
 
-/// Of the nonlinear effects' form errors, and of all.
+/// Power of the model form errors of the nonlinear effects, and of all effects.
 struct Hidden {
   double by_nonlinear = 0., by_all = 0.;
 };
@@ -62,7 +62,8 @@ Hidden hidden_by_forms(const Experiment& experiment, const HypothesisFit& fit,
   const auto sum = [](const std::vector<FormBlock>& blocks) {
     double total = 0.;
     for (const FormBlock& block : blocks) total += block.hidden();
-    // A calibration without which the sensor is unstable has no form error that could be told.
+    // No model form error can be determined for a calibration parameter without which the sensor is
+    // unstable.
     return std::isfinite(total) ? total : 0.;
   };
   return {sum(nonlinear), sum(all)};

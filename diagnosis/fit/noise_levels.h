@@ -4,8 +4,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// Variance of a channel's noise, a sample [(N m)^2, (m/s^2)^2], and the deviation of the logarithm
-/// of its root.
+/// Noise variance of a channel per sample [(N m)^2, (m/s^2)^2], and the standard deviation of the
+/// logarithm of its square root.
 struct NoiseLevel {
   double variance = 0., log_deviation = 0.;
 };
@@ -14,9 +14,10 @@ struct NoiseLevels {
   NoiseLevel moment, acceleration;
 };
 
-/// As measured where nothing moves, so that the error of a poor fit is no noise; else as fitted. A
-/// fit that names noise of the accelerometer knows its share. chain: the fit's. Proven by
-/// tests/diagnosis/validation/held_out_test.cc and carry_over_test.cc.
+/// Noise levels measured at rest, so that the error of a poor fit does not count as noise; without
+/// such records as fitted. A fit that names reference_noise includes it. chain: the fit's chain.
+/// Proven by tests/diagnosis/validation/held_out_test.cc and
+/// tests/diagnosis/validation/cross_validation_test.cc.
 NoiseLevels noise_levels(const Experiment& experiment, const HypothesisFit& fit,
                          const Chain& chain);
 

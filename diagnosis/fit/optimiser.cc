@@ -8,7 +8,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Step of the parameters that are not held at a bound.
+/// Step of the parameters that are not at a bound.
 Eigen::VectorXd damped_step(const std::vector<FitParameter>& fit_parameters,
                             const Eigen::VectorXd& x, const Eigen::VectorXd& gradient,
                             const Eigen::MatrixXd& information, double damping) {
@@ -28,7 +28,7 @@ Eigen::VectorXd damped_step(const std::vector<FitParameter>& fit_parameters,
       scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * gradient(free));
   Eigen::VectorXd step = Eigen::VectorXd::Zero(x.size());
   for (std::size_t i = 0; i < free.size(); ++i) step(free[i]) = part(static_cast<Eigen::Index>(i));
-  // Fisher scoring far from the optimum overshoots in logarithms.
+  // Far from the optimum, Fisher scoring overshoots in logarithms.
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Parameter& parameter = fit_parameters[static_cast<std::size_t>(i)].description;
     const double range = parameter.prior.high - parameter.prior.low;
@@ -38,7 +38,8 @@ Eigen::VectorXd damped_step(const std::vector<FitParameter>& fit_parameters,
   return step;
 }
 
-/// What a step was to gain to second order, and what it gains; nothing: it leads down.
+/// Second-order prediction of a step's gain, and its true gain; nothing when the step does not
+/// improve.
 struct Step {
   double predicted = 0., gain = 0.;
 };
@@ -50,7 +51,7 @@ std::optional<Step> take_step(const FitPosterior& posterior,
   for (int attempt = 0; attempt < n_attempts; ++attempt) {
     Eigen::VectorXd x =
         state.x + damped_step(fit_parameters, state.x, gradient, information, state.damping);
-    // Next to parameters under which the sensor runs away no step can be told.
+    // Near parameters with an unstable sensor no derivative step is possible.
     if (!x.allFinite()) return std::nullopt;
     clamp(fit_parameters, x);
     std::vector<Prediction> there = posterior.predict(x);
@@ -73,7 +74,7 @@ std::optional<Step> take_step(const FitPosterior& posterior,
 
 OptimiserState begin_optimiser(FitPosterior& posterior, const Eigen::VectorXd& x) {
   OptimiserState state{.x = x, .predictions = posterior.predict(x)};
-  posterior.renew_slow_variance(x, state.predictions);
+  posterior.update_slow_variance(x, state.predictions);
   state.log_posterior = posterior.log_likelihood(x, state.predictions) + posterior.log_prior(x);
   return state;
 }
@@ -90,31 +91,31 @@ void clamp(const std::vector<FitParameter>& fit_parameters, Eigen::VectorXd& x) 
 
 void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
               OptimiserState& state, const int n_iterations, const FitOptions& options) {
-  // This many further gains like the last one would not do.
+  // Stops when this many further gains like the last one would not be enough.
   constexpr double n_hopeful_gains = 15.;
   constexpr double most_astray = 0.2;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;
-  for (int n_renewals = 0; !state.ended;) {
-    posterior.renew_slow_variance(state.x, state.predictions);
+  for (int n_computed = 0; !state.ended;) {
+    posterior.update_slow_variance(state.x, state.predictions);
     state.log_posterior =
         posterior.log_likelihood(state.x, state.predictions) + posterior.log_prior(state.x);
-    const bool renewed = !state.derivatives;
-    if (renewed) {
-      if (n_renewals++ == n_iterations) return;
+    const bool is_new = !state.derivatives;
+    if (is_new) {
+      if (n_computed++ == n_iterations) return;
       state.derivatives = posterior.derivatives(state.x, state.predictions);
       ++state.n_iterations;
     }
     posterior.linearise(state.x, state.predictions, *state.derivatives, gradient, information);
     const double damping = state.damping;
     const auto step =
-        take_step(posterior, fit_parameters, state, gradient, information, renewed ? 5 : 1);
-    if (!step && !renewed) state.damping = damping;
+        take_step(posterior, fit_parameters, state, gradient, information, is_new ? 5 : 1);
+    if (!step && !is_new) state.damping = damping;
     const double gain = step ? step->gain : 0.;
     const bool hopeless =
         state.n_iterations >= 3 && state.log_posterior + n_hopeful_gains * gain < options.to_beat;
     const bool is_little = gain < options.tolerance;
-    state.ended = hopeless || (renewed && is_little);
+    state.ended = hopeless || (is_new && is_little);
     if (state.ended) return;
     const bool astray = !step || std::abs(gain - step->predicted) > most_astray * step->predicted;
     if (astray || is_little) state.derivatives.reset();

@@ -16,15 +16,15 @@ namespace {
 
 constexpr Eigen::Index n_regressors = 2;
 
-/// The wind's speed and its square, in the evaluated bins.
+/// Spectra of wind speed and of its square in the evaluated bins.
 std::array<std::vector<Complex>, n_regressors> wind_bins(const PreparedRecord& record) {
   std::vector<double> square = record.wind;
   for (double& value : square) value *= value;
   return {evaluated_bins(record, record.wind), evaluated_bins(record, square)};
 }
 
-/// Blocks of frequency in which effects' own noise is there without wind, too: a tone's skirts are
-/// smooth over the lines, as the wind's are, and would be predicted by it.
+/// Frequency blocks in which process noise exists without wind, too. There the skirts of a tone are
+/// as smooth as the wind spectrum, which would seem to predict them.
 std::set<std::size_t> windless_blocks(const Experiment& experiment,
                                       const std::span<const WhitenedRecord> records) {
   std::map<std::size_t, std::pair<double, double>> shares;
@@ -42,7 +42,7 @@ std::set<std::size_t> windless_blocks(const Experiment& experiment,
   return blocks;
 }
 
-/// Bins of neighbouring frequencies, enough of them to tell a regression from chance.
+/// Blocks of neighbouring bins that are large enough for a significant regression.
 std::vector<std::vector<std::size_t>> blocks_of(const Experiment& experiment,
                                                 const PreparedRecord& record,
                                                 const std::set<std::size_t>& left_out) {

@@ -6,7 +6,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Relative gap at excited lines of one record, noise taken off, against the level of its motion.
+/// Relative gap at the excited lines of one record, minus noise, and the level of its motion.
 struct LevelPoint {
   double log_level = 0., log_gap = 0., variance = 0.;
 };
@@ -42,7 +42,8 @@ std::optional<LevelExponent> level_exponent(const std::vector<RecordGap>& gaps) 
                           [](const auto& a, const auto& b) { return a.log_level < b.log_level; });
   constexpr double least_ratio = 1.3;
   if (high->log_level - low->log_level < std::log(least_ratio)) return std::nullopt;
-  // Lines and phases differ between records: the relative gap scatters by this beside the noise.
+  // Scatter of the relative gap in addition to noise, because lines and phases differ between
+  // records.
   constexpr double scatter = 0.05;
   double w = 0., wx = 0., wy = 0., wxx = 0., wxy = 0.;
   for (const LevelPoint& p : points) {

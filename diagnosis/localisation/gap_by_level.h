@@ -7,13 +7,13 @@
 
 namespace vibrissa::diagnosis {
 
-/// The relative gap grows as level^value.
+/// Exponent of the relative gap, which grows as level^value.
 struct LevelExponent {
-  double value = 0.;  // 0 where it does not differ from 0
+  double value = 0.;  // 0 where it does not differ significantly from 0
   double deviation = 0.;
 };
 
-/// From the excited lines of periodic base records, noise taken off; nothing when there is one
+/// Exponent from the excited lines of periodic base records, minus noise; nothing when there is one
 /// level only or no gap under base motion.
 std::optional<LevelExponent> level_exponent(const std::vector<RecordGap>& gaps);
 

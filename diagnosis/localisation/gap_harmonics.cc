@@ -11,7 +11,8 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Are the excited lines so far above the accelerometer's noise that none was taken for left out?
+/// Are the excited lines so far above the accelerometer's noise that none was misclassified as not
+/// excited?
 bool every_line_stands_out(const PreparedRecord& record) {
   std::vector<double> shares;
   for (std::size_t k = 1; k < record.acceleration.size(); ++k)
@@ -23,8 +24,8 @@ bool every_line_stands_out(const PreparedRecord& record) {
   return *middle > clear_share;
 }
 
-/// p-values of the lines that a multisine left out, [0] odd and [1] even multiples of its base
-/// line, against the noise between the lines of its period.
+/// p-values of the lines that a multisine does not excite, [0] odd and [1] even multiples of its
+/// base frequency, against the noise between the lines of its period.
 std::array<double, 2> parity_p_values(const RecordGap& gap, const RestNoise& rest) {
   const PreparedRecord& record = *gap.record;
   std::size_t step = 0, first = 0;
@@ -47,7 +48,7 @@ std::array<double, 2> parity_p_values(const RecordGap& gap, const RestNoise& res
   for (std::size_t k = std::max(step, first / 2 / step * step); k <= gap.error.size(); k += step) {
     if (std::norm(record.acceleration[k]) > 0. || on_rest_line(rest, record, k - 1)) continue;
     const std::size_t parity = (k / step) % 2 == 0 ? 1 : 0;
-    // The mean of m exponential variates, inverted, is too large by m / (m - 1).
+    // The inverse of the mean of m exponential variates is too large by m / (m - 1).
     const double m = share[k - 1] * (2. * reach + 1.);
     sum[parity] += std::norm(gap.error[k - 1]) * share[k - 1] / noise[k - 1] * (m - 1.) / m;
     n[parity] += 1.;
@@ -55,7 +56,7 @@ std::array<double, 2> parity_p_values(const RecordGap& gap, const RestNoise& res
   const double n_between = 2. * std::accumulate(counted.begin(), counted.end(), 0.);
   std::array<double, 2> p{1., 1.};
   for (std::size_t i = 0; i < 2; ++i)
-    // A ratio to the mean of some 15 neighbours scatters more than the line itself.
+    // A ratio to the mean of about 15 neighbours scatters more than the line itself.
     if (n[i] > 0.) p[i] = variance_ratio_tail(sum[i] / n[i], 2. * n[i] / 1.2, n_between);
   return p;
 }

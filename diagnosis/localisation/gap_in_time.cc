@@ -10,8 +10,8 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// p-value of the slope of a straight line through blocks in time, both sides, by Student's t
-/// turned into a normal deviate (Wallace 1959).
+/// Two-sided p-value of the slope of a straight line through blocks in time, by Student's t
+/// transformed to a normal deviate (Wallace 1959).
 double trend_p_value(const std::vector<double>& y) {
   const double n = static_cast<double>(y.size()), middle = 0.5 * (n - 1.);
   const double mean = std::accumulate(y.begin(), y.end(), 0.) / n;
@@ -29,7 +29,8 @@ double trend_p_value(const std::vector<double>& y) {
   return std::min(1., 2. * normal_tail(z));
 }
 
-/// Gain and quadrature of the measured moment against the predicted one, block after block.
+/// In-phase and quadrature gain of the measured moment relative to the predicted one, for each
+/// block in time.
 std::vector<double> trend_p_values(const RecordGap& gap) {
   constexpr std::size_t n_blocks = 16;
   std::vector<Complex> turned(gap.predicted);
@@ -65,7 +66,7 @@ GapInTime excess_of(const RecordGap& gap) {
   const std::vector<double> samples = evaluated_samples(*gap.record, whitened);
   const double square = std::inner_product(samples.begin(), samples.end(), samples.begin(), 0.);
   if (!(square > 0.)) return {};
-  // A sample's mean square where every bin holds noise alone.
+  // Mean square of a sample when every bin contains noise alone.
   const double noise =
       square / static_cast<double>(samples.size()) * static_cast<double>(whitened.size()) / power;
   GapInTime out{.record = gap.record->name};

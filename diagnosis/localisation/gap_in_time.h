@@ -7,17 +7,18 @@
 
 namespace vibrissa::diagnosis {
 
-/// Does gain or phase of the measured moment against the predicted one have a trend in any record?
+/// Does the gain or phase of the measured moment relative to the predicted one have a trend in any
+/// record?
 bool varies_in_time(const std::vector<RecordGap>& gaps);
 
-/// How large the error of the nominal model is along one record.
+/// Size of the nominal model's error along one record.
 struct GapInTime {
   std::string record{};
-  std::vector<double> time_s{};  // middles of equal parts, from the start of the record
-  std::vector<double> excess{};  // whitened mean square of the error; 1 is noise alone
+  std::vector<double> time_s{};  // middles of equal parts, relative to the start of the record
+  std::vector<double> excess{};  // whitened mean square of the error; 1 means noise alone
 };
 
-/// Of every record in which something moves.
+/// The error along every record with an excitation.
 std::vector<GapInTime> gap_in_time(const std::vector<RecordGap>& gaps);
 
 }  // namespace vibrissa::diagnosis

@@ -10,18 +10,20 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Degrees of freedom of the noise levels: lines where nothing moves, upper half of the spectrum.
+/// Degrees of freedom of the noise levels: lines of the upper half of the spectrum in records at
+/// rest.
 double noise_degrees(const Experiment& experiment) {
   double lines = 0.;
   for (const PreparedRecord& record : experiment.records)
     lines += kind_of(record) == "rest"
                  ? static_cast<double>(record.n_bins())
                  : (record.periodic ? static_cast<double>(record.n_acceleration_noise) : 0.);
-  // Without any such line the level is a guess of a factor of two.
+  // Without such lines the level is uncertain by a factor of two.
   return std::max(lines, 8.);
 }
 
-/// Edges of third octaves up to half the largest rate, none narrower than the bins allow.
+/// Edges of third-octave bands up to half the largest sampling rate; bands are not narrower than
+/// the bins allow.
 std::vector<double> band_edges_hz(const Experiment& experiment) {
   double nyquist_hz = 0., bin_hz = 0.;
   for (const PreparedRecord& record : experiment.records) {

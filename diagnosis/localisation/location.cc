@@ -22,7 +22,7 @@ Location locate_gap(const Experiment& experiment) {
   out.present_at_rest = rest.coloured;
   out.p_value = rest.p_value;
   for (const ChannelGap& channel : out.map) out.p_value = std::min(out.p_value, channel.p_value);
-  out.p_value = std::min(1., 2. * out.p_value);  // bands, and presence at rest
+  out.p_value = std::min(1., 2. * out.p_value);  // two kinds of tests: bands, and presence at rest
   out.bands_hz = merged_bands(out.map);
   out.mode = nearest_mode(experiment.nominal, out.map);
   out.channels = gap_channels(out.map, out.present_at_rest);
@@ -56,18 +56,20 @@ std::vector<std::string> likely_links(const SearchResult& result) {
 }
 
 std::string location_sentence(const Location& location) {
-  if (location.channels.empty()) return "No gap beyond noise.";
+  if (location.channels.empty()) return "No gap larger than noise.";
   std::ostringstream text;
   text.precision(3);
-  text << "The gap shows ";
+  text << "The gap appears ";
   std::vector<std::string> when;
   for (const std::string& channel : location.channels)
     when.push_back(channel == "rest"      ? "at rest"
-                   : channel == "product" ? "only when base and wind act together"
+                   : channel == "product" ? "only when base motion and wind act together"
+                   : channel == "base"    ? "under base motion"
                                           : "under " + channel);
   text << joined(when, ", ");
   if (!location.bands_hz.empty())
-    text << ", " << location.bands_hz.front()[0] << ".." << location.bands_hz.back()[1] << " Hz";
+    text << ", at " << location.bands_hz.front()[0] << " to " << location.bands_hz.back()[1]
+         << " Hz";
   if (location.mode) text << ", strongest near mode " << *location.mode;
   if (location.level_exponent && *location.level_exponent != 0.)
     text << ", grows as level^" << *location.level_exponent;
@@ -75,7 +77,7 @@ std::string location_sentence(const Location& location) {
     text << ", with "
          << (location.harmonics == Harmonics::both ? "odd and even" : to_string(location.harmonics))
          << " distortion";
-  if (location.varies_in_time) text << ", changes in time";
+  if (location.varies_in_time) text << ", changes over time";
   text << ".";
   return text.str();
 }

@@ -12,38 +12,38 @@
 
 namespace vibrissa::diagnosis {
 
-/// Where the gap lies, without any hypothesis about its cause.
+/// Location of the gap, without any hypothesis about its cause.
 struct Location {
-  double p_value = 1.;  // of the gap: its most significant band or its presence at rest
+  double p_value = 1.;  // of the most significant band or of the presence at rest
   std::vector<ChannelGap> map{};
   std::vector<LevelGap> by_level{};  // empty with one level only
   std::vector<GapInTime> in_time{};
-  std::vector<std::array<double, 2>> bands_hz{};  // significant neighbours merged
+  std::vector<std::array<double, 2>> bands_hz{};  // significant neighbouring bands merged
   std::optional<std::size_t> mode{};              // from 1, in ascending frequency
-  /// The relative gap grows as level^n; nothing when there is one level only or no gap under base
-  /// motion. 0 where it does not differ from 0.
+  /// Exponent n of the relative gap, which grows as level^n; nothing when there is one level only
+  /// or no gap under base motion. 0 where it does not differ significantly from 0.
   std::optional<double> level_exponent{};
   double level_exponent_deviation = 0.;
-  std::vector<std::string> channels{};  // of base, wind, product, rest
+  std::vector<std::string> channels{};  // base, wind, product (both), rest
   Harmonics harmonics = Harmonics::none;
   bool varies_in_time = false;
   bool present_at_rest = false;
-  std::vector<std::string> links{};  // likeliest first; from likely_links
+  std::vector<std::string> links{};  // most probable first; from likely_links
 };
 
 /// Error of the nominal model on the fit records, whitened with the noise of both channels, by
 /// third-octave band and kind of record; parity at lines of periodic records that are not excited;
-/// trend of gain and phase over time; colour and lines of records at rest. A statement is made when
-/// its p-value, corrected for all tests of its kind, is below 0.01 (distortion: 0.001).
+/// trend of gain and phase over time; colour and lines of records at rest. A property is reported
+/// when its p-value, corrected for all tests of its kind, is below 0.01 (distortion: 0.001).
 /// experiment: Split::fit, InputNoise::reduced. Proven by
 /// tests/diagnosis/localisation/location_test.cc.
 Location locate_gap(const Experiment& experiment);
 
-/// Links of the effects named by the candidates, by the sum of their probabilities; above 0.1. None
-/// where nothing is the likeliest.
+/// Links of the candidates' effects, sorted by the sum of the probabilities; only sums above 0.1.
+/// Empty where "none" is most probable.
 std::vector<std::string> likely_links(const SearchResult& result);
 
-/// One sentence in words.
+/// The location as one sentence.
 std::string location_sentence(const Location& location);
 
 }  // namespace vibrissa::diagnosis

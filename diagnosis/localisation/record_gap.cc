@@ -12,7 +12,8 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Power of white noise from the median of the upper half, where slow drift does not reach.
+/// Power of white noise from the median of the upper half of the spectrum, which contains no slow
+/// drift.
 double white_power(const std::vector<double>& power) {
   std::vector<double> upper(power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2),
                             power.end());

@@ -8,35 +8,35 @@
 
 namespace vibrissa::diagnosis {
 
-/// Bound of p-values, corrected for all tests of a kind, below which a statement about the gap is
-/// made.
+/// Significance level: a property of the gap is reported when its corrected p-value is below this.
 inline constexpr double significant_gap = 0.01;
-/// Fewest bins of a band: below it the variance ratio's tail is a guess.
+/// Fewest bins of a band; with fewer the tail of the variance ratio is inaccurate.
 inline constexpr std::size_t fewest_band_bins = 6;
 
-/// base, wind, product (both) or rest.
+/// Kind of a record: base, wind, product (both) or rest.
 std::string kind_of(const PreparedRecord& record);
 
-/// What records at rest hold beside white noise.
+/// Coloured noise and lines of the records at rest.
 struct RestNoise {
   bool coloured = false;
   double p_value = 1.;
   double bin_hz = 1.;
-  std::vector<double> excess{};    // at least 1: power of the bins, smoothed, over white noise
+  std::vector<double>
+      excess{};  // smoothed power of the bins divided by that of white noise, at least 1
   std::vector<double> lines_hz{};  // single lines
 };
 RestNoise rest_noise(const Experiment& experiment);
-/// Does a line that is there at rest fall on this bin?
+/// Does this bin contain a line that also exists at rest?
 bool on_rest_line(const RestNoise& rest, const PreparedRecord& record, std::size_t b);
 
-/// Error of the nominal model in one record, and its variance by the noise of both channels, of
-/// rest and by what the model cannot follow of its own simulation.
+/// Error of the nominal model in one record, and its variance: noise of both channels, coloured
+/// noise at rest, and misfit of the nominal model to the simulation.
 struct RecordGap {
   const PreparedRecord* record = nullptr;
   std::vector<Complex> predicted{}, error{};
   std::vector<double> variance{};
 };
-/// Rms of the measured base acceleration over the record [m/s^2].
+/// Rms of the measured base acceleration of the record [m/s^2].
 double base_level_m_s2(const PreparedRecord& record);
 
 RecordGap gap_of(const Experiment& experiment, const PreparedRecord& record, const RestNoise& rest);

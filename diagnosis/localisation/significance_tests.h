@@ -8,11 +8,12 @@ namespace vibrissa::diagnosis {
 double normal_tail(double z);
 
 /// P(F > ratio) for a ratio of two mean squares with n_over and n_under degrees of freedom, by
-/// Paulson's (1942) cube-root form; good to a few percent of the tail from five degrees on.
+/// Paulson's (1942) cube-root approximation; the tail is accurate to a few percent for five and
+/// more degrees of freedom.
 double variance_ratio_tail(double ratio, double n_over, double n_under);
 
-/// Holm's (1979) step-down correction: what each p-value is worth among all of them, in their
-/// order. Proven by tests/diagnosis/localisation/significance_tests_test.cc.
+/// p-values with Holm's (1979) step-down correction for multiple tests, in the given order. Proven
+/// by tests/diagnosis/localisation/significance_tests_test.cc.
 std::vector<double> holm_corrected(const std::vector<double>& p_values);
 
 }  // namespace vibrissa::diagnosis

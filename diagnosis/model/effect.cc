@@ -68,7 +68,8 @@ double Prior::curvature(const double x) const {
       return 1. / (scale * scale);
     case Kind::student:
       return (student_dof + 1.) / (student_dof + z * z) / (scale * scale);
-    // The Gaussian of the same variance, so that no parameter is ever known worse than before.
+    // Curvature of the Gaussian with the same variance, so that the posterior is never wider than
+    // the prior.
     case Kind::uniform:
       return 12. / ((high - low) * (high - low));
   }
@@ -147,7 +148,7 @@ Chain probe(const Effect& effect, const NominalModel& structure) {
 
 bool is_nonlinear(const Effect& effect) {
   const Chain chain = probe(effect);
-  // Samples that are taken twice fold lines onto others.
+  // Sample-and-hold repeats alias lines onto others.
   const bool folds = chain.new_sample_share > 0.;
   return !chain.joint.empty() || !chain.readout.empty() || chain.relative_wind.on || folds;
 }

@@ -10,14 +10,14 @@ namespace vibrissa::diagnosis {
 /// The calibration effects that are free in every hypothesis: stiffness, damping, gains and drag.
 const std::vector<std::string>& nuisance_ids();
 
-/// A set of effects that together may explain the gap, beside the nuisances. Sorted by id.
+/// A set of effects that together may explain the gap, in addition to the nuisances. Sorted by id.
 class Hypothesis {
  public:
   Hypothesis() = default;
   explicit Hypothesis(std::vector<const Effect*> effects);
 
-  /// No physics: errors of unknown course, in proportion to the moment, their level free in each of
-  /// a few bands. Its name is outside_catalogue.
+  /// A discrepancy without physics: random errors proportional to the moment, with a free level in
+  /// each of a few bands. Its name is outside_catalogue.
   static Hypothesis discrepancy();
 
   const std::vector<const Effect*>& effects() const { return effects_; }
@@ -34,15 +34,15 @@ class Hypothesis {
 };
 
 inline const std::string outside_catalogue = "outside_catalogue";
-/// An unknown effect is as likely as one of the known ones.
+/// An unknown effect is as probable as each of the known ones.
 constexpr double log_prior_of_outside_catalogue = -4.;
-/// Of naming these n of n_known effects: how many there are, and that it is just these. Each
-/// beyond three costs as much again.
+/// Log prior of naming n of n_known effects: of the number n, and of this selection. Each effect
+/// beyond three costs the same again.
 double log_prior_of_number(std::size_t n, std::size_t n_known);
 
 /// Ids in alphabetical order joined by '+'; "none" for none.
 std::string joined_name(std::vector<std::string> ids);
-/// The reverse: ids of "a+b"; none for "none".
+/// The inverse: ids of "a+b"; empty for "none".
 std::vector<std::string> effect_ids(const std::string& name);
 
 }  // namespace vibrissa::diagnosis

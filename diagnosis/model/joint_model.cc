@@ -7,8 +7,8 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// The integrator keeps the joint's elastic moment as a state of its own: it needs a little
-/// flexibility of the whisker and a little loss in the joint.
+/// The integrator has the joint's elastic moment as a state, so the whisker needs some flexibility
+/// and the joint some loss.
 constexpr double most_share = 0.9999, least_loss = 1e-3;
 
 JointModel made_dynamic(JointModel model) {

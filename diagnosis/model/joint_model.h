@@ -7,9 +7,9 @@
 
 namespace vibrissa::diagnosis {
 
-/// The first mode as a joint in series with an elastic whisker that carries all inertia:
-///   joint    M = y + (rho / w) y' + T          (y = k phi its elastic moment, T what is added to
-///   it) whisker  theta = p y + (1 - p) M           (rotations in units of the static compliance)
+/// The first mode as a joint in series with an elastic whisker that has all the inertia:
+///   joint    M = y + (rho / w) y' + T          (y = k phi elastic moment, T additional moment)
+///   whisker  theta = p y + (1 - p) M           (rotations in units of the static compliance)
 ///   inertia  theta'' + 2 z w theta' = w^2 (M_ext - M)
 /// p: share of the joint in the compliance. The mode's damping ratio is zeta = z + p rho / 2; the
 /// share of the joint in it follows from the viscous part of the base moment, base_rate / base_gain
@@ -21,39 +21,39 @@ struct JointModel {
   double damping = 0.;  // z
   JointChange change{};
 
-  /// viscous_ratio: NominalModel::joint_viscous_ratio times what is believed of it.
+  /// viscous_ratio: NominalModel::joint_viscous_ratio times the joint loss factor.
   JointModel(const StructuralMode& mode, double joint_share, double viscous_ratio,
              const JointChange& change = {});
 
-  /// Moment of inertia over w^2 theta. The poles are where its product with the compliance of joint
-  /// and whisker in series, share / stiffness_ratio + 1 - share, is -1.
+  /// Inertial moment divided by w^2 theta. The poles are where its product with the compliance of
+  /// joint and whisker in series, share / stiffness_ratio + 1 - share, is -1.
   Complex inertia(Complex s) const {
     const Complex x = s / frequency_rad_s;
     return x * x + 2. * damping * x;
   }
-  /// With its factors changed.
+  /// The same model with changed factors.
   Complex changed_inertia(Complex s) const {
     const Complex x = s / frequency_rad_s;
     return change.inertia * (x * x + 2. * change.rest_damping * damping * x);
   }
-  /// With the factors of spring and damper, over the nominal elastic moment.
+  /// With the factors of spring and damper, relative to the nominal elastic moment.
   Complex changed_stiffness_ratio(Complex s) const {
     return change.spring + change.damper * (loss * s / frequency_rad_s);
   }
-  /// Viscous and elastic moment of the joint over its elastic one, 1 + rho s / w.
+  /// Total moment of the joint's spring and damper divided by the elastic one, 1 + rho s / w.
   Complex stiffness_ratio(Complex s) const { return 1. + loss * s / frequency_rad_s; }
 };
 
 /// The joint model of a chain's first mode; nothing without a mode.
 std::optional<JointModel> joint_of(const Chain& chain);
 
-/// Exact step of the joint model, with its factors, for T and M_ext that run linearly over it, from
-/// rest; a lane for each record.
+/// Exact time step of the joint model with its factors, for T and M_ext that are linear over the
+/// step, starting from rest; one lane per record.
 class JointIntegrator {
  public:
   JointIntegrator(const JointModel& model, double dt);
 
-  /// Of the joint's elastic moment and its rate, when T and M_ext are so at the end of a step.
+  /// Joint's elastic moment and its rate for given T and M_ext at the end of a step.
   Lanes elastic(const Lanes& torque, const Lanes& external) const {
     return free_.y + torque_new_(2) * torque + external_new_(2) * external;
   }
@@ -61,16 +61,16 @@ class JointIntegrator {
     return free_.rate + torque_rate_ * torque + external_rate_ * external;
   }
   struct AtBase {
-    Lanes moment, elastic;  // whole, and the joint's elastic one
+    Lanes moment, elastic;  // total, and the joint's elastic one
   };
-  /// Takes the step; returns what is at its end.
+  /// Makes the step; returns the moments at its end.
   AtBase accept(const Lanes& torque, const Lanes& external);
 
  private:
   double rate(const Eigen::Vector3d& state) const;
 
   double share_, rest_, rate_factor_, spring_;  // p, 1 / (1 - p), w / rho
-  // Of the state (theta, theta' in steps, y).
+  // State (theta, theta' per step, y).
   Eigen::Matrix3d transition_;
   Eigen::Vector3d torque_old_, torque_new_, external_old_, external_new_;
   double torque_rate_, external_rate_;

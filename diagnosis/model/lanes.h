@@ -5,11 +5,11 @@
 
 namespace vibrissa::diagnosis {
 
-/// One value for each of the records that are integrated side by side.
+/// One value for each of the records that are integrated in parallel (SIMD).
 using Lanes = Eigen::Array<double, 8, 1>;
 
-/// Lane by lane: then where test is negative, otherwise elsewhere, where test is no number too.
-/// Neither Eigen's select nor a loop is made one instruction; the compiler's own vectors are.
+/// Lane by lane: then where test is negative, otherwise elsewhere (also where test is NaN). Written
+/// with compiler vectors, because Eigen's select and a loop are not compiled to one instruction.
 /// Proven by tests/diagnosis/model/lanes_test.cc.
 inline Lanes where_negative(const Lanes& test, const Lanes& then, const Lanes& otherwise) {
   using Vector = double __attribute__((vector_size(sizeof(Lanes))));

@@ -5,7 +5,7 @@
 
 namespace vibrissa::diagnosis {
 
-/// Does work(0) .. work(n - 1) on up to n_threads threads; the first exception is thrown again.
+/// Calls work(0) .. work(n - 1) on up to n_threads threads; rethrows the first exception.
 void for_each_parallel(std::size_t n, std::size_t n_threads,
                        const std::function<void(std::size_t)>& work);
 

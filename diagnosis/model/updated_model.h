@@ -8,26 +8,27 @@
 
 namespace vibrissa::diagnosis {
 
-/// An effect of the catalogue with its parameters' values, and the magnitudes of the experiment
-/// that they were found in.
+/// An effect of the catalogue with its parameter values, and the reference values of the experiment
+/// in which they were estimated.
 struct KnownEffect {
   std::string id{};
-  std::vector<double> values{};  // of every parameter
+  std::vector<double> values{};  // one per parameter
   Scales scales{};
 };
 
-/// A simulation with what an earlier diagnosis has found: the nominal model and the effects that
-/// are known to be there, calibrations among them, in the order in which they extend it. A nominal
-/// model is one without effects. Proven by tests/diagnosis/model/updated_model_test.cc.
+/// A simulation updated by an earlier diagnosis: the nominal model and its known effects (also
+/// calibration effects), in the order in which they extend it. A nominal model is an updated model
+/// without effects. Proven by tests/diagnosis/model/updated_model_test.cc.
 struct UpdatedModel {
   NominalModel nominal{};
   std::vector<KnownEffect> effects{};
 
   UpdatedModel() = default;
-  UpdatedModel(NominalModel model, std::vector<KnownEffect> known = {})  // NOLINT: meant to convert
+  UpdatedModel(NominalModel model,
+               std::vector<KnownEffect> known = {})  // NOLINT: implicit on purpose
       : nominal(std::move(model)), effects(std::move(known)) {}
 
-  /// Throws UserError for an effect that the catalogue has not.
+  /// Throws UserError for an effect that is not in the catalogue.
   Chain chain() const;
 };
 

@@ -52,14 +52,14 @@ json to_json(const ParameterPath& path) {
 }
 
 ParameterPath read_path(const JsonEntry& entry, const std::size_t n_modes) {
-  const auto fit_parameters = [&](const std::string& name) {
+  const auto exponents = [&](const std::string& name) {
     std::vector<double> values = entry[name].numbers();
     entry[name].require(values.size() == n_modes, "must have a number for each mode");
     return values;
   };
-  return {.frequency = fit_parameters("frequency"),
-          .base_gain = fit_parameters("base_gain"),
-          .wind_gain = fit_parameters("wind_gain"),
+  return {.frequency = exponents("frequency"),
+          .base_gain = exponents("base_gain"),
+          .wind_gain = exponents("wind_gain"),
           .static_base_moment = entry["static_base_moment"].number(),
           .static_wind_moment = entry["static_wind_moment"].number()};
 }
@@ -70,7 +70,7 @@ DragCurve read_drag_curve(const JsonEntry& entry) {
                           "must have a number for each speed");
   entry["speed_m_s"].require(
       std::ranges::adjacent_find(curve.speed_m_s, std::greater_equal()) == curve.speed_m_s.end(),
-      "must ascend");
+      "must be in ascending order");
   return curve;
 }
 
@@ -146,11 +146,12 @@ json to_json(const KnownEffect& known) {
 }
 
 double read_value(const JsonEntry& entry, const Parameter& parameter) {
-  entry["name"].require(entry["name"].text() == parameter.name,
-                        "must be \"" + parameter.name + "\", as the catalogue orders them");
+  entry["name"].require(
+      entry["name"].text() == parameter.name,
+      "must be \"" + parameter.name + "\": parameters are in the order of the catalogue");
   const double value = entry["value"].number(), low = parameter.value(parameter.prior.low),
                high = parameter.value(parameter.prior.high);
-  // A bound that went through a logarithm is a bound still.
+  // Tolerance for a bound that was transformed by a logarithm and back.
   const double rounding = 1e-12 * (std::abs(low) + std::abs(high));
   entry["value"].require(value >= low - rounding && value <= high + rounding,
                          "must lie in " + signals::to_text(low) + " .. " + signals::to_text(high));

@@ -3,6 +3,21 @@
 #include <sstream>
 
 namespace vibrissa::diagnosis {
+namespace {
+
+std::string with_decimals(const double value, const int most_decimals) {
+  std::ostringstream stream;
+  stream.precision(most_decimals);
+  stream << std::fixed << value;
+  std::string text = stream.str();
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+}  // namespace
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator) {
   std::string text;
@@ -17,11 +32,12 @@ std::string three_digits(const double value) {
   return stream.str();
 }
 
+std::string one_decimal(const double value) {
+  return with_decimals(value, 1);
+}
+
 std::string percent(const double share) {
-  std::ostringstream stream;
-  stream.precision(share > 0.1 ? 0 : 1);
-  stream << std::fixed << 100. * share << " %";
-  return stream.str();
+  return with_decimals(100. * share, share > 0.1 ? 0 : 1) + " %";
 }
 
 std::vector<std::string> wrapped(const std::string& line, const std::size_t most_lines) {

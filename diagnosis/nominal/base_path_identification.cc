@@ -18,9 +18,9 @@ using separation::Bvrm;
 namespace channel = signals::channel;
 
 constexpr std::size_t max_order = 6;
-/// A pair of poles more must lower the misfit to this share.
+/// A further pair of poles must lower the misfit to this share.
 constexpr double worthwhile = 0.5;
-/// Below it a record in six digits, of which the start is only nearly forgotten, says no more.
+/// Lowest useful misfit, given records with six digits and remaining transients.
 constexpr double exact_misfit = 3e-4;
 
 struct PathCandidate {
@@ -37,8 +37,8 @@ signals::FrequencyResponse base_response_of(const signals::DatasetRecord& entry)
   return signals::welch_response(a, m, rate, {std::min<std::size_t>(2048, a.size() / 4)});
 }
 
-/// Lines of several records, each line from the first record that has it and weighted by the size
-/// of its response: a simulation's error is in proportion to it.
+/// Lines of several records. Each line is taken from the first record that has it, and weighted by
+/// the size of its response, because a simulation's error is proportional to it.
 signals::FrequencyResponse joined_response(const Entries& entries) {
   std::map<double, Complex> lines;
   for (const signals::DatasetRecord* entry : entries) {
@@ -65,7 +65,7 @@ double relative_misfit(const Bvrm& model, const signals::FrequencyResponse& resp
   return std::sqrt(sum / static_cast<double>(fitted.size()));
 }
 
-/// The one real gain of a simulation without dynamics of its own; nothing where it has some.
+/// The real gain of a simulation without dynamics; nothing when it has dynamics.
 std::optional<double> flat_gain(const signals::FrequencyResponse& response) {
   constexpr double flat = 1e-4;
   const double n = static_cast<double>(response.value.size());
@@ -76,7 +76,7 @@ std::optional<double> flat_gain(const signals::FrequencyResponse& response) {
   return gain;
 }
 
-/// Records of the rate that the first one has.
+/// Records with the sampling rate of the first one.
 std::vector<separation::Segment> segments_of(const Entries& entries) {
   std::vector<separation::Segment> segments;
   for (const signals::DatasetRecord* entry : entries)
@@ -95,7 +95,7 @@ double mean_square_moment(std::span<const separation::Segment> segments) {
   return sum / n;
 }
 
-/// Welch's window widens a resonance; the records themselves do not.
+/// Welch's window widens a resonance, so the fit continues with the records themselves.
 std::optional<PathCandidate> refined(const Bvrm& start, const Entries& entries) {
   const std::vector<separation::Segment> segments = segments_of(entries);
   try {
@@ -105,7 +105,7 @@ std::optional<PathCandidate> refined(const Bvrm& start, const Entries& entries) 
     return PathCandidate{fit.model,
                          std::sqrt(fit.residual_variance / mean_square_moment(segments))};
   } catch (const signals::UserError&) {
-    return std::nullopt;  // an order too high for these records
+    return std::nullopt;  // the order is too high for these records
   }
 }
 
@@ -130,7 +130,7 @@ void set_modes(NominalModel& model, const Bvrm& found) {
                            .base_gain = term.b0 / term.a0,
                            .base_rate = term.b1 / w});
   }
-  // Joint laws act on the strongest mode of the band: it goes first.
+  // Joint laws act on the strongest mode of the band, so it comes first.
   std::sort(model.modes.begin(), model.modes.end(),
             [](const StructuralMode& a, const StructuralMode& b) {
               return std::abs(a.base_gain) > std::abs(b.base_gain);

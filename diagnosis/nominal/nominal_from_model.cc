@@ -15,7 +15,8 @@ double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// A mode that moves the moment less than this share of the strongest is of the other plane.
+/// A mode with less influence on the moment than this share of the strongest one belongs to the
+/// other plane.
 constexpr double other_plane = 1e-6;
 constexpr double usual_wind_m_s = 2.;
 
@@ -36,7 +37,8 @@ void set_joint_share(NominalModel& nominal, const signals::ReducedModel& model, 
     }
 }
 
-/// Of the static moment; all modes are taken to follow it. Nothing where the coefficient is one.
+/// Drag curve from the static moment, assumed for all modes. Empty when the drag coefficient is
+/// constant.
 DragCurve drag_curve(const signals::ReducedModel& model, const std::size_t usual) {
   constexpr double constant_within = 1e-4;
   const Vector axis = model.moment_axis();
@@ -49,7 +51,7 @@ DragCurve drag_curve(const signals::ReducedModel& model, const std::size_t usual
   return curve;
 }
 
-/// Of the modes with these numbers.
+/// Sensitivities of the modes with these numbers.
 void set_paths(NominalModel& nominal, const signals::ReducedModel& model,
                const std::vector<std::size_t>& numbers) {
   for (const signals::Sensitivity& sensitivity : model.sensitivities) {
@@ -101,7 +103,7 @@ NominalModel nominal_from(const signals::ReducedModel& model) {
   std::sort(numbers.begin(), numbers.end(), stronger);
   if (numbers.empty() || nominal.modes[numbers.front()].base_gain == 0.)
     throw signals::UserError("model '" + model.name +
-                             "': no mode is moved by base acceleration along its axial direction");
+                             "': base acceleration along the axial direction excites no mode");
   set_joint_share(nominal, model, numbers.front());
   const double strongest = std::abs(nominal.modes[numbers.front()].base_gain);
   std::erase_if(numbers, [&](const std::size_t k) {

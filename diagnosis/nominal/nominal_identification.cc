@@ -90,7 +90,7 @@ void set_wind_path(NominalModel& model, const signals::Dataset& simulation) {
   without.has_wind = true;
   const Experiment experiment =
       prepare_experiment(without, dataset, signals::Split::fit, InputNoise::as_measured);
-  // Only modes whose wind response the records move can be told; the rest is in the direct term.
+  // Only modes that the records excite by wind can be identified; the rest is in the direct term.
   NominalModel in_band = model;
   in_band.modes.resize(1);
   const Eigen::Index n_unknowns = 3;
@@ -118,7 +118,7 @@ void set_wind_path(NominalModel& model, const signals::Dataset& simulation) {
   model.has_wind = true;
 }
 
-/// One model predicts one kind of reading.
+/// All records must have the same readout, because a model predicts one kind of reading.
 signals::Readout readout_of(const signals::Dataset& simulation) {
   if (simulation.records.empty()) return signals::Readout::moment;
   const DatasetRecord& first = simulation.records.front();

@@ -5,11 +5,11 @@
 
 namespace vibrissa::diagnosis {
 
-/// The nominal model that a simulation's records say: base path by identify_base_path(),
-/// wind path by linear least squares on the poles found. Base records without wind, wind records
-/// without base motion are used; combined ones when there are no others; none of a bench that was
-/// changed. Throws UserError when no record determines either path, or when they differ in their
-/// readout. Proven by tests/diagnosis/nominal/nominal_identification_test.cc.
+/// The nominal model from a simulation's records: base path by identify_base_path(), wind path by
+/// linear least squares with the identified poles. Uses base records without wind and wind records
+/// without base motion; combined records only when there are no others; no records with a changed
+/// setup. Throws UserError when no record determines either path, or when the readouts differ.
+/// Proven by tests/diagnosis/nominal/nominal_identification_test.cc.
 NominalModel identify_nominal(const signals::Dataset& simulation);
 
 }  // namespace vibrissa::diagnosis

@@ -14,10 +14,10 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A form error hides no more than this share of what an effect is found by.
+/// A model form error hides at most this share of the nats by which an effect is detected.
 constexpr double most_share = 0.25;
 
-/// A small version of one start.
+/// A small change in the direction of one start.
 struct FaintStart {
   Eigen::VectorXd change;
   bool of_variance = false;  // grows with the square of the share
@@ -25,14 +25,14 @@ struct FaintStart {
 
 struct StudiedEffect {
   const Effect* effect = nullptr;
-  std::vector<EffectFamily> families{};  // one a start
+  std::vector<EffectFamily> families{};  // one per start
   Eigen::VectorXd change{};              // at typical strength
-  std::vector<FaintStart> faint{};       // one a start
-  std::size_t first_column = 0;          // of them among the directions
+  std::vector<FaintStart> faint{};       // one per start
+  std::size_t first_column = 0;          // of faint among the directions
   EffectPower power{};
 };
 
-/// Could the alternative be taken for the effect, on such a sensor?
+/// May the effect be mistaken for the alternative on a sensor of this kind?
 struct OpenPair {
   std::size_t effect = 0, alternative = 0;
   SensorKind kind = SensorKind::exact;
@@ -60,11 +60,11 @@ std::string word_of(Lack lack) {
     case Lack::cross:
       return "transverse acceleration";
     case Lack::repeats:
-      return "an accelerometer that is polled";
+      return "an accelerometer that repeats samples";
     case Lack::modes:
       return "a simulation with dynamics";
     case Lack::duration:
-      return "more seconds of motion";
+      return "longer records of motion";
   }
   return "";
 }
@@ -125,7 +125,7 @@ class PowerStudy {
     return nullptr;
   }
 
-  /// Sets what is found and, when asked for, from which size on.
+  /// Sets whether the effect is detected and, when asked for, from which size on.
   void find(StudiedEffect& effect) {
     if (effect.power.shown) {
       if (!is_settled(effect))
@@ -133,10 +133,10 @@ class PowerStudy {
       for (const SensorKind kind : sensor_kinds) {
         Detectability& detectability = effect.power.on(kind);
         const EffectPower* before = known(effect.effect->id);
-        detectability.nats = before != nullptr && before->on(kind).found
+        detectability.nats = before != nullptr && before->on(kind).detected
                                  ? before->on(kind).nats
                                  : nats_of(effect, effect.change, kind);
-        detectability.found = detectability.nats >= detection_threshold_nats;
+        detectability.detected = detectability.nats >= detection_threshold_nats;
         if (options_.limits) set_limit(effect, kind);
       }
     }
@@ -144,7 +144,7 @@ class PowerStudy {
     if (options_.on_effect) options_.on_effect();
   }
 
-  /// Found before, and told from all that is shown now.
+  /// Detected with fewer records already, and distinguished from all effects that are shown now.
   bool is_settled(const StudiedEffect& effect) const {
     return std::all_of(sensor_kinds.begin(), sensor_kinds.end(), [&](SensorKind kind) {
       return std::all_of(effects_.begin(), effects_.end(), [&](const StudiedEffect& alternative) {
@@ -158,7 +158,7 @@ class PowerStudy {
     return point_.change(point_.x(), effect, family.values(share));
   }
 
-  /// Parameters that are free besides the given effects.
+  /// Parameters that are free beside the given effects.
   std::vector<std::size_t> free_parameters(SensorKind kind, const Effect* effect,
                                            const Effect* alternative = nullptr) const {
     std::vector<std::size_t> free;
@@ -172,13 +172,13 @@ class PowerStudy {
 
   double nats_of(const StudiedEffect& effect, const Eigen::VectorXd& change,
                  SensorKind kind) const {
-    // Too strong to be predicted.
+    // The effect is too strong to be predicted.
     if (!change.allFinite()) return std::numeric_limits<double>::infinity();
     return project(point_, change, free_parameters(kind, effect.effect)).left +
            std::max(0., point_.changes().beyond_square(change));
   }
 
-  /// Secant steps in logarithms: nats grow as some power of the size.
+  /// Secant steps in logarithms, because nats grow as a power of the size.
   void set_limit(StudiedEffect& effect, SensorKind kind) {
     constexpr double least_exponent = 0.5, largest_exponent = 6., near = 0.25, smallest = 1e-6;
     constexpr int n_steps = 12;
@@ -222,13 +222,13 @@ class PowerStudy {
     return chain;
   }
 
-  /// Effects that are found, and what is not known to be different.
+  /// Pairs of a detected effect and an alternative that may not be distinguished from it.
   std::vector<OpenPair> open_pairs() const {
     std::vector<OpenPair> out;
     for (const SensorKind kind : sensor_kinds)
       for (std::size_t i = 0; i < effects_.size(); ++i)
         for (std::size_t j = 0; j < effects_.size(); ++j)
-          if (j != i && effects_[i].power.on(kind).found && effects_[j].power.shown &&
+          if (j != i && effects_[i].power.on(kind).detected && effects_[j].power.shown &&
               !known_different(effects_[i], effects_[j], kind))
             out.push_back({i, j, kind});
     return out;
@@ -237,7 +237,7 @@ class PowerStudy {
   bool known_different(const StudiedEffect& effect, const StudiedEffect& alternative,
                        SensorKind kind) const {
     const EffectPower *one = known(effect.effect->id), *other = known(alternative.effect->id);
-    return one != nullptr && other != nullptr && one->on(kind).found && other->shown &&
+    return one != nullptr && other != nullptr && one->on(kind).detected && other->shown &&
            !contains(one->on(kind).alike, other->effect);
   }
 
@@ -246,7 +246,8 @@ class PowerStudy {
     if (!effect.change.allFinite()) return false;
     const std::vector<std::size_t> free =
         free_parameters(pair.kind, effect.effect, alternative.effect);
-    // Where the alternative's directions leave this much, its curvature does not explain it either.
+    // When the alternative's directions leave this much, its curvature does not explain the rest
+    // either.
     constexpr double hopeless = 0.05;
     if (left_by_directions(effect, alternative, free) >
         std::max(nats_to_tell_apart, hopeless * effect.change.squaredNorm()))
@@ -261,7 +262,7 @@ class PowerStudy {
     return following.left < std::max(nats_to_tell_apart, hidden);
   }
 
-  /// All parameters and all starts of the effects that take part, as directions.
+  /// All parameters and all starts of the effects that take part in pairs, as directions.
   void set_directions() {
     std::vector<Eigen::VectorXd> columns = point_.columns();
     std::vector<double> half_priors;
@@ -278,8 +279,8 @@ class PowerStudy {
     directions_ = FisherDirections(columns, half_priors);
   }
 
-  /// Of the effect's direction at its typical energy, when all of the alternative's directions
-  /// follow it.
+  /// Nats of the effect's direction, at its typical energy, that remain when all directions of the
+  /// alternative follow it.
   double left_by_directions(const StudiedEffect& effect, const StudiedEffect& alternative,
                             const std::vector<std::size_t>& free) const {
     std::vector<bool> chosen(static_cast<std::size_t>(directions_.columns().cols()), false);
@@ -290,7 +291,7 @@ class PowerStudy {
                                effect.change.squaredNorm(), chosen);
   }
 
-  /// The alternative at the start and size that follow a change best.
+  /// The alternative at the start and size that follow the change best.
   std::optional<Alternative> nearest(const Eigen::VectorXd& change,
                                      const StudiedEffect& alternative) const {
     std::optional<Alternative> best;

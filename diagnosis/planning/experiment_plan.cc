@@ -41,7 +41,7 @@ void set_gain(PlannedStep& step, const std::vector<EffectPower>& before,
   Pairs separates;
   for (const SensorKind kind : sensor_kinds) {
     for (std::size_t i = 0; i < before.size(); ++i)
-      if (after[i].on(kind).found && !before[i].on(kind).found) finds.insert(after[i].effect);
+      if (after[i].on(kind).detected && !before[i].on(kind).detected) finds.insert(after[i].effect);
     const Pairs left = alike_pairs(after, kind);
     for (const auto& pair : alike_pairs(before, kind))
       if (left.count(pair) == 0) separates.insert(pair);
@@ -51,7 +51,7 @@ void set_gain(PlannedStep& step, const std::vector<EffectPower>& before,
   step.gain = undecided_probability(before) - undecided_probability(after);
 }
 
-/// What is left alike when everything is seen that the entry's table says.
+/// The effects that remain alike when the bench sees all that the menu entry lists.
 std::vector<EffectPower> by_table(const MenuEntry& entry, std::vector<EffectPower> effects) {
   const auto differs = [&](const std::string& a, const std::string& b) {
     const auto one = entry.shows.find(a), other = entry.shows.find(b);
@@ -129,7 +129,7 @@ void check_noise(const ChannelNoise& noise) {
   const auto refuse = [](double value, const std::string& name) {
     if (!std::isfinite(value) || value <= 0.)
       throw signals::UserError(name + " is " + signals::to_text(value) +
-                               "; give the standard deviation of a sample, more than 0");
+                               "; give the standard deviation per sample, a positive number");
   };
   refuse(noise.moment_n_m, "the noise of the moment");
   refuse(noise.acceleration_m_s2, "the noise of the acceleration");
@@ -160,7 +160,7 @@ double undecided_probability(const std::vector<EffectPower>& effects) {
       double alternatives = 0.;
       for (const std::string& alternative : effect.on(kind).alike)
         alternatives += weight(alternative);
-      undecided += effect.on(kind).found ? own * alternatives / (own + alternatives) : own;
+      undecided += effect.on(kind).detected ? own * alternatives / (own + alternatives) : own;
       all += own;
     }
   return all > 0. ? undecided / all : 0.;

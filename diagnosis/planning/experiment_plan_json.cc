@@ -16,9 +16,9 @@ using Words = std::vector<std::string>;
 json detectability_json(const EffectPower& effect, SensorKind kind) {
   const Detectability& detectability = effect.on(kind);
   return {{"nats_at_typical", effect.shown ? json_number(detectability.nats) : json(nullptr)},
-          {"found_at_typical", detectability.found},
+          {"detected_at_typical", detectability.detected},
           {"limit", detectability.limit ? json_number(*detectability.limit) : json(nullptr)},
-          {"found_at_any_size", detectability.detected_at_any_size},
+          {"detected_at_any_size", detectability.detected_at_any_size},
           {"alike", detectability.alike}};
 }
 
@@ -59,8 +59,8 @@ std::string limit_words(const EffectPower& effect) {
   return name + " " + with_unit(*detectability.limit, effect.unit);
 }
 
-/// Words with commas on lines of at most 100 characters, the last one ending in dots when there are
-/// more than so many.
+/// Words separated by commas on lines of at most 100 characters; the last line ends in dots when
+/// there are more than most_lines.
 Words filled(const std::string& head, const Words& words, std::size_t most_lines) {
   constexpr std::size_t longest = 96;
   Words lines{head};
@@ -94,24 +94,25 @@ std::string records_line(const ExperimentPlan& plan) {
   }
   Words words;
   for (const auto& [kind, n] : kinds) words.push_back(std::to_string(n) + " " + kind);
-  return "Planned: " + joined(words, ", ") + ", " + three_digits(duration_s) +
-         " s; noise a sample " + three_digits(plan.noise.moment_n_m) + " N m and " +
+  return "Planned records: " + joined(words, ", ") + "; " + three_digits(duration_s) +
+         " s in total; noise per sample " + three_digits(plan.noise.moment_n_m) + " N m and " +
          three_digits(plan.noise.acceleration_m_s2) + " m/s^2";
 }
 
-std::string found_line(const ExperimentPlan& plan) {
-  const Words found = chosen(plan, [](const EffectPower& e) { return e.as_built.found; });
+std::string detected_line(const ExperimentPlan& plan) {
+  const Words detected = chosen(plan, [](const EffectPower& e) { return e.as_built.detected; });
   const Words shown = chosen(plan, [](const EffectPower& e) { return e.shown; });
-  return "Would be found at typical strength: " + std::to_string(found.size()) + " of " +
+  return "Detected at typical strength: " + std::to_string(detected.size()) + " of " +
          std::to_string(plan.effects.size()) + " effects" +
-         (found.size() == shown.size() ? "" : "; else only from:");
+         (detected.size() == shown.size() ? "" : "; the others are detected only from:");
 }
 
-/// Effects that are shown but too weak there, with the size that they would need.
+/// Effects that are shown but too weak at typical strength, with the size from which on they are
+/// detected.
 Words too_weak(const ExperimentPlan& plan) {
   Words words;
   for (const EffectPower& effect : plan.effects)
-    if (effect.shown && !effect.as_built.found) words.push_back(limit_words(effect));
+    if (effect.shown && !effect.as_built.detected) words.push_back(limit_words(effect));
   return words;
 }
 
@@ -121,7 +122,7 @@ Words not_shown_lines(const ExperimentPlan& plan) {
     if (!effect.shown) by_need[effect.needs].push_back(effect.effect);
   Words lines;
   for (const auto& [need, ids] : by_need)
-    lines.push_back("Not shown without " + need + ": " + joined(ids, ", "));
+    lines.push_back("Not detectable without " + need + ": " + joined(ids, ", "));
   return lines;
 }
 
@@ -129,9 +130,9 @@ Words limits_lines(const ExperimentPlan& plan) {
   constexpr std::size_t most_lines = 5;
   Words words;
   for (const EffectPower& effect : plan.effects)
-    if (effect.as_built.found) words.push_back(limit_words(effect));
+    if (effect.as_built.detected) words.push_back(limit_words(effect));
   if (words.empty()) return {};
-  return filled("Found from:", words, most_lines);
+  return filled("Detected from:", words, most_lines);
 }
 
 Words alike_lines(const ExperimentPlan& plan) {
@@ -139,13 +140,14 @@ Words alike_lines(const ExperimentPlan& plan) {
   Words lines;
   for (const EffectPower& effect : plan.effects)
     if (!effect.as_built.alike.empty())
-      lines.push_back("  " + effect.effect + " could be " + joined(effect.as_built.alike, ", "));
+      lines.push_back("  " + effect.effect + " may be mistaken for " +
+                      joined(effect.as_built.alike, ", "));
   const std::size_t n = lines.size();
   if (n > most + 1) {
     lines.resize(most);
     lines.push_back("  and " + std::to_string(n - most) + " more (plan.json)");
   }
-  if (n > 0) lines.insert(lines.begin(), "Not told apart at typical strength:");
+  if (n > 0) lines.insert(lines.begin(), "Not distinguished at typical strength:");
   return lines;
 }
 
@@ -153,9 +155,10 @@ std::string step_line(const PlannedStep& step, bool first) {
   Words pairs;
   for (const auto& [a, b] : step.separates) pairs.push_back(a + "/" + b);
   std::string text = (first ? "Measure first: " : "Then: ") + step.name + " - " + step.what +
-                     " (-" + percent(step.gain) + (step.by_rule ? ", by rule" : "");
-  if (!step.finds.empty()) text += "; finds " + joined(step.finds, ", ");
-  if (!pairs.empty()) text += "; tells apart " + joined(pairs, ", ");
+                     " (undecided -" + percent(step.gain) +
+                     (step.by_rule ? ", estimated by rule" : "");
+  if (!step.finds.empty()) text += "; detects " + joined(step.finds, ", ");
+  if (!pairs.empty()) text += "; distinguishes " + joined(pairs, ", ");
   return text + ")";
 }
 
@@ -167,7 +170,8 @@ Words step_lines(const ExperimentPlan& plan) {
     if (step.gain >= worth_it && lines.size() < most)
       lines.push_back(step_line(step, lines.empty()));
   if (lines.empty())
-    lines.push_back("Measure first: what is planned; nothing of the menu adds to it");
+    lines.push_back(
+        "Measure first: the planned records; no experiment of the menu adds information");
   return lines;
 }
 
@@ -202,15 +206,16 @@ std::string plan_text(const ExperimentPlan& plan) {
     for (std::string& part : wrapped(line, 2)) lines.push_back(std::move(part));
   };
   add(records_line(plan));
-  add(found_line(plan) + (too_weak(plan).empty() ? "" : " " + joined(too_weak(plan), ", ")));
+  add(detected_line(plan) + (too_weak(plan).empty() ? "" : " " + joined(too_weak(plan), ", ")));
   for (const std::string& line : not_shown_lines(plan)) add(line);
   for (const std::string& line : limits_lines(plan)) add(line);
   for (const std::string& line : alike_lines(plan)) add(line);
   Words steps;
   std::swap(steps, lines);
-  add("An effect would stay unfound or be mistaken with probability " + percent(plan.undecided));
+  add("Probability that an effect stays undetected or is mistaken for another (undecided): " +
+      percent(plan.undecided));
   for (const std::string& line : step_lines(plan)) add(line);
-  // What to do is never cut.
+  // The recommended experiments are never cut.
   if (steps.size() + lines.size() > most_lines) steps.resize(most_lines - lines.size());
   steps.insert(steps.end(), lines.begin(), lines.end());
   return joined(steps, "\n") + "\n";

@@ -6,12 +6,12 @@
 
 namespace vibrissa::diagnosis {
 
-/// Schema "vibrissa-plan-1": records and noise supposed, effects with their limits and what is
-/// alike, the steps of the menu. Numbers that are not finite become null. Proven by
-/// tests/diagnosis/planning/experiment_plan_json_test.cc.
+/// Schema "vibrissa-plan-1": assumed records and noise, effects with their detection limits and
+/// indistinguishable alternatives, experiments of the menu. Numbers that are not finite become
+/// null. Proven by tests/diagnosis/planning/experiment_plan_json_test.cc.
 std::string plan_json(const ExperimentPlan& plan);
 
-/// At most 20 lines of at most 100 characters for a terminal.
+/// The plan as at most 20 lines of at most 100 characters for a terminal.
 std::string plan_text(const ExperimentPlan& plan);
 
 }  // namespace vibrissa::diagnosis

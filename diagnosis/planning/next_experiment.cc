@@ -10,13 +10,13 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// An answer that may be true and its weight.
+/// A possible answer and its weight.
 struct Answer {
   std::string name;
   double weight = 0.;
 };
 
-/// What an entry shows for an answer: of each of its effects, in order.
+/// What an entry shows for an answer: one text for each of its effects, in order.
 std::string sign(const MenuEntry& entry, const std::string& name) {
   std::set<std::string> signs;
   for (const std::string& id : effect_ids(name))
@@ -30,7 +30,8 @@ std::string sign(const MenuEntry& entry, const std::string& name) {
 std::vector<Answer> answers_left(const std::vector<Candidate>& candidates,
                                  const std::vector<std::string>& confidence_set,
                                  const std::vector<std::vector<std::string>>& indistinguishable) {
-  // What the data cannot split gets this odds beside the named one: priors alone have chosen.
+  // An effect that the data cannot distinguish from the named one gets these odds, because only
+  // priors decided.
   constexpr double unsplit_odds = 0.3;
   std::vector<Answer> answers;
   double best = 0.;
@@ -50,7 +51,7 @@ std::vector<Answer> answers_left(const std::vector<Candidate>& candidates,
   return answers;
 }
 
-/// Probability that two answers, drawn by weight, are shown differently.
+/// Probability that two answers, drawn by weight, give different observations.
 double split(const MenuEntry& entry, const std::vector<Answer>& answers) {
   std::map<std::string, double> classes;
   double total = 0.;
@@ -63,8 +64,8 @@ double split(const MenuEntry& entry, const std::vector<Answer>& answers) {
   return 1. - same;
 }
 
-/// Weight of the answers that an entry shows in a way of its own: an effect that is merely absent
-/// proves less.
+/// Weight of the answers for which an entry has an observation of its own: the mere absence of an
+/// effect proves less.
 double shown_share(const MenuEntry& entry, const std::vector<Answer>& answers) {
   double shown = 0., total = 0.;
   for (const Answer& answer : answers) {
@@ -88,11 +89,11 @@ const std::vector<MenuEntry>& experiment_menu() {
   static const std::vector<MenuEntry> menu{
       {"level_ladder",
        "the same lines at four levels, up and down again",
-       {{"hardening", "resonance moves with level squared"},
+       {{"hardening", "resonance shifts with level squared"},
         {"softening_history", "the way down differs from the way up"},
         {"joint_friction", "damping rises, then falls with level"},
-        {"backlash", "worst at the lowest level"},
-        {"sensor_nonlinearity", "harmonics grow, resonance stays"},
+        {"backlash", "largest relative error at the lowest level"},
+        {"sensor_nonlinearity", "harmonics grow, resonance unchanged"},
         {"viscoelastic", "nothing changes with level"},
         {"damping", "nothing changes with level"},
         {"stiffness", "nothing changes with level"},
@@ -102,76 +103,76 @@ const std::vector<MenuEntry>& experiment_menu() {
        "wind at four speeds, with and without base motion",
        {{"relative_drag", "damping grows with wind speed"},
         {"damping", "damping does not depend on wind"},
-        {"vortex_shedding", "its line moves with wind speed"},
-        {"hum", "its line stays"},
-        {"drag_error", "error in proportion to wind squared"},
+        {"vortex_shedding", "its spectral line moves with wind speed"},
+        {"hum", "its spectral line does not move"},
+        {"drag_error", "error proportional to wind squared"},
         {"flow_lag", "error falls where wind is steady"},
-        {"turbulence", "broad band that grows with wind squared"},
+        {"turbulence", "broadband noise grows with wind squared"},
         {"sensor_drift", "does not depend on wind"}}},
       {"steady_wind",
        "steady wind for a minute, base at rest",
-       {{"turbulence", "broad band remains"},
-        {"drag_error", "static moment is off"},
-        {"sensor_gain", "static moment is off"},
+       {{"turbulence", "broadband noise remains"},
+        {"drag_error", "static moment differs"},
+        {"sensor_gain", "static moment differs"},
         {"flow_lag", "no error in steady wind"},
-        {"vortex_shedding", "one line"},
-        {"sensor_drift", "slow wander"}}},
+        {"vortex_shedding", "one spectral line"},
+        {"sensor_drift", "slow drift"}}},
       {"wide_band",
        "base motion from 1 Hz to 0.45 of the sampling rate",
-       {{"delay", "phase in proportion to frequency, magnitude intact"},
+       {{"delay", "phase proportional to frequency, magnitude unchanged"},
         {"sensor_lowpass", "magnitude falls at high frequency"},
         {"reference_gain", "same factor at every frequency"},
         {"sensor_gain", "same factor at every frequency"},
         {"reference_highpass", "error at the lowest lines"},
         {"stage_rocking", "gain grows towards the rocking resonance"},
-        {"mount_compliance", "gain grows and the first mode is loaded"},
+        {"mount_compliance", "gain grows and the first mode shifts"},
         {"extra_mode", "one more peak or dip"},
-        {"coil_feedthrough", "added real term, antiresonance moves"},
-        {"viscoelastic", "stiffness and loss drift over octaves"},
-        {"stiffness", "only the pole moves"},
-        {"base_compliance", "second mode moves differently"},
-        {"damping", "loss of each mode alike"},
-        {"mass", "quasi-static gain moves with the pole"}}},
+        {"coil_feedthrough", "added real term, antiresonance shifts"},
+        {"viscoelastic", "stiffness and loss change over several octaves"},
+        {"stiffness", "only the pole shifts"},
+        {"base_compliance", "second mode shifts differently"},
+        {"damping", "same damping change in each mode"},
+        {"mass", "quasi-static gain changes with the pole"}}},
       {"added_mass",
        "0.1 g at the tip",
-       {{"stiffness", "pole moves by the softer spring's share"},
-        {"mass", "pole moves less than nominal"},
-        {"base_compliance", "pole moves more than by stiffness"},
-        {"reference_gain", "ratio of responses intact"},
-        {"sensor_gain", "known added moment is off"}}},
+       {{"stiffness", "pole shifts as for the softer spring"},
+        {"mass", "pole shifts less than simulated"},
+        {"base_compliance", "pole shifts more than for stiffness"},
+        {"reference_gain", "ratio of the responses unchanged"},
+        {"sensor_gain", "moment of the added mass differs"}}},
       {"tilt",
        "the sensor tilted by 90 and 180 degrees",
-       {{"mass", "static moment of gravity is off"},
-        {"sensor_gain", "static moment is off, accelerometer reads 1 g"},
+       {{"mass", "static moment of gravity differs"},
+        {"sensor_gain", "static moment differs, accelerometer reads 1 g"},
         {"reference_gain", "accelerometer does not read 1 g"},
-        {"coil_feedthrough", "static moment intact"},
-        {"drag_error", "static moment intact, accelerometer reads 1 g"},
-        {"stiffness", "static moment intact"}}},
+        {"coil_feedthrough", "static moment correct"},
+        {"drag_error", "static moment correct, accelerometer reads 1 g"},
+        {"stiffness", "static moment correct"}}},
       {"clamped_stage",
        "the stage clamped, the coil driven",
        {{"coil_feedthrough", "reading without motion"},
         {"mass", "no reading"},
-        {"hum", "line without motion"},
+        {"hum", "spectral line without motion"},
         {"stage_rocking", "no reading"}}},
       {"magnet_removed",
        "the sensor's magnet taken off",
        {{"coil_feedthrough", "reading remains"},
-        {"hum", "line remains"},
+        {"hum", "spectral line remains"},
         {"sensor_drift", "drift remains"},
-        {"vortex_shedding", "line is gone"},
-        {"temperature_drift", "nothing remains"}}},
+        {"vortex_shedding", "spectral line disappears"},
+        {"temperature_drift", "no reading remains"}}},
       {"other_sampling_rate",
        "the same excitation at another sampling rate",
        {{"sample_repeat", "repeats change with the ratio of rates"},
         {"delay", "same delay in seconds"},
-        {"sensor_lowpass", "corner moves with the conversion time"},
+        {"sensor_lowpass", "corner frequency changes with the conversion time"},
         {"clock_drift", "drift changes with the clocks"},
-        {"hum", "line stays in hertz"},
-        {"vortex_shedding", "an aliased line moves"}}},
+        {"hum", "spectral line at the same frequency"},
+        {"vortex_shedding", "aliased spectral line moves"}}},
       {"quiet_record",
        "a minute with everything at rest",
-       {{"sensor_drift", "slow wander at rest"},
-        {"hum", "line at rest"},
+       {{"sensor_drift", "slow drift at rest"},
+        {"hum", "spectral line at rest"},
         {"turbulence", "nothing at rest"},
         {"vortex_shedding", "nothing at rest"},
         {"reference_noise", "accelerometer noisy at rest"},
@@ -179,9 +180,9 @@ const std::vector<MenuEntry>& experiment_menu() {
       {"rotate_sensor",
        "the sensor turned by 90 degrees about its axis",
        {{"cross_axis", "error follows the transverse axis"},
-        {"extra_mode", "peak changes its height"},
-        {"stage_rocking", "error stays with the stage"},
-        {"mount_compliance", "error stays with the stage"},
+        {"extra_mode", "height of the peak changes"},
+        {"stage_rocking", "error unchanged, as the stage is not turned"},
+        {"mount_compliance", "error unchanged, as the stage is not turned"},
         {"reference_noise", "unchanged"}}}};
   return menu;
 }
@@ -206,7 +207,8 @@ NextExperiment next_experiment(const std::vector<Candidate>& candidates,
     best = &entry;
   }
   if (best == nullptr) {
-    out.why = answers.size() < 2 ? "the answer is clear" : "no experiment of the menu splits these";
+    out.why = answers.size() < 2 ? "only one answer remains"
+                                 : "no experiment of the menu distinguishes the remaining answers";
     return out;
   }
   std::set<std::string> ids;
@@ -226,7 +228,7 @@ void check_menu_names(const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (std::none_of(experiment_menu().begin(), experiment_menu().end(),
                      [&](const MenuEntry& entry) { return entry.name == name; }))
-      throw signals::UserError("unknown experiment '" + name + "'; known are " + known);
+      throw signals::UserError("unknown experiment '" + name + "'; known experiments: " + known);
 }
 
 }  // namespace vibrissa::diagnosis

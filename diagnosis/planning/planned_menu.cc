@@ -22,7 +22,7 @@ double rate_of(const Inputs& planned) {
   return planned.front().sampling_rate_hz;
 }
 
-/// The strongest base motion without wind, else a multisine.
+/// The strongest planned base motion without wind; a multisine when there is none.
 PlannedInput strongest_base(const Inputs& planned) {
   const PlannedInput* best = nullptr;
   for (const PlannedInput& input : planned)

@@ -8,10 +8,10 @@
 
 namespace vibrissa::diagnosis {
 
-/// The records that an entry of experiment_menu() adds to those planned; nothing when the nominal
-/// model cannot predict it: what is done to the sensor or its stage, wind that the simulation does
-/// not know. Base motion is like the strongest record planned, else like usual_inputs(). Proven by
-/// tests/diagnosis/planning/planned_records_test.cc.
+/// The records that an entry of experiment_menu() adds to the planned ones. Nothing when the
+/// nominal model cannot predict them: changes of the sensor or its stage, or wind that the
+/// simulation does not include. The base motion is that of the strongest planned record, or that of
+/// usual_inputs(). Proven by tests/diagnosis/planning/planned_records_test.cc.
 std::optional<std::vector<PlannedInput>> added_inputs(const std::string& entry,
                                                       const NominalModel& nominal,
                                                       const std::vector<PlannedInput>& planned);

@@ -14,7 +14,7 @@ namespace {
 
 namespace channel = signals::channel;
 
-/// A channel's samples; empty when it is missing or zero throughout.
+/// A channel's samples; empty when the channel is missing or zero at all samples.
 std::vector<double> moving_channel(const signals::Record& record, const std::string& name) {
   if (!record.has(name)) return {};
   const auto x = record.channel(name);
@@ -28,7 +28,7 @@ double rms(const std::vector<double>& x) {
   return std::sqrt(sum / static_cast<double>(x.size()));
 }
 
-/// Sum of lines k / n of the rate with random phases, each of height 1.
+/// Sum of unit sines at the frequencies k / n of the sampling rate, with random phases.
 std::vector<double> lines_of(std::size_t n, const std::vector<std::size_t>& lines, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> phase(0., 2. * std::numbers::pi);
@@ -96,8 +96,8 @@ std::vector<PlannedInput> inputs_of(const NominalModel& nominal, const signals::
   });
   if (!moved)
     throw signals::UserError(
-        "no record of the planned dataset moves the sensor in a way that the simulation knows: it "
-        "needs a fit record with excitation \"base\" or \"wind\"");
+        "no record of the planned dataset has an excitation that the simulation includes: give a "
+        "fit record with excitation \"base\" or \"wind\"");
   return out;
 }
 

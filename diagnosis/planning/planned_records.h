@@ -10,11 +10,11 @@
 
 namespace vibrissa::diagnosis {
 
-/// Noise of the reference rig, a sample: the Hall element's 5.43 uT at 0.18 N m/T (docs/theory.md,
-/// T15), and an ADXL345's at rest.
+/// Noise of the reference rig, standard deviation per sample: 5.43 uT of the Hall element at 0.18 N
+/// m/T (docs/theory.md, T15), and that of an ADXL345 at rest.
 ChannelNoise usual_noise();
 
-/// What shall move the sensor in one record.
+/// The planned excitation of one record.
 struct PlannedInput {
   std::string name{};
   double sampling_rate_hz = 500.;
@@ -25,24 +25,26 @@ struct PlannedInput {
   std::size_t period_samples = 0;            // 0: not periodic
 };
 
-/// The inputs of the fit records of a simulation that the nominal model can predict. Channels that
-/// are zero throughout are none. Throws UserError when nothing is left.
+/// The inputs of a simulation's fit records that the nominal model can predict. Channels that are
+/// zero at all samples count as missing. Throws UserError when no record is left.
 std::vector<PlannedInput> inputs_of(const NominalModel& nominal, const signals::Dataset& dataset);
 
-/// Where there are no records: two periods of a multisine on odd lines from 4 Hz to a quarter of
-/// the rate at 1 and 4 m/s^2 rms and, where the model knows wind, ten seconds of gusts about 2 m/s.
+/// Inputs for a model without records: two periods of a multisine on odd lines from 4 Hz to a
+/// quarter of the sampling rate, at 1 and 4 m/s^2 rms, and, when the model has a wind path, ten
+/// seconds of gusts about 2 m/s.
 std::vector<PlannedInput> usual_inputs(const NominalModel& nominal, double sampling_rate_hz);
 
 PlannedInput quiet_input(double duration_s, double sampling_rate_hz);
-/// Two periods of 2048 samples: odd lines, every fourth of them left out, random phases.
+/// Two periods of 2048 samples: odd lines with random phases, every fourth of them left out.
 PlannedInput multisine_input(const std::string& name, double low_hz, double high_hz, double rms,
                              double sampling_rate_hz);
-/// Gusts of a quarter of the mean speed, three decades of lines up to 40 Hz.
+/// Gusts with a standard deviation of a quarter of the mean speed, on lines over three decades up
+/// to 40 Hz.
 PlannedInput gust_input(const std::string& name, double mean_m_s, double duration_s,
                         double sampling_rate_hz);
 
-/// Records as the nominal sensor would write them with white noise on both channels; the same noise
-/// in every call. Proven by tests/diagnosis/planning/planned_records_test.cc.
+/// Records of the nominal sensor with white noise on both channels; the noise is the same in every
+/// call. Proven by tests/diagnosis/planning/planned_records_test.cc.
 signals::Dataset planned_dataset(const NominalModel& nominal,
                                  const std::vector<PlannedInput>& inputs,
                                  const ChannelNoise& noise);

@@ -25,7 +25,7 @@ FisherChanges nominal_changes(const Experiment& experiment,
                               const Eigen::VectorXd& x) {
   FitPosterior posterior(experiment, fit_parameters, Hypothesis{});
   const std::vector<Prediction> at = posterior.predict(x);
-  posterior.renew_slow_variance(x, at);
+  posterior.update_slow_variance(x, at);
   std::vector<double> deviation;
   for (std::size_t r = 0; r < at.size(); ++r)
     for (const double variance :
@@ -34,10 +34,10 @@ FisherChanges nominal_changes(const Experiment& experiment,
   return {experiment, std::move(deviation), noisy_chain(experiment, fit_parameters, x)};
 }
 
-/// Nats left that are as good as none.
+/// Remaining nats that count as zero.
 constexpr double surely_followed = 0.5;
 
-/// Distance of what follows from a change, with its price.
+/// Remaining distance between a change and its followers, including the cost of the followers.
 class LeastSquaresProjection {
  public:
   LeastSquaresProjection(const NominalPoint& point, const Eigen::VectorXd& change,
@@ -109,7 +109,7 @@ class LeastSquaresProjection {
     return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
   }
 
-  /// Derivatives at z; those by the parameters are known where the pursuit begins.
+  /// Derivatives at z; those by the parameters are known at the start.
   void set_columns(bool at_start) {
     columns_.resize(residual_.size(), z_.size());
     for (Eigen::Index i = 0; i < z_.size(); ++i) {
@@ -130,7 +130,7 @@ class LeastSquaresProjection {
     fresh_ = true;
   }
 
-  /// Best move of the chosen coordinates when the others move as given.
+  /// Best step of the chosen coordinates for a given step of the others.
   Eigen::VectorXd move_of(const std::vector<Eigen::Index>& free, const Eigen::VectorXd& moved,
                           const Eigen::VectorXd& uphill) const {
     const Eigen::VectorXd right = (uphill - information_ * moved)(free);
@@ -140,14 +140,14 @@ class LeastSquaresProjection {
     const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
     Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * right);
-    // Directions that are the same but for rounding count once.
+    // Directions that differ only by rounding count once.
     constexpr double same = 1e-9;
     for (Eigen::Index i = 0; i < along.size(); ++i)
       along(i) = solver.eigenvalues()(i) > same ? along(i) / solver.eigenvalues()(i) : 0.;
     return scale.asDiagonal() * (solver.eigenvectors() * along);
   }
 
-  /// The others move on when one is held at its bound.
+  /// The other coordinates continue when one is held at its bound.
   Eigen::VectorXd damped_move() const {
     const Eigen::VectorXd uphill =
         columns_.transpose() * residual_ - half_prior_.cwiseProduct(z_ - centre_);
@@ -176,7 +176,7 @@ class LeastSquaresProjection {
     return held;
   }
 
-  /// One step of Levenberg's and Marquardt's; derivatives are renewed when they predict badly.
+  /// One Levenberg-Marquardt step; derivatives are recomputed when they predict badly.
   void step() {
     constexpr double far = 200., worthwhile_when_far = 0.3;
     constexpr double worthwhile = 0.02, untrusted = 0.1, negligible = 0.2, most_damping = 1e3;
@@ -185,7 +185,7 @@ class LeastSquaresProjection {
     const double predicted = cost(z, predicted_residual);
     const double least_gain = predicted > far ? worthwhile_when_far : worthwhile;
     if (cost_ - predicted < least_gain * cost_) {
-      renew_or_end();
+      recompute_or_end();
       return;
     }
     Eigen::VectorXd there = residual(z);
@@ -209,8 +209,8 @@ class LeastSquaresProjection {
     if (!ended_ && !predicted_well_) set_columns(false);
   }
 
-  /// No step helps: because the place is the best, unless the derivatives are of elsewhere.
-  void renew_or_end() {
+  /// No step improves: the point is optimal, unless the derivatives belong to another point.
+  void recompute_or_end() {
     if (fresh_ || predicted_well_)
       ended_ = true;
     else

@@ -18,7 +18,8 @@ std::vector<Complex> wind_force_spectrum(const Chain& chain, const PreparedRecor
   return spectrum_of(u);
 }
 
-/// d (u - v) |u - v| / d base velocity at rest, root mean square of the wind.
+/// Derivative of (u - v) |u - v| by the base velocity at rest, root mean square over the wind
+/// record.
 double drag_per_velocity(const Chain& chain, const PreparedRecord& record) {
   double sum = 0.;
   for (const double u : record.wind) sum += u * u;
@@ -29,9 +30,9 @@ double drag_per_velocity(const Chain& chain, const PreparedRecord& record) {
 }
 
 Complex reading_of_source(const Chain& chain, const PreparedRecord& record, std::size_t k) {
-  const Complex polled = record.acceleration[k];
-  if (record.renewed.empty()) return polled;
-  return polled + chain.new_sample_share * (record.renewed[k] - polled);
+  const Complex reading = record.acceleration[k];
+  if (record.source_acceleration.empty()) return reading;
+  return reading + chain.new_sample_share * (record.source_acceleration[k] - reading);
 }
 
 std::vector<Complex> bins_of_lines(const PreparedRecord& record,
@@ -57,7 +58,7 @@ void paint(std::span<double> variance, const NoiseColour& colour, const Prepared
 
 }  // namespace
 
-/// The linear part before the sensor, without what the transverse axis adds.
+/// The linear part before the sensor, without the contribution of the transverse axis.
 ChainSimulator::Spectra ChainSimulator::linear_moments(std::span<const PreparedRecord> records) {
   Spectra out;
   for (const PreparedRecord& record : records) {
@@ -155,14 +156,14 @@ std::vector<Prediction> ChainSimulator::predict(std::span<const PreparedRecord> 
   return predictions(records, readings(records));
 }
 
-/// Of a unit of variance a sample of the accelerometer, if it were white.
+/// Moment variance for white accelerometer noise of unit variance per sample.
 void ChainSimulator::add_acceleration_noise(const PreparedRecord& record,
                                             std::span<double> variance) {
-  // Both axes of an accelerometer are as noisy.
+  // Both axes of an accelerometer have the same noise.
   const bool base = !record.acceleration.empty(), cross = !record.cross_acceleration.empty();
   const double n = static_cast<double>(record.n_evaluated);
   const std::vector<LinearPart>& lines = response_.lines(record);
-  // The whisker's own velocity in the wind stems from the same noisy acceleration.
+  // The whisker's velocity relative to the wind is computed from the same noisy acceleration.
   const double drag = base && chain_.relative_wind.on ? drag_per_velocity(chain_, record) : 0.;
   for (std::size_t b = 0; b < variance.size(); ++b) {
     const std::size_t k = record.whole_line(b);

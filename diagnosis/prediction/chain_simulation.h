@@ -11,35 +11,36 @@
 
 namespace vibrissa::diagnosis {
 
-/// What a chain predicts of one prepared record, bins as PreparedRecord::moment.
+/// Prediction of one prepared record by a chain; bins as in PreparedRecord::moment.
 struct Prediction {
   std::vector<Complex> mean;
-  /// Of white noise of unit standard deviation a sample at both channels, and of the effects' own.
-  std::vector<double> moment_noise;        // times the moment's variance
-  std::vector<double> acceleration_noise;  // times the accelerometer's variance
-  std::vector<double> process_noise;       // as it is
-  std::vector<RecordNuisance> unknowns;    // the rise of a drift, when a source was read
+  /// Variances for white noise of unit standard deviation per sample on both channels, and of the
+  /// process noise.
+  std::vector<double> moment_noise;        // to be multiplied by the moment's noise variance
+  std::vector<double> acceleration_noise;  // to be multiplied by the accelerometer's noise variance
+  std::vector<double> process_noise;       // complete
+  std::vector<RecordNuisance> unknowns;    // per-record nuisance parameters: the rise of a drift
 };
 
 /// Predicts records under one chain, which must outlive it. Linear parts exactly for band-limited
 /// inputs, by transfer functions at the lines of the record (its start, where the circular
-/// continuation is wrong, is not evaluated); what the joint and the relative wind add is integrated
-/// in time.
+/// continuation is wrong, is not evaluated); the contributions of joint laws and relative wind are
+/// integrated in time.
 class ChainSimulator {
  public:
   explicit ChainSimulator(const Chain& chain) : chain_(chain), response_(chain) {}
 
   std::vector<Prediction> predict(std::span<const PreparedRecord> records);
   std::vector<std::vector<Complex>> means(std::span<const PreparedRecord> records);
-  /// The reading [N m] at every sample of a record, its mean included.
+  /// The reading [N m] at every sample of a record, including its mean.
   std::vector<double> samples(const PreparedRecord& record);
 
  private:
-  using Spectra = std::vector<std::vector<Complex>>;  // of each record, at its whole lines
-  /// Linear parts, and what is to be integrated of the dynamic ones of some records.
+  using Spectra = std::vector<std::vector<Complex>>;  // of each record, at all its lines
+  /// Linear parts, and the tasks for records that need time integration.
   struct Begun {
     Spectra moments;
-    std::vector<std::size_t> indices{};  // of the task's records
+    std::vector<std::size_t> indices{};  // of the records of the task
     DynamicTask task{};
   };
   friend std::vector<std::vector<Prediction>> predict_together(
@@ -61,11 +62,11 @@ class ChainSimulator {
   LinearResponse response_;
 };
 
-/// Of each chain, as ChainSimulator::predict, in less time.
+/// Predictions of each chain, as ChainSimulator::predict but faster.
 std::vector<std::vector<Prediction>> predict_together(std::span<const Chain> chains,
                                                       std::span<const PreparedRecord> records);
 
-/// Of one record alone.
+/// Prediction of one record.
 Prediction simulate(const Chain& chain, const PreparedRecord& record);
 std::vector<Complex> simulate_mean(const Chain& chain, const PreparedRecord& record);
 

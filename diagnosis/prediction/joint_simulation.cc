@@ -13,8 +13,8 @@ namespace {
 
 constexpr auto n_lanes = static_cast<std::size_t>(Lanes::SizeAtCompileTime);
 
-/// Integrates what is added to the linear part, whose elastic joint moment is given. A step: begin,
-/// correct while it is open, end.
+/// Integrates the addition to the linear part, whose elastic joint moment is given. A step consists
+/// of begin, correct (repeated until convergence) and end.
 class DifferenceIntegrator {
  public:
   DifferenceIntegrator(const Chain& chain, const JointModel& joint, const Lanes& record_number,
@@ -23,7 +23,7 @@ class DifferenceIntegrator {
     for (const JointLawMaker& maker : chain.joint) laws_.push_back(maker(record_number));
   }
 
-  /// To (y, y_rate) of the linear part at times t_s.
+  /// Begins a step to (y, y_rate) of the linear part at times t_s.
   void begin(const Lanes& y, const Lanes& y_rate, const Lanes& t_s) {
     y_ = y;
     y_rate_ = y_rate;
@@ -32,8 +32,8 @@ class DifferenceIntegrator {
     if (!laws_.empty()) begin_torque();
   }
 
-  /// Is the residual before the last correction large in any lane? What is left after it is far
-  /// less.
+  /// Was the residual before the last correction large in any lane? The residual after it is far
+  /// smaller.
   bool is_open() const {
     constexpr double tolerance = 1e-5;
     constexpr int most_corrections = 4;
@@ -51,7 +51,8 @@ class DifferenceIntegrator {
     at_ -= where_negative(slopes, at_excess, Lanes::Zero()) / slope_;
   }
 
-  /// load gives the extra wind load for a rate of the joint moment. Returns the change at the base.
+  /// load gives the additional wind load for a rate of the joint moment. Returns the change of the
+  /// base moment.
   template <typename Load>
   JointIntegrator::AtBase end(const Load& load) {
     if (laws_.empty()) {
@@ -67,9 +68,9 @@ class DifferenceIntegrator {
   }
 
  private:
-  /// The extra moment at the step's end acts back on the joint's rotation at once: a stiff law
-  /// needs the solution of T = law(y(T)). Secant rule from the line through the steps before, with
-  /// their slope.
+  /// The additional moment at the step's end changes the joint's rotation at the same time, so a
+  /// stiff law needs the implicit solution of T = law(y(T)), by the secant method from an
+  /// extrapolation of the previous steps.
   void begin_torque() {
     from_ = 2. * torque_ - torque_before_;
     from_excess_ = law_moment(from_, false) - from_;
@@ -89,21 +90,21 @@ class DifferenceIntegrator {
   JointIntegrator integrator_;
   std::vector<std::unique_ptr<JointLaw>> laws_;
   Lanes torque_ = Lanes::Zero(), torque_before_ = Lanes::Zero(), external_ = Lanes::Zero();
-  Lanes slope_ = Lanes::Constant(-1.);  // of law(y(T)) - T, at the step before
-  // Of the step that has begun.
+  Lanes slope_ = Lanes::Constant(-1.);  // of law(y(T)) - T, at the previous step
+  // State of the step in progress.
   Lanes y_ = Lanes::Zero(), y_rate_ = Lanes::Zero(), t_s_ = Lanes::Zero();
   Lanes from_ = Lanes::Zero(), from_excess_ = Lanes::Zero(), at_ = Lanes::Zero();
   int n_corrections_ = 0;
 };
 
-/// A record on the fine grid. Periodic records are in steady state: their last part goes before
-/// them.
+/// A record on the fine time grid. Periodic records are in steady state, so their last part is
+/// prepended.
 struct FineSignal {
   std::vector<double> samples{};
   std::size_t before = 0;
 };
 
-/// All steps of a record; nothing after its end.
+/// All steps of a record; zero after its end.
 std::vector<double> all_steps(const FineSignal& signal, std::size_t n_steps) {
   const auto& [x, before] = signal;
   std::vector<double> out(n_steps, 0.);
@@ -112,7 +113,7 @@ std::vector<double> all_steps(const FineSignal& signal, std::size_t n_steps) {
   return out;
 }
 
-/// A lane for each record.
+/// One lane per record.
 std::vector<Lanes> interleaved(const std::vector<FineSignal>& signals, std::size_t n_steps) {
   std::vector<std::vector<double>> of_lanes;
   for (const FineSignal& signal : signals) of_lanes.push_back(all_steps(signal, n_steps));
@@ -120,7 +121,7 @@ std::vector<Lanes> interleaved(const std::vector<FineSignal>& signals, std::size
   std::array<const double*, n_lanes> x{};
   for (std::size_t lane = 0; lane < n_lanes; ++lane) x[lane] = of_lanes[lane].data();
   std::vector<Lanes> out(n_steps);
-  // A loop over the lanes inside would be compiled to scattered stores, which are slow.
+  // An inner loop over the lanes would be compiled to slow scattered stores.
   for (std::size_t i = 0; i < n_steps; ++i)
     out[i] << x[0][i], x[1][i], x[2][i], x[3][i], x[4][i], x[5][i], x[6][i], x[7][i];
   return out;
@@ -176,14 +177,14 @@ FineSignals fine_signals(const Chain& chain, std::span<const ElasticMoment> elas
   return out;
 }
 
-/// 25 points a period of the first mode keep the exponential rule's error below half a percent of
-/// what is added.
+/// With 25 points per period of the first mode the error of the exponential rule is below half a
+/// percent of the addition.
 std::size_t refinement(const JointModel& joint, double sampling_rate_hz) {
   const double wanted_hz = 25. * joint.frequency_rad_s / (2. * std::numbers::pi);
   return static_cast<std::size_t>(std::clamp(std::ceil(wanted_hz / sampling_rate_hz), 1., 16.));
 }
 
-/// Records of one sampling rate and readout under one chain, no more than there are lanes.
+/// Records of one sampling rate and readout under one chain, at most one per lane.
 class SideBySide {
  public:
   SideBySide(const DynamicTask& task, std::span<const ElasticMoment> elastic)
@@ -206,7 +207,7 @@ class SideBySide {
   std::size_t n_steps() const { return fine_.y.size(); }
 
   void begin(std::size_t i) {
-    // A record's own clock starts at its first sample: before it slow changes stand still.
+    // The record's clock starts at its first sample; before it slow changes are constant.
     const Lanes t_s = (static_cast<double>(i) - start_).max(0.) * dt_;
     integrator_.begin(fine_.y[i], fine_.y_rate[i], t_s);
   }
@@ -226,11 +227,11 @@ class SideBySide {
       return wind_gain_ * (felt * felt.abs() - u * u.abs());
     };
     const JointIntegrator::AtBase added = integrator_.end(load);
-    // In the place of what this step was the last to read.
+    // Overwrites values that this step was the last to read.
     fine_.y[i] = rotation_ ? added.elastic : added.moment;
   }
 
-  /// When all steps are done: what was added, at each record's samples.
+  /// After all steps: the addition at each record's samples.
   std::vector<std::vector<double>> samples() const {
     std::vector<std::vector<double>> out;
     for (std::size_t lane = 0; lane < elastic_.size(); ++lane) {
@@ -271,7 +272,7 @@ class SideBySide {
   Lanes start_ = Lanes::Zero(), wind_gain_ = Lanes::Zero();
 };
 
-/// The records of a task, in its order.
+/// The additions for the records of a task, in its order.
 std::vector<SideBySide> in_lanes(const DynamicTask& task) {
   std::vector<SideBySide> out;
   std::span<const ElasticMoment> left = task.elastic;

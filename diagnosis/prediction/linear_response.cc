@@ -30,19 +30,20 @@ LinearPart LinearResponse::at(const Complex s, const signals::Readout readout,
   if (!magnet)
     return {.base = feedthrough, .wind = 0., .elastic = 0., .cross = 0., .sensor = sensor};
   const auto [base, wind] = chain_.structure.responses(s);
-  // From what the simulation reads to the base moment, and from there to what this sensor reads.
+  // From the simulation's readout to the base moment, and from there to this sensor's readout.
   Complex to_moment = 1., to_reading = 1., elastic = 1., change = 1.;
   if (joint_) {
     const JointModel& joint = *joint_;
     const Complex ratio = joint.stiffness_ratio(s);
     if (chain_.structure.readout == signals::Readout::rotation) to_moment = ratio;
-    // The changed joint over its static spring, K(s) (1 + D(s)) / k: divisions are what costs here.
+    // The changed joint relative to its static spring, K(s) (1 + D(s)) / k. Divisions dominate the
+    // cost here.
     const Complex own = joint.changed_stiffness_ratio(s) + ratio * sum(chain_.relaxation, s),
                   joined = own + ratio * sum(chain_.support, s);
     elastic = 1. / joined;
     if (readout == signals::Readout::rotation) to_reading = 1. / (chain_.joint_stiffness * own);
-    // 1 - P of the joint model times K(s) / k; what the modes above the first do to H they do to
-    // 1 / (1 + K G), too: B is that of the load.
+    // 1 - P of the joint model times K(s) / k. The modes above the first change H and 1 / (1 + K G)
+    // in the same way, so B is that of the load.
     const Complex rest =
         ratio - joint.share * joint.inertia(s) * base * to_moment * per_static_response_;
     Complex above = joined * ratio, below = ratio * ratio + (joined - ratio) * rest;
@@ -67,7 +68,7 @@ const std::vector<LinearPart>& LinearResponse::lines(const PreparedRecord& recor
   if (!lines.empty()) return lines;
   const std::size_t n = record.n_samples / 2 + 1;
   lines.reserve(n);
-  // At zero frequency filters may have poles; means are not evaluated.
+  // Filters may have poles at zero frequency; means are not evaluated.
   for (std::size_t k = 0; k < n; ++k)
     lines.push_back(at(record.line_s(k), record.readout, record.magnet));
   return lines;

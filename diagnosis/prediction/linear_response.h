@@ -12,8 +12,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// Transfer functions of the chain at one frequency. What comes before the sensor is the base
-/// moment, or under the readout rotation k_nominal times the joint's rotation.
+/// Transfer functions of the chain at one frequency. The quantity before the sensor is the base
+/// moment, or with the readout rotation k_nominal times the joint's rotation.
 struct LinearPart {
   Complex base;     // reading of the accelerometer -> before the sensor
   Complex wind;     // u |u| -> before the sensor
@@ -22,18 +22,18 @@ struct LinearPart {
   Complex sensor;   // before the sensor -> reading
 };
 
-/// The linear part of a chain, at the lines of records; records of one length share them. A joint
-/// K(s) (1 + D(s)) in place of K(s): with H = K B / (1 + K G) for the whisker pinned at its base
-/// (B, G its rotation from the load and from a moment there) the moment becomes
-/// H (1 + D) / (1 + D P), P = K G / (1 + K G); P from the joint model. The chain must outlive it.
-/// Proven by tests/diagnosis/prediction/chain_simulation_test.cc.
+/// The linear part of a chain at the lines of records; records of one length share it. For a joint
+/// K(s) (1 + D(s)) instead of K(s), with H = K B / (1 + K G) for the whisker pinned at its base (B,
+/// G: its rotation by the load and by a moment there), the moment becomes H (1 + D) / (1 + D P), P
+/// = K G / (1 + K G); P from the joint model. The chain must outlive this object. Proven by
+/// tests/diagnosis/prediction/chain_simulation_test.cc.
 class LinearResponse {
  public:
   explicit LinearResponse(const Chain& chain);
 
   LinearPart at(Complex s, signals::Readout readout = signals::Readout::moment,
                 bool magnet = true) const;
-  /// At lines 0 .. n_samples / 2 of a whole record.
+  /// The responses at lines 0 .. n_samples / 2 of a whole record.
   const std::vector<LinearPart>& lines(const PreparedRecord& record);
   const std::optional<JointModel>& joint() const { return joint_; }
 
@@ -41,7 +41,7 @@ class LinearResponse {
   const Chain& chain_;
   std::optional<JointModel> joint_;
   Complex per_static_response_ = 1.;
-  /// By length, rate, readout and magnet.
+  /// Cache by length, sampling rate, readout and magnet.
   using Kind = std::tuple<std::size_t, double, signals::Readout, bool>;
   std::map<Kind, std::vector<LinearPart>> lines_;
 };

@@ -15,7 +15,7 @@ std::vector<const RecordNuisance*> those_there(const std::span<const RecordNuisa
   return out;
 }
 
-/// Over the bins' deviations, real and imaginary parts in turn.
+/// Divided by the bins' standard deviations, real and imaginary parts in turn.
 Eigen::VectorXd whitened(const std::span<const Complex> values,
                          const std::span<const double> variance) {
   assert(values.size() == variance.size());
@@ -53,7 +53,7 @@ IntegratedNuisances::IntegratedNuisances(const std::span<const RecordNuisance> u
   Eigen::VectorXd deviation(n);
   for (Eigen::Index i = 0; i < n; ++i)
     deviation(i) = std::sqrt(there_[static_cast<std::size_t>(i)]->variance);
-  // In units of their deviations the parameters are of any size.
+  // Parameters are scaled by their standard deviations, because their sizes differ.
   const Eigen::MatrixXd scaled = shapes_ * deviation.asDiagonal();
   const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd::Identity(n, n) +
                                         2. * scaled.transpose() * scaled);
@@ -70,10 +70,10 @@ double IntegratedNuisances::log_likelihood_gain() const {
 
 void IntegratedNuisances::remove_from(const std::span<Complex> error) const {
   if (there_.empty()) return;
-  const Eigen::VectorXd fit_parameters = mean();
+  const Eigen::VectorXd values = mean();
   for (std::size_t i = 0; i < there_.size(); ++i)
     for (std::size_t b = 0; b < error.size(); ++b)
-      error[b] -= fit_parameters(static_cast<Eigen::Index>(i)) * there_[i]->shape[b];
+      error[b] -= values(static_cast<Eigen::Index>(i)) * there_[i]->shape[b];
 }
 
 }  // namespace vibrissa::diagnosis

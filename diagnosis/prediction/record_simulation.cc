@@ -11,14 +11,14 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Samples after which the start is forgotten: the record is continued that far, as a circle.
+/// Number of samples after which transients have decayed: length of the circular continuation.
 std::size_t tail_length(const NominalModel& nominal, double rate_hz) {
   constexpr double n_time_constants = 14.;
   constexpr std::size_t least = 128;
   return std::max(least, nominal.decay_samples(n_time_constants, rate_hz));
 }
 
-/// From the last value smoothly to the first, which then holds.
+/// Appends a smooth transition from the last value to the first, which is then held.
 void close_circle(std::vector<double>& x, std::size_t n) {
   const double from = x.back(), to = x.front();
   const std::size_t n_samples = x.size(), n_turn = (n - n_samples) / 4;
@@ -39,7 +39,7 @@ std::vector<double> simulate_moment(const UpdatedModel& model, const signals::Re
   const bool base = model.nominal.has_base && inputs.has(channel::base_acceleration);
   const bool wind = model.nominal.has_wind && inputs.has(channel::wind_speed);
   if (!base && !wind)
-    throw signals::UserError("the record has no input that the model knows: it needs " +
+    throw signals::UserError("the record has no input of the model: it needs " +
                              std::string(model.nominal.has_base ? channel::base_acceleration : "") +
                              (model.nominal.has_base && model.nominal.has_wind ? " or " : "") +
                              std::string(model.nominal.has_wind ? channel::wind_speed : ""));

@@ -7,20 +7,20 @@
 
 namespace vibrissa::diagnosis {
 
-/// How a simulated record begins.
+/// Initial state of a simulated record.
 enum class Start {
-  settled,  // under inputs that were at their first values for long
+  settled,  // inputs were constant at their first values for a long time
   periodic  // the inputs are whole periods in steady state
 };
 
-/// Base moment [N m] (frame and sign of docs/records.md) that the model reads under a record's base
-/// acceleration, cross acceleration and wind speed, in free simulation without noise, one value a
-/// sample. Channels that are absent are zero. Throws UserError when the record holds no input that
-/// the model knows. Proven by tests/diagnosis/model/updated_model_test.cc.
+/// Base moment reading [N m] (frame and sign of docs/records.md) of the model for a record's base
+/// acceleration, cross acceleration and wind speed: free simulation without noise, one value per
+/// sample. Missing channels are zero. Throws UserError when the record contains no input of the
+/// model. Proven by tests/diagnosis/model/updated_model_test.cc.
 std::vector<double> simulate_moment(const UpdatedModel& model, const signals::Record& inputs,
                                     Start start = Start::settled);
 
-/// The same under the base's motion alone, as if no wind blew: what a separator subtracts.
+/// The same for base motion alone, without wind: the vibration that a separator subtracts.
 std::vector<double> simulate_vibration(const UpdatedModel& model, const signals::Record& inputs);
 
 }  // namespace vibrissa::diagnosis

@@ -8,20 +8,20 @@
 
 namespace vibrissa::diagnosis {
 
-/// Spectrum of an accelerometer's reading [m/s^2], of which the lines below end tell its noise.
+/// Spectrum of an accelerometer's reading [m/s^2]; the lines below end show its noise.
 struct NoiseLines {
   std::vector<Complex> spectrum;  // lines 0 .. n/2, unscaled
   std::size_t end = 0;
-  bool of_source = false;  // of what the reading was made from
-  double age_range = 0.;   // within which its readings' age is unknown [samples]
+  bool of_source = false;  // of the source's samples instead of the reading
+  double age_range = 0.;   // range of the unknown age of its readings [samples]
 };
 
-/// All lines of a channel that hides nothing.
+/// Uses all lines of a channel without repeats and images.
 NoiseLines all_lines(std::span<const double> x);
 
-/// Samples that are read again say nothing anew, and images of a motion are no noise: of a channel
-/// that is polled faster than it is renewed the source's own series, up to half its rate, and of
-/// one that moves and has uneven ages the evened one. Proven by
+/// Excludes repeated samples and images of motion, which are not noise. With sample-and-hold
+/// repeats it uses the source's own series up to half the source's rate; with asynchronous sampling
+/// of a moving base, the series resampled to equal ages. Proven by
 /// tests/diagnosis/records/accelerometer_noise_test.cc.
 NoiseLines noise_lines(std::span<const double> reading, double rate_hz, bool moves);
 

@@ -12,13 +12,14 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-constexpr double source_rates_hz[] = {800., 1600., 3200.};  // of the ADXL345, above usual rates
+constexpr double source_rates_hz[] = {800., 1600.,
+                                      3200.};  // of the ADXL345, above usual sampling rates
 
-/// Ages of the samples, in samples, less their mean; they repeat.
+/// Periodic pattern of the ages of the samples [samples], without their mean.
 using Ages = std::vector<double>;
 
-/// All patterns of a source; none where the rates have no simple ratio, or where ages differ by so
-/// much that the fastest signals cannot be restored.
+/// All age patterns of a source rate; empty when the rates have no simple ratio, or when the ages
+/// differ so much that the fastest signals cannot be restored.
 std::vector<Ages> patterns(const double source_hz, const double rate_hz) {
   constexpr int longest = 8;
   constexpr double largest_rad = 1.;
@@ -40,7 +41,7 @@ std::vector<Ages> patterns(const double source_hz, const double rate_hz) {
   return {};
 }
 
-/// The samples that a signal of the given spectrum has at these ages.
+/// The samples of a signal with the given spectrum at these ages.
 std::vector<double> aged(const std::vector<Complex>& spectrum, const std::size_t n,
                          const Ages& ages) {
   std::vector<double> out(n);
@@ -55,7 +56,7 @@ std::vector<double> aged(const std::vector<Complex>& spectrum, const std::size_t
   return out;
 }
 
-/// The signal whose aged samples are x: each pass takes what the ages of the last one missed.
+/// The signal whose samples at these ages are x, by fixed-point iteration of the residual.
 std::vector<double> evened(const std::span<const double> x, const Ages& ages, const int n_passes) {
   std::vector<double> y(x.begin(), x.end());
   for (int pass = 0; pass < n_passes; ++pass) {
@@ -65,7 +66,8 @@ std::vector<double> evened(const std::span<const double> x, const Ages& ages, co
   return y;
 }
 
-/// Least mean power a line of any eighth of the spectrum, without what the record's ends leak.
+/// Smallest mean power per line of any eighth of the spectrum, without leakage of the record's
+/// ends.
 double quietest(std::vector<double> x) {
   constexpr std::size_t n_parts = 8;
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -104,7 +106,7 @@ std::optional<EvenedSeries> evened_series(const std::span<const double> x, const
   if (best.empty()) return std::nullopt;
   EvenedSeries out{evened(even_part, best, n_passes)};
   if (n < x.size()) out.samples.push_back(x.back());
-  // Ages are steps of this apart.
+  // Step between two ages.
   out.unknown_age =
       (*std::max_element(best.begin(), best.end()) - *std::min_element(best.begin(), best.end())) /
       static_cast<double>(best.size() - 1);

@@ -6,18 +6,18 @@
 
 namespace vibrissa::diagnosis {
 
-/// The samples at one age, and the range within which that is unknown [samples].
+/// The samples resampled to one age, and the range of that unknown age [samples].
 struct EvenedSeries {
   std::vector<double> samples;
   double unknown_age = 0.;
 };
 
-/// What an accelerometer would have read with samples of one age, where it renews faster than it is
-/// read, at 800, 1600 or 3200 Hz: sample k is frac(k r / f + p) / r old (source rate r, reading
-/// rate f), which repeats after q samples, r / f = P / q, and leaves images of what moves the base
-/// at multiples of f / q. The mean age stays. Of the sources and their q patterns it is the one
-/// without which the quietest part of the spectrum is loudest. Nothing where none makes that part
-/// quieter by half: no image stands out of the noise there. rate_hz: f. Proven by
+/// Corrects asynchronous sampling: an accelerometer that updates at 800, 1600 or 3200 Hz is read at
+/// a lower rate. Sample k then has the age frac(k r / f + p) / r (source rate r, reading rate f).
+/// With r / f = P / q the ages repeat after q samples and cause images of the motion at multiples
+/// of f / q. The result has the samples at one age, the mean age. Of all source rates and their q
+/// patterns the one is chosen that lowers the quietest part of the spectrum most. Nothing when none
+/// lowers it by half, because then no image exceeds the noise. rate_hz: f. Proven by
 /// tests/diagnosis/records/asynchronous_sampling_test.cc.
 std::optional<EvenedSeries> evened_series(std::span<const double> x, double rate_hz);
 

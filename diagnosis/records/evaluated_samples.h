@@ -7,11 +7,11 @@
 
 namespace vibrissa::diagnosis {
 
-/// Samples of a record's evaluated part from its bins (PreparedRecord::moment and what is shaped
-/// alike), without their mean and what is at half the rate.
+/// Samples of a record's evaluated part from its bins (as PreparedRecord::moment), without the mean
+/// and the component at half the sampling rate.
 std::vector<double> evaluated_samples(const PreparedRecord& record, std::span<const Complex> bins);
 
-/// Bins of the evaluated part, as PreparedRecord::moment, of the samples of a whole record.
+/// Bins of the evaluated part, as PreparedRecord::moment, from the samples of a whole record.
 std::vector<Complex> evaluated_bins(const PreparedRecord& record, std::span<const double> samples);
 
 }  // namespace vibrissa::diagnosis

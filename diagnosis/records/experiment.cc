@@ -21,9 +21,9 @@ namespace {
 using signals::DatasetRecord;
 namespace channel = signals::channel;
 
-/// Time constants of the first mode after which a start from the wrong state is forgotten.
+/// Number of time constants of the first mode after which transients have decayed.
 constexpr double n_time_constants = 7.;
-/// Samples at the end of an aperiodic record where its circular continuation rings.
+/// Samples at the end of an aperiodic record that its circular continuation disturbs.
 constexpr std::size_t end_margin = 24;
 constexpr std::size_t fewest_evaluated = 128;
 
@@ -35,17 +35,17 @@ std::size_t transient_samples(const NominalModel& nominal, double rate_hz) {
   return nominal.decay_samples(n_time_constants, rate_hz);
 }
 
-/// Averages whole periods: in place, lines that are no multiple of 1/period become zero.
+/// Averages whole periods in place: lines that are not multiples of 1/period become zero.
 void average_periods(std::vector<Complex>& spectrum, std::size_t n_periods) {
   for (std::size_t k = 0; k < spectrum.size(); ++k)
     if (k % n_periods != 0) spectrum[k] = 0.;
 }
 
-/// Harmonics of a period that the drive excites, by the number of samples in the period: what
-/// stands out in one record is taken as excited in all, weak ones too.
+/// Excited harmonics by period length in samples. A harmonic that exceeds the noise in one record
+/// counts as excited in all records.
 using ExcitedHarmonics = std::map<std::size_t, std::vector<bool>>;
 
-/// Without excitation a line does so once in a hundred thousand.
+/// Without excitation a line exceeds this threshold with probability 1e-5.
 bool stands_out(const Complex line, const double noise_power) {
   constexpr double least_ratio = 12.;
   return std::norm(line) > least_ratio * noise_power;
@@ -68,8 +68,8 @@ ExcitedHarmonics excited_harmonics(const signals::Dataset& dataset, signals::Spl
   return excited;
 }
 
-/// Samples after which the drive of a record without a stated period repeats: the lines that stand
-/// out have a common divisor. Nothing: it does not.
+/// Period of the excitation in samples, for a record without a stated period: the strong lines have
+/// a common divisor. Nothing when it is not periodic.
 std::optional<std::size_t> period_of_drive(const DatasetRecord& entry, double noise) {
   if (!entry.excitation.base || !entry.record.has(channel::base_acceleration)) return std::nullopt;
   const std::vector<Complex> a = spectrum_of(entry.record.channel(channel::base_acceleration));
@@ -81,17 +81,17 @@ std::optional<std::size_t> period_of_drive(const DatasetRecord& entry, double no
   return n / divisor;
 }
 
-/// The longest part no longer than n: of whole periods of the drive, whose lines do not leak then,
-/// or else of a length that is quick to transform.
+/// Length of the longest part of at most n samples: whole periods of the excitation (no leakage),
+/// otherwise a length with a fast transform.
 std::size_t evaluated_length(std::size_t n, std::optional<std::size_t> period) {
   if (!period) return fast_length(n);
   const std::size_t even = *period % 2 == 0 ? *period : 2 * *period;
   return n < even ? fast_length(n) : n - n % even;
 }
 
-/// Wiener's share P / (P + noise) of each of the chosen lines: P from the line itself where it
-/// stands out, else from the mean power of the chosen lines around it: of those that do not, or of
-/// all where most do, for a continuous spectrum has weak lines, too.
+/// Wiener gain P / (P + noise) of each chosen line. P is taken from the line itself when it exceeds
+/// the noise, otherwise from the mean power of the neighbouring weak lines (of all neighbouring
+/// lines when most are strong, because a continuous spectrum also has weak lines).
 std::vector<double> signal_share(const std::vector<Complex>& spectrum, double noise_power,
                                  const std::vector<std::size_t>& lines) {
   std::vector<double> share(spectrum.size(), 0.);
@@ -126,8 +126,8 @@ std::vector<std::size_t> driven_lines(const PreparedRecord& record, const Datase
   return lines;
 }
 
-/// Accelerations in the frame of a sensor that is turned about its axis while the accelerometer
-/// stays: along the plane that is read, and across it.
+/// Accelerations in the frame of a sensor that is rotated about its axis while the accelerometer is
+/// not: in the measured plane, and across it.
 struct SensorFrame {
   std::vector<double> axial, cross;  // empty: not measured
 };
@@ -157,7 +157,7 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
   out.acceleration = spectrum_of(reading);
   const NoiseLines noise_of = noise_lines(reading, out.sampling_rate_hz, entry.excitation.base);
   if (entry.excitation.base && noise_of.of_source) {
-    out.renewed = noise_of.spectrum;
+    out.source_acceleration = noise_of.spectrum;
     out.unknown_age_s = noise_of.age_range / std::sqrt(12.) / out.sampling_rate_hz;
   }
   const double n = static_cast<double>(out.n_samples);
@@ -181,19 +181,19 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
         ++out.n_acceleration_noise;
       }
     average_periods(out.acceleration, n_periods);
-    average_periods(out.renewed, n_periods);
+    average_periods(out.source_acceleration, n_periods);
   }
   out.noise_share =
       signal_share(out.acceleration, n * noise * noise, driven_lines(out, entry, excited));
   const double noise_power = n * noise * noise;
   for (std::size_t k = 0; k < out.acceleration.size(); ++k) {
     const double share = out.noise_share[k];
-    // A line much stronger than its neighbours said (noise alone is so once in twenty) loses signal
-    // with the noise.
+    // The Wiener gain removes signal from a line that is far above its neighbours (noise alone:
+    // once in twenty). This loss is added to the remaining noise.
     const double lost = std::max(0., std::norm(out.acceleration[k]) / noise_power - 3.);
     out.noise_share[k] = std::max(share, share * share + (1. - share) * (1. - share) * lost);
     out.acceleration[k] *= share;
-    if (!out.renewed.empty()) out.renewed[k] *= share;
+    if (!out.source_acceleration.empty()) out.source_acceleration[k] *= share;
   }
 }
 
@@ -245,7 +245,7 @@ double band_rate_hz(const Experiment& experiment) {
   return highest;
 }
 
-/// Does the effect change anything but the joint of the first mode?
+/// Does the effect change anything except the joint of the first mode?
 bool acts_without_modes(const Effect& effect) {
   const Chain chain = probe(effect, NominalModel{});
   return !(chain.reference.empty() && chain.mount.empty() && chain.parallel.empty() &&
@@ -267,7 +267,7 @@ Scales scales_of(const Experiment& experiment) {
   Scales scales;
   const NominalModel& nominal = experiment.nominal;
   scales.static_gain = std::abs(nominal.base_response(0.));
-  // Without a mode the middle of the band, in decades, stands for it.
+  // Without a mode the logarithmic middle of the band is used.
   scales.first_mode_rad_s = !nominal.modes.empty()
                                 ? nominal.modes.front().frequency_rad_s
                                 : 0.1 * std::numbers::pi * band_rate_hz(experiment);
@@ -338,8 +338,8 @@ Complex PreparedRecord::line_s(const std::size_t k) const {
 
 namespace {
 
-/// Least power a line of any eighth of the spectrum, by its median: noise, and what signal there
-/// is.
+/// Smallest power per line of any eighth of the spectrum, by the median: noise plus remaining
+/// signal.
 double quietest_power(const std::vector<Complex>& spectrum) {
   constexpr std::size_t n_parts = 8;
   double least = std::numeric_limits<double>::infinity();
@@ -354,7 +354,7 @@ double quietest_power(const std::vector<Complex>& spectrum) {
   return least;
 }
 
-/// Lines of a channel that tell its noise.
+/// Lines of a channel that show its noise.
 NoiseLines lines_of(const DatasetRecord& entry, const std::string& name) {
   const auto x = entry.record.channel(name);
   if (name == channel::base_acceleration)
@@ -362,7 +362,7 @@ NoiseLines lines_of(const DatasetRecord& entry, const std::string& name) {
   return all_lines(x);
 }
 
-/// Of all fit records the least.
+/// Smallest value over all fit records.
 double quietest_deviation(const signals::Dataset& dataset, const std::string& name) {
   double least = std::numeric_limits<double>::infinity();
   for (const DatasetRecord& entry : dataset.records)
@@ -372,7 +372,8 @@ double quietest_deviation(const signals::Dataset& dataset, const std::string& na
   return std::isfinite(least) ? std::sqrt(least) : 0.;
 }
 
-/// A step of 13 bits, spread evenly. Less is a simulation's, which no model follows any closer.
+/// Quantisation noise of a 13-bit step. Smaller values occur only in simulated records, which no
+/// model follows more closely.
 double least_noise(const signals::Dataset& dataset, const std::string& name) {
   const double of_peak = 1. / (8192. * std::sqrt(12.));
   double peak = 0.;
@@ -397,10 +398,11 @@ ChannelNoise channel_noise(const signals::Dataset& dataset) {
       const std::size_t n_periods = period > 0 && entry.record.n_samples() % period == 0
                                         ? entry.record.n_samples() / period
                                         : 1;
-      // What no period repeats is noise, but of the moment where wind blows: gusts do not either.
+      // The part that does not repeat with the period is noise, except in the moment under wind,
+      // because gusts do not repeat.
       const bool repeats =
           n_periods > 1 && !(name == channel::base_moment && entry.excitation.wind);
-      // The upper half of the spectrum: slow drift is no noise of the samples.
+      // Only the upper half of the spectrum, because slow drift is no sample noise.
       for (std::size_t k = lines.end / 2; k + 1 < lines.end; ++k)
         if (still || (repeats && k % n_periods != 0)) {
           sum += std::norm(lines.spectrum[k]) / n;
@@ -444,12 +446,12 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
     experiment.has_base |= entry.excitation.base && record.magnet;
     experiment.has_wind |= entry.excitation.wind && record.magnet;
     experiment.has_cross |= !record.cross_acceleration.empty();
-    experiment.has_repeats |= !record.renewed.empty();
+    experiment.has_repeats |= !record.source_acceleration.empty();
   }
   if (!experiment.has_base && !experiment.has_wind && split == signals::Split::fit)
     throw signals::UserError(
-        "no record can be compared with the simulation: it needs a fit record that is long enough "
-        "and whose excitation is measured and simulated");
+        "no record can be compared with the simulation: give a fit record that is long enough and "
+        "whose excitation is measured and simulated");
   experiment.scales = scales_of(experiment);
   if (experiment.moment_noise <= 0.)
     experiment.moment_noise = 1e-3 * experiment.scales.moment_rms_n_m;

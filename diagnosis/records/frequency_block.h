@@ -7,8 +7,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// Number of the block of frequencies that a bin lies in: a tenth of the first mode's frequency
-/// wide, over which the form of what the chain does hardly changes.
+/// Index of the frequency block of a bin. A block is a tenth of the first mode's frequency wide, so
+/// that the chain's response hardly changes within it.
 inline std::size_t frequency_block(const Experiment& experiment, const PreparedRecord& record,
                                    std::size_t bin) {
   const double block_hz = 0.1 * experiment.scales.first_mode_rad_s / (2. * std::numbers::pi);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t n_pieces = 4;
 
-// A multiple of the period; a period that is longer than a piece is kept whole.
+// A multiple of the period; a period that is longer than a piece is not divided.
 std::size_t whole_periods(const std::size_t n_samples, const std::size_t period) {
   if (period == 0) return n_samples;
   return n_samples < period ? period : n_samples / period * period;
@@ -36,8 +36,9 @@ void add_pieces(const signals::DatasetRecord& entry, signals::Dataset& out) {
   }
   const double piece_s = static_cast<double>(length) / record.sampling_rate_hz();
   std::ostringstream guess;
-  guess << entry.name << ": long; of its " << std::round(record.duration_s()) << " s " << n_pieces
-        << " pieces of " << std::round(piece_s) << " s are used, spread over it";
+  guess << entry.name << ": the record is long; " << n_pieces << " pieces of "
+        << std::round(piece_s) << " s, spread over its " << std::round(record.duration_s())
+        << " s, are used";
   out.guesses.push_back(guess.str());
 }
 

@@ -17,7 +17,7 @@ double sinc_squared(const double x) {
 std::vector<double> share_at_bins(std::span<const double> share_at_lines,
                                   const std::size_t n_samples, const std::size_t n_evaluated) {
   if (n_evaluated + 1 >= n_samples) return {share_at_lines.begin() + 1, share_at_lines.end() - 1};
-  constexpr double reach = 12.;  // lines; what lies beyond is less than a hundredth
+  constexpr double reach = 12.;  // lines; farther lines contribute less than a hundredth
   const double bin_per_line = static_cast<double>(n_evaluated) / static_cast<double>(n_samples);
   std::vector<double> bins(n_evaluated / 2 - 1);
   for (std::size_t b = 0; b < bins.size(); ++b) {

@@ -11,15 +11,15 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A line more than this above its model is one of its own.
+/// A line more than this above the model is a tone and not noise.
 constexpr double most_of_a_line = 12.;
-constexpr double least_gain = 8.;  // nats over white noise
-constexpr double least_lead = 2.;  // nats over a random walk
+constexpr double least_gain = 8.;  // nats relative to white noise
+constexpr double least_lead = 2.;  // nats relative to a random walk
 
-/// Below it a mode that wanders leaves nothing between the lines of a drive.
+/// Below this frequency a varying mode leaves no power between the excited lines.
 constexpr double below_modes_hz = 15.;
 
-/// Powers over that of the upper half of the spectrum; nothing where that is silent.
+/// Powers relative to that of the upper half of the spectrum; nothing when that power is zero.
 std::vector<NoiseLine> related(const std::span<const NoiseLine> lines) {
   double upper = 0., n_upper = 0.;
   for (const NoiseLine& line : lines)
@@ -89,7 +89,7 @@ NoiseColour noise_colour(const std::span<const NoiseLine> measured) {
 
 namespace {
 
-/// Lines k of which n_periods is no divisor; all of them where there is one period.
+/// Lines k that are not divisible by n_periods; all lines when there is one period.
 void add_lines(std::vector<NoiseLine>& out, const signals::Record& record, const NoiseLines& lines,
                const std::size_t n_periods) {
   const double n = static_cast<double>(record.n_samples());
@@ -113,10 +113,11 @@ void add_still_acceleration(std::vector<NoiseLine>& out, const signals::Record& 
   add_lines(out, record, noise_lines(x, record.sampling_rate_hz(), false), 1);
 }
 
-/// Mean power of what the response leaves, by band; empty where the record cannot tell.
+/// Mean power of the residual of the response, by band; empty when the record does not determine
+/// it.
 std::vector<double> powers_beside_response(const signals::Record& record,
                                            const double narrowest_mode_hz) {
-  // Lines that the response must be smooth over, and enough of them for each band.
+  // Width of the smooth response in lines, and enough lines for each band.
   constexpr double n_smooth = 20.;
   constexpr std::size_t n_bands = 128, fewest_lines = 400;
   if (narrowest_mode_hz * record.duration_s() < n_smooth) return {};
@@ -168,7 +169,7 @@ ChannelColours channel_colours(const signals::Dataset& dataset, const double nar
   for (const signals::DatasetRecord& entry : dataset.records) {
     const signals::Record& record = entry.record;
     if (entry.split != signals::Split::fit) continue;
-    // Records of another rate than the first would need a level of their own.
+    // Only records with the sampling rate of the first one, because others need a different level.
     if (rate_hz == 0.) rate_hz = record.sampling_rate_hz();
     if (record.sampling_rate_hz() != rate_hz) continue;
     const std::size_t period = entry.period_samples;

@@ -7,39 +7,39 @@
 
 namespace vibrissa::diagnosis {
 
-/// How much more noise a channel has at low frequencies than at high ones: density over that of the
-/// upper half of the spectrum, 1 + excess / (1 + (f / corner)^2); or any course, in bands of equal
-/// width from zero on, over that of the quietest.
+/// Noise density of a channel relative to that of the upper half of the spectrum, 1 + excess / (1 +
+/// (f / corner)^2); or piecewise constant in bands of equal width from zero on, relative to the
+/// quietest band.
 struct NoiseColour {
   double excess = 0.;
   double corner_hz = 1.;
-  std::vector<double> bands{};  // none: as excess and corner say
+  std::vector<double> bands{};  // empty: excess and corner apply
   double band_hz = 1.;
   double density(double frequency_hz) const;
   bool is_white() const { return excess == 0. && bands.empty(); }
 };
 
-/// One line of a spectrum that holds noise alone.
+/// One line of a noise spectrum.
 struct NoiseLine {
   double frequency_hz = 0.;
-  double power = 0.;       // |X|^2 over the number of samples
-  bool reference = false;  // of the upper half, to which densities are related
+  double power = 0.;       // |X|^2 divided by the number of samples
+  bool reference = false;  // belongs to the upper half of the spectrum, the reference of densities
 };
 
-/// By Whittle's likelihood. White unless colour is far likelier, and likelier than a random walk:
-/// that is an effect of its own. Lines that stand out (hum) count for nothing. corner_hz is 2 ..
+/// Estimate by Whittle's likelihood. The noise is white unless colour is far more probable, also
+/// than a random walk (which is an effect of its own). Tones (hum) are ignored. corner_hz is 2 ..
 /// 20, excess up to 20. Proven by tests/diagnosis/records/noise_colour_test.cc.
 NoiseColour noise_colour(std::span<const NoiseLine> lines);
 
-/// Of the moment in bands, from fit records that are moved by the base alone: what no response that
-/// is smooth over a few lines makes of the acceleration (signals::local_polynomial_response). White
-/// where no such record is so long that modes of this bandwidth are smooth. Proven by
+/// Noise colour of the moment in bands, from fit records with base motion only: the residual of a
+/// response that is smooth over a few lines (signals::local_polynomial_response). White when no
+/// such record is long enough to resolve modes of this bandwidth. Proven by
 /// tests/diagnosis/records/noise_colour_test.cc.
 NoiseColour colour_beside_response(const signals::Dataset& dataset, double narrowest_mode_hz);
 
-/// Of both channels, from fit records at rest (for the acceleration: with a still base); for the
-/// moment also from what periods of a drive do not share, well below the first mode, and where
-/// there is neither, colour_beside_response.
+/// Noise colour of both channels, from fit records at rest (for the acceleration: with the base at
+/// rest); for the moment also from differences between periods well below the first mode, and
+/// without both by colour_beside_response.
 struct ChannelColours {
   NoiseColour moment, acceleration;
 };

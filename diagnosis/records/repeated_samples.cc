@@ -9,7 +9,7 @@ namespace vibrissa::diagnosis {
 namespace {
 
 /// Indices where runs of equal samples begin.
-std::vector<std::size_t> renewals(const std::span<const double> x) {
+std::vector<std::size_t> run_starts(const std::span<const double> x) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (i == 0 || x[i] != x[i - 1]) out.push_back(i);
@@ -20,7 +20,7 @@ struct Line {
   double intercept = 0., slope = 1.;
 };
 
-/// Least squares of the indices over their numbers.
+/// Least-squares line of the indices over their numbers.
 Line line_through(const std::vector<std::size_t>& indices) {
   const double n = static_cast<double>(indices.size()), middle = 0.5 * (n - 1.);
   double sum = 0., moment = 0., square = 0.;
@@ -38,7 +38,7 @@ Line line_through(const std::vector<std::size_t>& indices) {
 
 double repeat_share(const std::span<const double> x) {
   if (x.empty()) return 0.;
-  return 1. - static_cast<double>(renewals(x).size()) / static_cast<double>(x.size());
+  return 1. - static_cast<double>(run_starts(x).size()) / static_cast<double>(x.size());
 }
 
 bool is_held(const std::span<const double> x) {
@@ -47,7 +47,7 @@ bool is_held(const std::span<const double> x) {
 }
 
 std::vector<double> new_sample_series(const std::span<const double> x) {
-  std::vector<std::size_t> indices = renewals(x);
+  std::vector<std::size_t> indices = run_starts(x);
   if (indices.size() % 2 != 0) indices.pop_back();
   if (indices.empty()) return {x.begin(), x.end()};
   std::vector<double> source;
@@ -59,11 +59,12 @@ std::vector<double> new_sample_series(const std::span<const double> x) {
 
 double unknown_age(const std::span<const double> x) {
   constexpr int longest = 16;
-  const double period = line_through(renewals(x)).slope;
+  const double period = line_through(run_starts(x)).slope;
   for (int q = 1; q <= longest; ++q) {
-    const double renewed = q / period;
-    // The place in the period slips by less than a step over the whole record.
-    if (std::abs(renewed - std::round(renewed)) * static_cast<double>(x.size()) < 1.)
+    const double n_source_samples = q / period;
+    // The position in the period drifts by less than a step over the whole record.
+    if (std::abs(n_source_samples - std::round(n_source_samples)) * static_cast<double>(x.size()) <
+        1.)
       return period / q;
   }
   return 0.;

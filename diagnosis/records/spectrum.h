@@ -8,8 +8,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// DFT lines 0 .. n/2 of real samples, unscaled, and back to n samples. Plans are kept, one set a
-/// thread.
+/// DFT lines 0 .. n/2 of real samples, unscaled, and the inverse transform to n samples. Plans are
+/// cached per thread.
 std::vector<Complex> spectrum_of(std::span<const double> x);
 std::vector<double> samples_of(std::span<const Complex> spectrum, std::size_t n);
 
@@ -17,24 +17,25 @@ std::vector<double> samples_of(std::span<const Complex> spectrum, std::size_t n)
 /// them.
 std::vector<double> upsampled(std::span<const Complex> spectrum, std::size_t n, std::size_t factor);
 
-/// n_out samples of the circular series of a spectrum, at indices start + i step of its n samples:
-/// by cubic interpolation on a four times finer grid.
+/// n_out samples of the periodic signal of a spectrum, at the indices start + i step of its n
+/// samples, by cubic interpolation on a four times finer grid.
 std::vector<double> resampled(std::span<const Complex> spectrum, std::size_t n, std::size_t n_out,
                               double start, double step);
 
-/// a - b, entry by entry.
+/// a - b, element by element.
 std::vector<Complex> difference(std::span<const Complex> a, std::span<const Complex> b);
 
-/// |x|^2 of each entry.
+/// |x|^2 of each element.
 std::vector<double> powers(std::span<const Complex> x);
 
-/// Mean of each value and its neighbours up to reach indices away, as far as there are.
+/// Mean of each value and its existing neighbours up to reach indices away.
 std::vector<double> neighbour_mean(std::span<const double> x, std::size_t reach);
 
 /// Largest even length up to n whose transform is fast (factors 2, 3, 5, 7).
 std::size_t fast_length(std::size_t n);
 
-/// Mean over median power, scaled to 1 for white noise; tones and bands stand far above.
+/// Ratio of mean to median power, scaled to 1 for white noise; it is much larger for tones and
+/// narrow bands.
 double colour(std::vector<double> power);
 
 }  // namespace vibrissa::diagnosis

@@ -6,14 +6,14 @@
 
 namespace vibrissa::diagnosis {
 
-/// A record under a fit: whitened bins.
+/// Whitened bins of a record under a fit.
 struct WhitenedRecord {
   std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
   std::vector<double> deviation;  // sqrt(variance) [N m]
-  std::vector<double> own_share;  // of the variance, of the effects' own noise
+  std::vector<double> own_share;  // share of process noise in the variance
 };
 
-/// Share of the variance of a block of bins from which on effects' own noise is a part of it.
+/// Share of the variance of a frequency block from which on its process noise counts.
 inline constexpr double least_own_share = 0.1;
 
 }  // namespace vibrissa::diagnosis

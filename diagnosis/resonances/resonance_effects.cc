@@ -23,7 +23,7 @@ Stiffness stiffness(const ModeChange& change, const double joint_share) {
   return {1. / compliance, 1. / (compliance + change.series_compliance)};
 }
 
-/// Squared frequency ratio that the mode must have by itself so that it has x on its mount.
+/// Squared frequency ratio that the mode must have without its mount so that it has x on the mount.
 std::optional<double> without_mount(const ModeChange& change, const double x) {
   if (!change.mount_frequency) return x;
   const double b2 = *change.mount_frequency * *change.mount_frequency;
@@ -39,7 +39,7 @@ const Parameter& catalogue_parameter(const Effect& effect, const std::string& na
   return *found;
 }
 
-/// A parameter of the catalogue, uniform over its usual range.
+/// A parameter of the catalogue with a prior that is uniform over its usual range.
 ResonanceEffect catalogue_effect(const std::string& id, const std::string& parameter,
                                  const double usual_low, const double usual_high) {
   const Effect& effect = find_effect(id);
@@ -54,7 +54,7 @@ ResonanceEffect catalogue_effect(const std::string& id, const std::string& param
   return out;
 }
 
-/// The catalogue's effect with a parameter and a prior of its own.
+/// The catalogue's effect with another parameter and prior.
 ResonanceEffect own_prior(const std::string& id, const Parameter& parameter, const double usual_low,
                           const double usual_high) {
   return {.effect = &find_effect(id),
@@ -76,7 +76,7 @@ ResonanceEffect silicone(const std::optional<double> modulus_pa) {
   ResonanceEffect out = own_prior(
       "stiffness", log_usual("silicone_modulus_ratio", "1", low, high, 1e-3, 1e3, 1.), low, high);
   out.to_factor = out.to_value = [](double ratio) { return ratio; };
-  out.remark = "another modulus of the silicone";
+  out.remark = "the silicone has another modulus";
   return out;
 }
 
@@ -84,7 +84,7 @@ ResonanceEffect inertia() {
   ResonanceEffect out = own_prior("mass", log_usual("ratio", "1", 0.9, 1.1, 0.3, 3., 1.), 0.7, 1.4);
   out.part = ResonanceEffect::Part::inertia;
   out.to_factor = out.to_value = [](double ratio) { return ratio; };
-  out.remark = "infill, glue, magnet";
+  out.remark = "possible origins: infill, glue, magnet";
   return out;
 }
 
@@ -92,7 +92,7 @@ ResonanceEffect series_spring() {
   ResonanceEffect out = catalogue_effect("base_compliance", "stiffness_ratio", 1., 20.);
   out.part = ResonanceEffect::Part::series;
   out.to_factor = out.to_value = [](double ratio) { return 1. / ratio; };
-  out.remark = "spring k_s / k0 below the silicone";
+  out.remark = "stiffness k_s / k0 of a spring below the silicone";
   return out;
 }
 
@@ -102,7 +102,7 @@ ResonanceEffect mount(const double simulated_hz) {
   out.to_factor = [simulated_hz](double hz) { return hz / simulated_hz; };
   out.to_value = [simulated_hz](double ratio) { return ratio * simulated_hz; };
   out.mass_ratio = catalogue_parameter(*out.effect, "mass_ratio");
-  out.remark = "would show a second resonance nearby";
+  out.remark = "a second resonance would appear nearby";
   return out;
 }
 
@@ -113,7 +113,7 @@ ResonanceEffect temperature() {
   ResonanceEffect out = own_prior("temperature_drift", shift, -0.3, 0.3);
   out.to_factor = [](double shift) { return 1. + shift; };
   out.to_value = [](double factor) { return factor - 1.; };
-  out.remark = "at 0.5 %/K a shift of 0.1 takes 20 K";
+  out.remark = "a shift of 0.1 needs 20 K at 0.5 %/K";
   return out;
 }
 
@@ -121,7 +121,7 @@ ResonanceEffect softening() {
   ResonanceEffect out = catalogue_effect("softening_history", "softening", 0.02, 0.4);
   out.to_factor = [](double depth) { return 1. - depth; };
   out.to_value = [](double factor) { return 1. - factor; };
-  out.remark = "of the silicone at the level of the test";
+  out.remark = "softening of the silicone at the test level";
   return out;
 }
 
@@ -130,17 +130,17 @@ ResonanceEffect cubic() {
   ResonanceEffect out = catalogue_effect("hardening", "cubic_ratio", -0.3, 0.5);
   out.to_factor = [](double ratio) { return 1. + 0.75 * ratio; };
   out.to_value = [](double factor) { return (factor - 1.) / 0.75; };
-  out.remark = "k3 A^2 / k at the peak of the test";
+  out.remark = "k3 A^2 / k at the peak amplitude of the test";
   return out;
 }
 
-/// What stands beside the joint's spring and, at most, stiffens it by its own stiffness.
+/// An element parallel to the joint's spring, which adds at most its own stiffness.
 ResonanceEffect beside_the_spring(const std::string& id, const std::string& parameter,
                                   const double usual_low, const double usual_high) {
   ResonanceEffect out = catalogue_effect(id, parameter, usual_low, usual_high);
   out.to_factor = [](double strength) { return 1. + strength; };
   out.to_value = [](double factor) { return factor - 1.; };
-  out.remark = "can only raise the resonance";
+  out.remark = "it can only raise the resonance";
   return out;
 }
 

@@ -10,12 +10,13 @@
 
 namespace vibrissa::diagnosis {
 
-/// What effects make of the first mode, as factors on the simulated one.
+/// Changes of the first mode by effects, as factors on the simulated mode.
 struct ModeChange {
   double joint = 1.;              // spring of the joint (the silicone)
   double inertia = 1.;            // modal mass
-  double series_compliance = 0.;  // of a spring below the joint, over the mode's own
-  /// Of a mount between accelerometer and base, by itself, over the simulated first mode's.
+  double series_compliance = 0.;  // of a spring below the joint, relative to the mode's compliance
+  /// Frequency of a mount between accelerometer and base, without the sensor, over that of the
+  /// simulated first mode.
   std::optional<double> mount_frequency{};
   double mount_mass = 0.;  // apparent mass ratio of the first mode at the mount
 };
@@ -37,36 +38,37 @@ double damping_ratio_factor(const ModeChange& change, double joint_share,
 
 constexpr double mount_damping_ratio = 0.022;  // between 0.01 and 0.05 (docs/effects.md)
 
-/// A prior that is mostly within a usual range, and seldom in a wider one.
+/// A prior that is mostly within a usual range and seldom in a wider one.
 struct UsualPrior {
   Prior usual{};
-  std::optional<Prior> beyond{};  // with a tenth of the probability
+  std::optional<Prior> beyond{};  // has a tenth of the probability
 
   double density(double x) const;
   double lowest() const { return beyond ? std::min(usual.low, beyond->low) : usual.low; }
   double highest() const { return beyond ? std::max(usual.high, beyond->high) : usual.high; }
 };
 
-/// An effect as far as it moves a resonance: one parameter that acts on one part of the mode.
+/// An effect as a change of a resonance: one parameter that acts on one part of the mode.
 struct ResonanceEffect {
   enum class Part { joint, inertia, series, mount };
 
   const Effect* effect = nullptr;  // of the catalogue
   Part part = Part::joint;
-  Parameter parameter{};                                  // its name, unit and fitted coordinate
-  UsualPrior prior{};                                     // of the coordinate
-  double usual_low = 0., usual_high = 0.;                 // of the value (docs/effects.md)
-  std::function<double(double)> to_factor{}, to_value{};  // on the part, and back
-  std::optional<Parameter> mass_ratio{};                  // of a mount
-  std::string remark{};                                   // what the value means
+  Parameter parameter{};                   // its name, unit and fitted coordinate
+  UsualPrior prior{};                      // of the coordinate
+  double usual_low = 0., usual_high = 0.;  // of the value (docs/effects.md)
+  std::function<double(double)> to_factor{},
+      to_value{};                         // from value to factor on the part, and back
+  std::optional<Parameter> mass_ratio{};  // of a mount
+  std::string remark{};                   // meaning of the value
 
   void apply(double value, ModeChange& change) const;
-  /// The value that brings the changed mode to a squared frequency ratio; nothing when none does.
+  /// The value that gives the changed mode a squared frequency ratio; nothing when no value does.
   std::optional<double> solve(const ModeChange& others, double squared_ratio,
                               double joint_share) const;
 };
 
-/// The effects of the catalogue that can move a first resonance by more than its uncertainty.
+/// The effects of the catalogue that can shift a first resonance by more than its uncertainty.
 /// Priors:
 ///  * stiffness: the silicone's modulus. Two ways to know it differ: Gent's relation for Shore 20A
 ///    gives 0.73 MPa, the reference study's Yeoh fit 6 c1 = 2.04 MPa (docs/theory.md, T15). A
@@ -77,8 +79,8 @@ struct ResonanceEffect {
 ///  * base_compliance, mount_compliance, softening_history, hardening, joint_friction,
 ///    viscoelastic: uniform (in the logarithm, as the catalogue) over the usual range of
 ///    docs/effects.md, a tenth over the catalogue's own bounds.
-/// simulated_hz makes mount frequencies relative. Left out are effects that leave poles where they
-/// are (links wind, sensor, reference; damping: f sqrt(1 - 2 zeta^2) moves by 0.4 % at zeta 0.05),
+/// simulated_hz makes mount frequencies relative. Left out are effects that do not shift poles
+/// (links wind, sensor, reference; damping: f sqrt(1 - 2 zeta^2) moves by 0.4 % at zeta 0.05),
 /// extra_mode, clock_drift (at most 0.1 %) and backlash, whose gap has no scale without amplitude.
 std::vector<ResonanceEffect> resonance_effects(double simulated_hz,
                                                std::optional<double> silicone_modulus_pa);

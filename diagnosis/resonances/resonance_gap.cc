@@ -19,17 +19,17 @@ void require(const bool good, const std::string& what, const double value,
   if (!good) throw signals::UserError(what + " is " + signals::to_text(value) + ": " + rule);
 }
 
-void check(const ResonanceData& fit_parameters, const std::string& whose) {
-  const double f = fit_parameters.frequency_hz, s = fit_parameters.relative_deviation;
+void check(const ResonanceData& data, const std::string& whose) {
+  const double f = data.frequency_hz, s = data.relative_deviation;
   require(std::isfinite(f) && f > 0., whose + " frequency [Hz]", f, "give a positive number");
   require(s > 0. && s < 0.5, whose + " frequency's relative deviation", s,
-          "give a share between 0 and 0.5");
-  const double d = fit_parameters.damping_relative_deviation;
+          "give a value between 0 and 0.5");
+  const double d = data.damping_relative_deviation;
   require(d > 0. && d < 0.5, whose + " damping ratio's relative deviation", d,
-          "give a share between 0 and 0.5");
-  if (const auto& zeta = fit_parameters.damping_ratio)
+          "give a value between 0 and 0.5");
+  if (const auto& zeta = data.damping_ratio)
     require(*zeta > 0. && *zeta < 1., whose + " damping ratio", *zeta,
-            "give a number between 0 and 1, a share of critical damping");
+            "give a value between 0 and 1 (ratio to critical damping)");
 }
 
 ResonanceGap gap_of(const ResonanceData& simulated, const ResonanceData& measured,
@@ -57,7 +57,7 @@ NeededValue needed(const ResonanceEffect& effect, const double value) {
           .inside = value >= effect.usual_low && value <= effect.usual_high};
 }
 
-/// Values that one effect takes at the ends of what the parameters may be.
+/// Values of one effect at the ends of the 95 % interval of the frequency ratio.
 std::optional<std::array<double, 2>> interval(const ResonanceEffect& effect,
                                               const ResonanceGap& gap) {
   const auto at = [&](double z) {
@@ -68,7 +68,8 @@ std::optional<std::array<double, 2>> interval(const ResonanceEffect& effect,
   return std::array<double, 2>{std::min(*low, *high), std::max(*low, *high)};
 }
 
-/// The modal ratio goes with that of the silicone, which only holds a part of the compliance.
+/// Modal stiffness ratio for a ratio of the silicone's stiffness, which holds only a part of the
+/// compliance.
 NeededValue modal_stiffness(const double silicone_ratio, const double share) {
   const double ratio = 1. / (share / silicone_ratio + 1. - share);
   return {.effect = "stiffness",
@@ -80,16 +81,16 @@ NeededValue modal_stiffness(const double silicone_ratio, const double share) {
           .inside = ratio >= 0.3 && ratio <= 1.5};
 }
 
-/// What the modulus would be if the share of the silicone were a deviation less or more.
+/// Modulus ratios for a silicone share of one standard deviation less and more.
 std::string share_note(const ResonanceModel& model, const double modal_ratio) {
-  std::string text = "modulus x ";
+  std::string text = "modulus ";
   for (const double side : {-1., 1.}) {
     const double share =
         std::clamp(model.joint_share + side * model.joint_share_deviation, 0.05, 1.);
     const double rest = 1. / modal_ratio - 1. + share;
-    text += (rest > 0. ? three_digits(share / rest) : std::string("never")) +
-            (side < 0. ? " for a silicone share " : " for ") + three_digits(share) +
-            (side < 0. ? ", " : "");
+    text += (rest > 0. ? "x " + three_digits(share / rest) : std::string("impossible")) +
+            (side < 0. ? " for a silicone share of the compliance of " : " for ") +
+            three_digits(share) + (side < 0. ? ", " : "");
   }
   if (model.silicone_modulus_pa)
     text += ", simulated with " + three_digits(1e-6 * *model.silicone_modulus_pa) + " MPa";
@@ -100,8 +101,8 @@ std::string note_of(const ResonanceEffects& effects, const ResonanceExplanation&
   std::vector<std::string> notes;
   for (const NeededValue& value : explanation.parameters)
     if (!value.inside)
-      notes.push_back(value.name + " outside its usual " + three_digits(value.usual_low) + " .. " +
-                      three_digits(value.usual_high));
+      notes.push_back(value.name + " outside its usual range " + three_digits(value.usual_low) +
+                      " .. " + three_digits(value.usual_high));
   for (const ResonanceEffect* effect : effects) notes.push_back(effect->remark);
   return joined(notes, "; ");
 }
@@ -112,8 +113,8 @@ double log_prior(const ResonanceEffects& effects, const std::size_t n_known) {
   return sum;
 }
 
-/// Value of a single effect by its equation alone, though its prior may exclude it; of a mount
-/// under the heaviest first mode.
+/// Value of a single effect by its equation alone, even if its prior excludes it; for a mount, with
+/// the largest mass ratio.
 std::optional<Solution> by_equation(const ResonanceEffect& effect, const ResonanceGap& gap) {
   Solution point;
   if (effect.mass_ratio) point.change.mount_mass = effect.mass_ratio->prior.high;
@@ -125,8 +126,8 @@ std::optional<Solution> by_equation(const ResonanceEffect& effect, const Resonan
   return point;
 }
 
-/// Of a combination and of a mount the most probable; but a mount outside its usual range as near
-/// to it as any.
+/// The reported solution: for a combination and for a mount the most probable one; for a mount
+/// outside its usual range the one closest to that range.
 std::optional<Solution> told_point(const ResonanceEffects& effects, const ResonanceGap& gap) {
   if (effects.size() > 1) return most_probable(effects, gap);
   const ResonanceEffect& effect = *effects.front();
@@ -164,7 +165,7 @@ ResonanceExplanation explain(const ResonanceEffects& effects, const ResonanceGap
   const std::optional<Solution> point = told_point(effects, gap);
   out.possible = point.has_value();
   if (!point) {
-    out.note = "no value brings the resonance there; " + effects.front()->remark;
+    out.note = "no value explains the measured resonance; " + effects.front()->remark;
     return out;
   }
   out.parameters = needed_values(effects, gap, *point);
@@ -177,7 +178,7 @@ ResonanceExplanation explain(const ResonanceEffects& effects, const ResonanceGap
   return out;
 }
 
-/// No effect at all, or only another damper.
+/// No effect at all, or only a change of damping.
 ResonanceExplanation without_effects(const ResonanceGap& gap, const std::size_t n_known) {
   ResonanceExplanation out{.inside_usual_range = true, .note = "the frequencies agree"};
   out.odds = normal_density(gap.log_ratio, gap.deviation) * gap.damping_density({}) *
@@ -199,13 +200,13 @@ ResonanceExplanation without_effects(const ResonanceGap& gap, const std::size_t 
   return out;
 }
 
-/// Something unknown: a factor of two in the frequency as soon as a per cent.
+/// An unknown cause, with a wide prior of the frequency change (scale: a factor of two).
 ResonanceExplanation unknown(const ResonanceGap& gap) {
   const Prior prior{.kind = Prior::Kind::student, .scale = std::log(2.)};
   return {.effects = {outside_catalogue},
           .odds = std::exp(log_prior_of_outside_catalogue + prior.log_density(gap.log_ratio)) *
                   gap.damping_density({}),
-          .note = "nothing that the catalogue knows"};
+          .note = "a cause that is not in the catalogue"};
 }
 
 void normalise(std::vector<ResonanceExplanation>& explanations) {
@@ -225,7 +226,7 @@ std::vector<ResonanceExplanation> all_explanations(const ResonanceGap& gap,
   for (std::size_t i = 0; i < known.size(); ++i) {
     out.push_back(explain({&known[i]}, gap, model, known.size()));
     for (std::size_t j = 0; j < i; ++j) {
-      // A mount is not solved for: its mass and its frequency both run.
+      // The equation is not solved for a mount, because its mass and its frequency both vary.
       const bool mount_last = known[i].part == ResonanceEffect::Part::mount;
       const ResonanceEffects pair = mount_last ? ResonanceEffects{&known[i], &known[j]}
                                                : ResonanceEffects{&known[j], &known[i]};
@@ -250,7 +251,7 @@ ResonanceDiagnosis explain_resonance_gap(const ResonanceData& simulated,
   check(measured, "the measured");
   require(model.joint_share > 0. && model.joint_share <= 1.,
           "the silicone's share of the compliance", model.joint_share,
-          "give a share above 0, at most 1");
+          "give a value above 0 and at most 1");
   const ResonanceGap gap = gap_of(simulated, measured, model);
   ResonanceDiagnosis out{.simulated = simulated,
                          .measured = measured,

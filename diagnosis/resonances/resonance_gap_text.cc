@@ -17,11 +17,11 @@ json optional(const std::optional<T>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
-json figures_json(const ResonanceData& fit_parameters) {
-  return {{"frequency_hz", fit_parameters.frequency_hz},
-          {"frequency_relative_deviation", fit_parameters.relative_deviation},
-          {"damping_ratio", optional(fit_parameters.damping_ratio)},
-          {"damping_relative_deviation", fit_parameters.damping_relative_deviation}};
+json data_json(const ResonanceData& data) {
+  return {{"frequency_hz", data.frequency_hz},
+          {"frequency_relative_deviation", data.relative_deviation},
+          {"damping_ratio", optional(data.damping_ratio)},
+          {"damping_relative_deviation", data.damping_relative_deviation}};
 }
 
 json value_json(const NeededValue& value) {
@@ -64,7 +64,7 @@ std::string explanation_line(const ResonanceExplanation& explanation) {
   text = std::string(text.size() < 6 ? 6 - text.size() : 0, ' ') + text + "  " + explanation.name();
   if (!values.empty()) text += ": " + joined(values, ", ");
   for (const NeededValue& value : explanation.parameters)
-    // The modal ratio goes with the modulus.
+    // The modal ratio follows from the modulus.
     if (!value.inside ||
         (&value == &explanation.parameters.back() && explanation.effects.size() == 1))
       if (value.name != "mass_ratio")
@@ -74,7 +74,7 @@ std::string explanation_line(const ResonanceExplanation& explanation) {
   return text;
 }
 
-/// One line: the likeliest combinations, as many as fit.
+/// One line: the most probable combinations, as many as fit.
 std::string combinations_line(const ResonanceDiagnosis& diagnosis) {
   constexpr std::size_t room = 60;
   double sum = 0., unknown = 0.;
@@ -86,11 +86,12 @@ std::string combinations_line(const ResonanceDiagnosis& diagnosis) {
     const std::string name = (names.empty() ? "" : ", ") + e.name() + " " + percent(e.odds);
     if (names.size() + name.size() <= room) names += name;
   }
-  return "Two together " + percent(sum) + (names.empty() ? "" : " (" + names + ")") + "; unknown " +
-         percent(unknown);
+  return "Combinations of two effects: " + percent(sum) +
+         (names.empty() ? "" : " (" + names + ")") +
+         "; a cause outside the catalogue: " + percent(unknown);
 }
 
-/// What to do, and what the likeliest effects would show.
+/// The recommended experiment, and what the most probable effects would show in it.
 std::string experiment_line(const ResonanceDiagnosis& diagnosis) {
   const auto& menu = experiment_menu();
   const auto entry = std::find_if(menu.begin(), menu.end(), [&](const MenuEntry& one) {
@@ -106,7 +107,7 @@ std::string experiment_line(const ResonanceDiagnosis& diagnosis) {
   return "Measure next: " + entry->name + " - " + entry->what + " (" + joined(shown, "; ") + ")";
 }
 
-/// Not worth a line: combinations have theirs, and what is out of the question.
+/// Does the explanation get a line of its own? Combinations share one; improbable ones have none.
 bool is_told(const ResonanceExplanation& explanation) {
   constexpr double out_of_question = 1e-3;
   const bool without_cause = explanation.name() == "none" || explanation.name() == "damping";
@@ -119,16 +120,16 @@ std::string impossible_line(const ResonanceDiagnosis& diagnosis) {
   std::vector<std::string> names;
   for (const ResonanceExplanation& e : diagnosis.explanations)
     if (!e.possible) names.push_back(e.name());
-  return names.empty() ? "" : "Cannot bring it there alone: " + joined(names, ", ");
+  return names.empty() ? "" : "Cannot explain the change alone: " + joined(names, ", ");
 }
 
-std::string figures_line(const ResonanceDiagnosis& diagnosis) {
-  const auto fit_parameters = [](const ResonanceData& f) {
+std::string resonance_line(const ResonanceDiagnosis& diagnosis) {
+  const auto values = [](const ResonanceData& f) {
     return signals::to_text(f.frequency_hz) + " Hz" +
            (f.damping_ratio ? " (zeta " + signals::to_text(*f.damping_ratio) + ")" : "");
   };
-  return "Resonance: simulated " + fit_parameters(diagnosis.simulated) + ", measured " +
-         fit_parameters(diagnosis.measured) + ": k/m x " + three_digits(diagnosis.modal_ratio);
+  return "Resonance: simulated " + values(diagnosis.simulated) + ", measured " +
+         values(diagnosis.measured) + "; stiffness/mass x " + three_digits(diagnosis.modal_ratio);
 }
 
 }  // namespace
@@ -138,8 +139,8 @@ json resonance_gap_json(const ResonanceDiagnosis& diagnosis) {
   for (const ResonanceExplanation& e : diagnosis.explanations)
     explanations.push_back(explanation_json(e));
   return {{"schema", "vibrissa-resonance-gap-1"},
-          {"simulated", figures_json(diagnosis.simulated)},
-          {"measured", figures_json(diagnosis.measured)},
+          {"simulated", data_json(diagnosis.simulated)},
+          {"measured", data_json(diagnosis.measured)},
           {"silicone_share_of_compliance", diagnosis.model.joint_share},
           {"silicone_share_deviation", diagnosis.model.joint_share_deviation},
           {"silicone_modulus_pa", optional(diagnosis.model.silicone_modulus_pa)},
@@ -161,11 +162,11 @@ std::string resonance_gap_text(const ResonanceDiagnosis& diagnosis) {
     if (line.empty()) return;
     for (std::string& part : wrapped(line, 2)) lines.push_back(std::move(part));
   };
-  add(head, figures_line(diagnosis));
+  add(head, resonance_line(diagnosis));
   const bool agree = diagnosis.verdict == "none" || diagnosis.verdict == "damping";
   add(head, agree ? "The frequencies agree within their deviation."
-                  : "Likeliest: " + diagnosis.verdict +
-                        ". These values alone cannot tell; odds by what is usual, damping left:");
+                  : "Most probable: " + diagnosis.verdict +
+                        ". Frequencies alone do not decide; odds by usual ranges:");
   add(tail, combinations_line(diagnosis));
   if (!agree) add(tail, impossible_line(diagnosis));
   add(tail, experiment_line(diagnosis));

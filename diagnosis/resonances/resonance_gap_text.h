@@ -7,13 +7,14 @@
 
 namespace vibrissa::diagnosis {
 
-/// Schema "vibrissa-resonance-gap-1": parameters, every explanation with its values, odds, damping
-/// left and note, confidence set and next experiment. Proven by
+/// Schema "vibrissa-resonance-gap-1": both resonances; every explanation with its values, odds,
+/// remaining damping ratio and note; confidence set; next experiment. Proven by
 /// tests/diagnosis/resonances/resonance_gap_text_test.cc.
 nlohmann::ordered_json resonance_gap_json(const ResonanceDiagnosis& diagnosis);
 
 /// At most 15 lines of at most 100 characters for a terminal: every single effect with the value
-/// that it takes, the likeliest combinations, what cannot be, what to measure next.
+/// that it needs, the most probable combinations, effects that are impossible alone, the next
+/// experiment.
 std::string resonance_gap_text(const ResonanceDiagnosis& diagnosis);
 
 }  // namespace vibrissa::diagnosis

@@ -14,9 +14,9 @@ ResonanceModel resonance_model_from(const signals::ReducedModel& model, const do
   const NominalModel nominal = nominal_from(model);
   const double hz = nominal.modes.front().frequency_rad_s / (2. * std::numbers::pi);
   if (!(std::abs(hz / simulated_hz - 1.) <= same_sensor))
-    throw signals::UserError("model '" + model.name + "' resonates at " + three_digits(hz) +
-                             " Hz, the simulated resonance is given as " +
-                             three_digits(simulated_hz) + " Hz: give the model it comes from");
+    throw signals::UserError("model '" + model.name + "' has its first resonance at " +
+                             three_digits(hz) + " Hz, but the simulated resonance is given as " +
+                             three_digits(simulated_hz) + " Hz: give the model that belongs to it");
   ResonanceModel out{.joint_share = nominal.joint_share,
                      .joint_share_deviation = nominal.joint_share_deviation,
                      .silicone_modulus_pa = std::nullopt};

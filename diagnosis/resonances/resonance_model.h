@@ -5,10 +5,10 @@
 
 namespace vibrissa::diagnosis {
 
-/// What our own simulator's model says beside its parameters: the silicone's share in the
-/// compliance of the first mode and its modulus, when the model has that sensitivity. Throws
-/// UserError when the model's first mode is more than a tenth off the simulated frequency: another
-/// sensor's. Proven by tests/diagnosis/resonances/resonance_model_test.cc.
+/// The silicone's share in the compliance of the first mode and its modulus, from a model of this
+/// program, when the model has that sensitivity. Throws UserError when the model's first mode
+/// differs from the simulated frequency by more than a tenth: the model then belongs to another
+/// sensor. Proven by tests/diagnosis/resonances/resonance_model_test.cc.
 ResonanceModel resonance_model_from(const signals::ReducedModel& model, double simulated_hz);
 
 }  // namespace vibrissa::diagnosis

@@ -7,7 +7,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A gap within this many deviations is none.
+/// Resonances within this many standard deviations agree.
 constexpr double agreeing = 2.;
 
 /// Points of a coordinate in the middle of equal cells that cover its prior.
@@ -17,7 +17,7 @@ struct Cells {
   double at(int i) const { return first + (i + 0.5) * width; }
 };
 Cells cells(const UsualPrior& prior, const int n) {
-  // A Student prior beyond twelve scales holds a hundred-thousandth.
+  // A Student prior has a hundred-thousandth of its probability beyond twelve scales.
   constexpr double widest = 12.;
   double low = prior.lowest(), high = prior.highest();
   if (prior.usual.kind == Prior::Kind::student) {
@@ -27,7 +27,8 @@ Cells cells(const UsualPrior& prior, const int n) {
   return {low, (high - low) / n, n};
 }
 
-/// The last effect's value on top of the others', with the density of meeting a ratio there.
+/// The last effect's value, given those of the others, with the density of the frequency ratio
+/// there.
 std::optional<Solution> solved(const ResonanceEffects& effects, const ResonanceGap& gap,
                                const double log_ratio, Solution point) {
   const ResonanceEffect& last = *effects.back();
@@ -41,7 +42,7 @@ std::optional<Solution> solved(const ResonanceEffects& effects, const ResonanceG
     last.apply(last.parameter.value(shifted), change);
     return std::log(squared_frequency_ratio(change, gap.joint_share));
   };
-  // Where the effect no longer moves the resonance there is no line to follow.
+  // Where the effect no longer shifts the resonance there is no solution line.
   constexpr double step = 1e-5, least_slope = 1e-9;
   const double slope = std::abs(reached(x + step) - reached(x - step)) / (2. * step);
   if (!(slope > least_slope)) return std::nullopt;
@@ -56,7 +57,7 @@ std::optional<Solution> solved(const ResonanceEffects& effects, const ResonanceG
 /// Calls visit for every cell of the effects but the last; points carry density times cell.
 template <typename Visit>
 void for_each_start(const ResonanceEffects& effects, const Visit& visit) {
-  // A mount's mass ratio, a second parameter, smooths what the cells sample.
+  // A mount's mass ratio, a second parameter, is integrated within each cell.
   constexpr int n_masses = 24;
   int n_cells = 600;
   std::vector<Solution> points{{.density = 1., .prior = 1.}};

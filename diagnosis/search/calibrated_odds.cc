@@ -28,7 +28,7 @@ Trust trust_in(const AnswerKind kind) {
     case AnswerKind::outside:
       break;
   }
-  // Right 51 times of 57, whatever it said: by the rule of succession.
+  // Right in 51 of 57 cases, independent of the stated probability; by the rule of succession.
   return {2.0, 0.};
 }
 

@@ -4,37 +4,36 @@
 
 namespace vibrissa::diagnosis {
 
-/// Share of their log odds that the best answers of fits earn in trials of the nominal model itself
-/// (of 1, fits would be as often right as they say): learnt by benchmarks/score_calibration, whose
-/// seeds docs/diagnosis.md tells.
+/// Factor on the log odds of the best answer that calibrates them in trials with the nominal model
+/// itself (1: the fits are calibrated). Determined by benchmarks/score_calibration;
+/// docs/diagnosis.md gives the seeds.
 inline constexpr double confidence_in_fits = 0.6;
 
-/// Odds against the best answer by trials, from those by the fits: odds^confidence. What is no
-/// likelier than not stays as it is.
+/// Calibrated odds against the best answer from those by the fits: odds^confidence. Odds against of
+/// 1 and more stay unchanged.
 double calibrated_odds(double odds_against, double confidence = confidence_in_fits);
 
-/// What an answer names; calibrations count as effects.
+/// Kind of an answer; calibration effects count as effects.
 enum class AnswerKind { none, single, several, outside };
 AnswerKind answer_kind(const std::string& answer);
 
-/// How often an answer of a kind was right in blind trials, where its odds among all that was tried
-/// say p: logit = offset + slope logit(p). It is less than p where something may be there that
-/// these records do not show, or that was not tried. Learnt by `vibrissa trial score`, whose seeds
-/// docs/diagnosis.md tells.
+/// Probability that an answer of a kind is right in blind trials, given its probability p among all
+/// tested answers: logit = offset + slope logit(p). It is less than p when the records may not show
+/// the cause, or when the cause was not tested. Determined by `vibrissa trial score`;
+/// docs/diagnosis.md gives the seeds.
 struct Trust {
   double offset = 0., slope = 1.;
 };
 Trust trust_in(AnswerKind kind);
 
-/// Of what is left to a kind's answers to be wrong, the share behind which no known effect stood in
-/// blind trials: learnt like their trust.
+/// Share of the wrong answers of a kind whose true cause was outside the catalogue in blind trials.
 double unknown_share(AnswerKind kind);
 
-/// Of a probability; beyond one in ten thousand, on either side, they tell no more.
+/// Logit of a probability, limited to probabilities between 1e-4 and 1 - 1e-4.
 double log_odds(double probability);
 
-/// Probability that any answer that was tried is right, the best of them having the given one among
-/// them; never more than 1. Proven by tests/diagnosis/search/calibrated_odds_test.cc.
+/// Probability that any tested answer is right, when the best one has the given probability among
+/// them; at most 1. Proven by tests/diagnosis/search/calibrated_odds_test.cc.
 double probability_of_tried(AnswerKind kind, double best);
 
 }  // namespace vibrissa::diagnosis

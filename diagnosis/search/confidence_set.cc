@@ -29,7 +29,7 @@ std::vector<std::string> confidence_set(const std::vector<Candidate>& candidates
     answers.back().probability *= probability_of_tried;
     total += answers.back().probability;
   }
-  // The verdict stays in front.
+  // The verdict stays first.
   auto index = answers.begin();
   if (candidates.front().name != outside_catalogue)
     index = std::find_if(index + 1, answers.end(), [&](const Candidate& candidate) {

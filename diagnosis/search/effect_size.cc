@@ -11,7 +11,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Base motion on both axes and wind, of one mode at 35 Hz.
+/// A record with base motion on both axes and wind, of a sensor with one mode at 35 Hz.
 Experiment trial_experiment() {
   constexpr std::size_t n = 1024;
   signals::Record record(500., n);
@@ -37,7 +37,7 @@ Experiment trial_experiment() {
   return prepare_experiment(nominal, dataset, signals::Split::fit, InputNoise::as_measured);
 }
 
-/// Does the effect do nothing at these values?
+/// Does the effect change nothing at these values?
 bool vanishes(const Effect& effect, const std::vector<double>& values) {
   static const Experiment experiment = trial_experiment();
   constexpr double rounding = 1e-9;
@@ -60,7 +60,7 @@ bool within(const Parameter& parameter, double value) {
          value <= parameter.value(parameter.prior.high);
 }
 
-/// Neutral beyond the upper bound, at infinity.
+/// Is the neutral value beyond the upper bound (at infinity)?
 bool vanishes_above(const Parameter& parameter) {
   return parameter.logarithmic && parameter.neutral > parameter.value(parameter.prior.high);
 }

@@ -29,7 +29,7 @@ Eigen::VectorXd FisherChanges::of(const NoisyChain& moved) const {
   Eigen::VectorXd out(mean_.size() + noise_.size() + at_rest_.size());
   evaluate(moved, mean, noise);
   out.head(mean.size()) = mean - mean_;
-  // The rest of the variance (misfit, form error) is the reference's.
+  // The rest of the variance (misfit, model form error) is that of the reference.
   out.segment(mean.size(), noise.size()) =
       (noise - noise_).array().max(-0.999).log1p() * std::sqrt(0.5);
   out.tail(at_rest_.size()) =
@@ -108,7 +108,7 @@ double FisherDirections::left(const double whole, const Eigen::VectorXd& overlap
   const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
   const Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * right);
-  // Directions that are the same but for rounding count once.
+  // Directions that differ only by rounding count once.
   constexpr double same = 1e-11;
   double explained = 0.;
   for (Eigen::Index i = 0; i < along.size(); ++i)

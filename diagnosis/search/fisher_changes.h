@@ -8,33 +8,33 @@
 
 namespace vibrissa::diagnosis {
 
-/// A chain with the noise levels of both channels, variances of a sample.
+/// A chain with the noise variances per sample of both channels.
 struct NoisyChain {
   Chain chain{};
   double moment_variance = 0., acceleration_variance = 0.;
 };
 
-/// At coordinates x of the parameters, without one effect.
+/// The chain at coordinates x of the parameters, without one effect.
 NoisyChain noisy_chain(const Experiment& experiment,
                        const std::vector<FitParameter>& fit_parameters, const Eigen::VectorXd& x,
                        const Effect* left_out = nullptr);
 
-/// Changes of what an experiment measures against a reference, whitened so that half the Fisher
-/// information, a change's nats, is its square: real and imaginary part of the mean, log variance
-/// over sqrt 2 of each bin; of each record whose accelerometer is at rest, the same of all its
-/// lines at once. The experiment must outlive it. Proven by
+/// Changes of an experiment's measurement relative to a reference, whitened so that the squared
+/// norm of a change is half its Fisher information [nats]: real and imaginary part of the mean, and
+/// log variance over sqrt 2, of each bin; for each record whose accelerometer is at rest, the log
+/// variance of all its lines. The experiment must outlive this object. Proven by
 /// tests/diagnosis/planning/effect_power_test.cc and indistinguishable_test.cc.
 class FisherChanges {
  public:
-  /// deviation: of the bins of all records in turn [N m].
+  /// deviation: standard deviations of the bins of all records in turn [N m].
   FisherChanges(const Experiment& experiment, std::vector<double> deviation,
                 const NoisyChain& reference);
 
   Eigen::VectorXd of(const NoisyChain& moved) const;
-  /// Nats of a change beyond its square: its variances are more than a direction. The expected
-  /// log likelihood ratio of a variance r times the reference's is r - 1 - ln r.
+  /// Nats of a change including the nonlinear part of its variances. The expected log likelihood
+  /// ratio of a variance ratio r is r - 1 - ln r.
   double beyond_square(const Eigen::VectorXd& change) const;
-  /// The part of a change's square that is of the mean.
+  /// The part of a change's squared norm that belongs to the mean.
   double mean_energy(const Eigen::VectorXd& change) const {
     return change.head(mean_.size()).squaredNorm();
   }
@@ -48,10 +48,10 @@ class FisherChanges {
   Eigen::VectorXd mean_, noise_, at_rest_;
 };
 
-/// Nats of a unit of a free parameter: within so many spreads of its prior.
+/// Nats per squared unit of a free parameter with a prior that is wider by n_spreads.
 double half_prior(const FitParameter& fit_parameter, double x, double n_spreads);
 
-/// Directions in which a prediction can be moved, each with the nats that a unit of it costs.
+/// Directions in which a prediction can change, each with the cost of a unit step [nats].
 class FisherDirections {
  public:
   FisherDirections() = default;
@@ -59,15 +59,15 @@ class FisherDirections {
                    const std::vector<double>& half_priors);
 
   const Eigen::MatrixXd& columns() const { return columns_; }
-  /// Nats of a change that are left when the chosen directions follow it.
+  /// Nats of a change that remain when the chosen directions follow it.
   double left(const Eigen::VectorXd& change, const std::vector<bool>& chosen) const;
-  /// Of one of the directions as a change, made of norm sqrt(energy).
+  /// The same for one of the directions as the change, scaled to the norm sqrt(energy).
   double left_of(Eigen::Index column, double energy, const std::vector<bool>& chosen) const;
 
  private:
   double left(double whole, const Eigen::VectorXd& overlap, const std::vector<bool>& chosen) const;
 
-  Eigen::MatrixXd columns_, overlap_, gram_;  // overlap: gram without priors
+  Eigen::MatrixXd columns_, overlap_, gram_;  // overlap: Gram matrix without priors
 };
 
 }  // namespace vibrissa::diagnosis

@@ -9,18 +9,19 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A bin's new noise over what is predicted there, and its residual's power over the same.
+/// New noise and residual power of a bin, both divided by the predicted variance.
 struct NoisyBin {
   double share = 0., power = 0.;
 };
 
-/// What an effect changes, over all bins of a fit's records.
+/// Change by an effect, over all bins of a fit's records.
 struct Overlap {
-  double cross = 0., own = 0.;  // of the change of the mean with the residual, with itself
+  double cross = 0.,
+         own = 0.;  // inner product of the change of the mean with the residual, with itself
   std::vector<NoisyBin> noisy{};
   double of_mean() const { return own > 0. ? 2. * cross * cross / own : 0.; }
 
-  /// Twice the log likelihood that a multiple of the new noise's variance gains.
+  /// Gain in twice the log likelihood by a multiple of the new noise's variance.
   double of_noise(double multiple) const {
     double sum = 0.;
     for (const NoisyBin& bin : noisy) {
@@ -29,7 +30,7 @@ struct Overlap {
     }
     return 2. * sum;
   }
-  /// The multiple that gains most: golden section of its logarithm.
+  /// The multiple with the largest gain, by golden-section search in its logarithm.
   double best_multiple() const {
     constexpr double golden = 0.6180339887, orders = 14., enough = 1e-2;
     double low = -orders, high = orders;
@@ -44,7 +45,7 @@ struct Overlap {
   }
 };
 
-/// Bins that hold less of the noise than this share of its peak say nothing of its size.
+/// Bins with less noise than this share of its peak do not determine its size.
 void keep_loud(std::vector<NoisyBin>& bins) {
   constexpr double least = 1e-4;
   double peak = 0.;
@@ -75,7 +76,7 @@ Overlap overlap(const Experiment& experiment, const HypothesisFit& fit,
   return sum;
 }
 
-/// A multiple of values that lies within the effect's ranges; else none.
+/// A multiple of the values, when it lies within the effect's ranges.
 std::vector<double> resized(const Effect& effect, const std::vector<double>& values,
                             const double factor) {
   const EffectFamily family(effect, size_parameters(effect), values);
@@ -100,7 +101,7 @@ Resemblance resemblance(const Experiment& experiment, const HypothesisFit& fit,
     const double multiple = sum.best_multiple(), of_mean = sum.of_mean(),
                  of_noise = sum.of_noise(multiple), gain = std::max(of_mean, of_noise);
     if (gain <= best.gain) continue;
-    // What an effect does to variances goes with the square of its size.
+    // Changes of variances are proportional to the square of an effect's size.
     const double factor = of_mean > of_noise ? sum.cross / sum.own : std::sqrt(multiple);
     best = {gain, resized(effect, values, factor)};
   }

@@ -6,15 +6,16 @@
 
 namespace vibrissa::diagnosis {
 
-/// What the residual of a fit says of one effect more, to first order.
+/// First-order estimate of a further effect from the residual of a fit.
 struct Resemblance {
-  /// Twice the log likelihood that the best multiple of the effect's own shape gains.
+  /// Gain in twice the log likelihood by the best multiple of the effect's shape.
   double gain = 0.;
-  /// Of the effect's parameters, at the size that suits the residual; empty: no size does.
+  /// Values of the effect's parameters at the best size; empty when there is none within the
+  /// ranges.
   std::vector<double> values{};
 };
 
-/// The most alike of the given values. residual: of fit. Shapes are those of a change of the mean
+/// The given values whose shape matches the residual of fit best. A shape is a change of the mean
 /// or of the noise. Proven by tests/diagnosis/search/resemblance_test.cc.
 Resemblance resemblance(const Experiment& experiment, const HypothesisFit& fit,
                         const std::vector<WhitenedRecord>& residual, const Effect& effect,

@@ -18,13 +18,14 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// How many of each size are extended, and by how many partners.
+/// Number of hypotheses of each size that are extended, and of partners for each of them.
 constexpr std::size_t n_extended = 4, n_partners = 5;
-/// The best of each size by so many more, of which calibrations may have taken up what they do.
+/// Number of further partners for the best hypothesis of each size, whose influence calibration
+/// parameters may have absorbed.
 constexpr std::size_t n_hidden_partners = 5;
-/// Twice the log likelihood that a shape gains to first order where it is worth a fit.
+/// First-order gain in twice the log likelihood from which on an effect is worth a fit.
 constexpr double least_resemblance = 6.;
-/// Log likelihood by which one fit is far behind another.
+/// Difference in log likelihood from which on one fit is far worse than another.
 constexpr double far_nats = 300.;
 
 bool testable(const Experiment& experiment, const Effect& effect, const SearchOptions& options) {
@@ -51,7 +52,7 @@ double choice_posterior(const HypothesisFit& fit, const CalibrationChoice& choic
   return choice.log_evidence + log_prior(fit.hypothesis, choice.named.size(), n_testable);
 }
 
-/// Log prior that an odd noise of the accelerometer costs a fit.
+/// Log prior cost of an unusual accelerometer noise level in a fit.
 double noise_strain(const HypothesisFit& fit) {
   const Prior& prior = fit.fit_parameters[index_of_acceleration_noise].description.prior;
   return prior.log_density(prior.centre) -
@@ -69,12 +70,13 @@ bool has_free_calibrations(const HypothesisFit& fit) {
   return !fit.hypothesis.is_discrepancy() && !fit.as_simulated && !fit.choices.empty();
 }
 
-/// Does the effect say more of the accelerometer's noise?
+/// Does the effect change the noise level of the accelerometer?
 bool tells_noise(const Effect& effect) {
   return probe(effect).reference_variance > 0.;
 }
 
-/// What it calls the noise of an effect follows the wind: something else answers to the wind.
+/// Does the measured wind predict the process noise that the fit attributes to an effect? Then the
+/// true cause is another response to wind.
 bool predicts_its_noise(const HypothesisFit& fit) {
   constexpr double most_nats = 30., most_share = 0.05;
   const PredictedNoise& predicted = fit.goodness.predicted;
@@ -82,10 +84,10 @@ bool predicts_its_noise(const HypothesisFit& fit) {
          predicted.share > most_share;
 }
 
-/// An answer, none among them, whose residual stands out of the noise, the bounds of its form
-/// errors included, names the wrong cause or not all: something unknown is there. So does one that
-/// leaves much in indices while its bounds are far too wide in others, one whose own noise has the
-/// wrong spectrum or follows the wind, and one that leaves a tone: it has taken up what it is not.
+/// Residual test of an answer, also of "none". It fails when the residual exceeds noise and model
+/// form errors, when the variance is far too large in some bins and too small in others, when the
+/// process noise has the wrong spectrum or follows the wind, or when a tone is left at rest. Then
+/// the answer is wrong or incomplete.
 bool fails_residual_test(const HypothesisFit& fit) {
   constexpr double most_excess = 0.05, most_misshape_nats = 100., most_surplus = 0.3,
                    most_tone_nats = 20.;
@@ -95,8 +97,8 @@ bool fails_residual_test(const HypothesisFit& fit) {
          predicts_its_noise(fit);
 }
 
-/// Stands a fit, for all that it holds, where a larger one does?
-bool stands_alike(const HypothesisFit& part, const HypothesisFit& whole) {
+/// Are all effect parameters of a fit within two standard deviations of those of a larger fit?
+bool has_same_parameters(const HypothesisFit& part, const HypothesisFit& whole) {
   constexpr double n_deviations = 2.;
   for (std::size_t i = 0; i < part.fit_parameters.size(); ++i) {
     const FitParameter& fit_parameter = part.fit_parameters[i];
@@ -135,30 +137,29 @@ class Searcher {
     result.candidates = candidates(Kept::possible);
     result.refuted = candidates(Kept::refuted);
     if (result.candidates.empty())
-      throw signals::UserError(
-          "no answer has a likelihood that is a number: are the records' values in the units that "
-          "they are said to be?");
+      throw signals::UserError("no answer has a finite likelihood: check the units of the records");
     set_probabilities(result);
     result.fits = std::move(fits_);
     return result;
   }
 
  private:
-  /// Values of one effect more that the residual of a fit resembles.
+  /// Values of a further effect whose shape the residual of a fit resembles.
   struct Further {
-    std::size_t without = 0;  // number of that fit
+    std::size_t without = 0;  // index of that fit
     const Effect* effect = nullptr;
     Resemblance resemblance{};
   };
   struct Task {
     Hypothesis hypothesis;
-    std::optional<std::size_t> start;  // number of a fit
+    std::optional<std::size_t> start;  // index of a fit
     std::optional<Further> further{};
-    bool in_brief = false;  // from one start alone
-    bool hidden = false;    // stands as simulated alone
+    bool in_brief = false;  // from one start only
+    bool hidden = false;    // has only a fit as simulated
   };
 
-  /// Nonlinear ones take longer: no thread is to be left alone with one at the end.
+  /// Nonlinear hypotheses take longer and are started first, so that all threads end at about the
+  /// same time.
   static std::vector<std::size_t> longest_first(const std::vector<Task>& tasks) {
     std::vector<std::size_t> order(tasks.size()), length(tasks.size(), 0);
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -170,11 +171,11 @@ class Searcher {
     return order;
   }
 
-  /// Each with free calibrations; then each as simulated.
+  /// Fits each hypothesis with free calibration parameters, then as simulated.
   void fit_all(const std::vector<Task>& tasks) {
     const std::size_t first = fits_.size();
     fits_.resize(first + tasks.size());
-    // Known before any of them runs: which thread is first must not matter.
+    // Set before any fit runs, so that the result does not depend on the order of the threads.
     const double to_beat = best_log_posterior_;
     const std::vector<std::size_t> order = longest_first(tasks);
     for_each_parallel(tasks.size(), options_.n_threads, [&](std::size_t nth) {
@@ -199,7 +200,8 @@ class Searcher {
     weigh_hidden_gains();
   }
 
-  /// Those of which the fits from one on, with free calibrations, do not lie hopelessly behind.
+  /// The tasks whose fits with free calibration parameters (from the given index on) are not
+  /// hopelessly worse.
   void fit_as_simulated_from(const std::size_t first) {
     std::vector<std::size_t> of;
     for (std::size_t i = first; i < fits_.size(); ++i)
@@ -219,8 +221,8 @@ class Searcher {
     return Further{without, &effect, std::move(best)};
   }
 
-  /// The best combinations may stand in a better basin than their parts did: these start again from
-  /// there.
+  /// The best combinations may be in a better basin of attraction than their parts. The parts are
+  /// fitted again from there.
   void refine_parts(std::size_t size) {
     std::vector<std::size_t> bases = best_of_size(size);
     keep_first(bases, 2);
@@ -228,7 +230,7 @@ class Searcher {
     for (const std::size_t base : bases)
       for (const Effect* effect : fits_[base].hypothesis.effects()) {
         const auto found = known_.find(fits_[base].hypothesis.without(*effect).name());
-        if (found != known_.end() && !stands_alike(fits_[found->second], fits_[base]))
+        if (found != known_.end() && !has_same_parameters(fits_[found->second], fits_[base]))
           again.emplace_back(found->second, base);
       }
     std::vector<HypothesisFit> refined(again.size());
@@ -270,15 +272,15 @@ class Searcher {
         order.push_back(i);
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return best_posterior(a) > best_posterior(b); });
-    // One fit of a hypothesis: with free calibrations, or as simulated.
+    // One fit of a hypothesis, with free calibration parameters or as simulated.
     std::set<std::string> names;
     std::erase_if(order,
                   [&](std::size_t i) { return !names.insert(fits_[i].hypothesis.name()).second; });
     return order;
   }
 
-  /// Fits that hold this one effect less. Calibrations are free in all of them: one that they alone
-  /// tell apart has as much to gain as another.
+  /// Fits with this one effect less. Calibration parameters are free in all of them, so that
+  /// hypotheses are compared on equal terms.
   std::vector<std::size_t> fits_without(const Hypothesis& hypothesis, const Effect& effect) const {
     const Hypothesis fewer = hypothesis.without(effect);
     std::vector<std::size_t> out;
@@ -295,7 +297,7 @@ class Searcher {
     return out;
   }
 
-  /// Those that hold one effect less, and all that are parts of these.
+  /// Fits with one effect less, and all parts of these.
   std::set<std::size_t> parts_of(const Hypothesis& hypothesis) const {
     std::set<std::size_t> out;
     for (const Effect* effect : hypothesis.effects())
@@ -306,8 +308,8 @@ class Searcher {
     return out;
   }
 
-  /// A fit with more effects may gain what the form errors of a part of it explain as well: the
-  /// part is given it, with free calibrations and as simulated.
+  /// The gain of a fit with more effects that model form errors of its part may explain as well is
+  /// credited to the part, with free calibration parameters and as simulated.
   void weigh_hidden_gains() {
     std::vector<std::pair<std::size_t, std::size_t>> steps;  // (fewer, more)
     for (std::size_t i = 0; i < fits_.size(); ++i)
@@ -335,7 +337,7 @@ class Searcher {
     return best;
   }
 
-  /// More effects are tried only where the ones before have helped.
+  /// More effects are tested only when the previous ones have improved the fit.
   bool worth_extending(std::size_t size) const {
     const std::vector<std::size_t> fewer = best_of_size(size - 1);
     const std::vector<std::size_t> before = best_of_size(size - 2);
@@ -357,7 +359,7 @@ class Searcher {
         const Hypothesis joint = fits_[base].hypothesis.with(*partner.effect);
         const bool holds_best = holds(joint, bases.front());
         const bool in_brief = little || (outdone && !holds_best);
-        // What the best one gains beside it, its own partners tell.
+        // The best fit has its own partners, which cover its further gain.
         if (in_brief && (is_hopeless(base, partner.gain) || holds_best)) continue;
         if (known_.count(joint.name()) != 0 || !names.insert(joint.name()).second) continue;
         tasks.push_back({joint, base, std::move(partner.further), in_brief, partner.hidden});
@@ -370,7 +372,7 @@ class Searcher {
     double gain = -1.;
     const Effect* effect = nullptr;
     std::optional<Further> further{};
-    bool hidden = false;  // by calibrations
+    bool hidden = false;  // absorbed by calibration parameters
   };
 
   bool holds(const Hypothesis& hypothesis, std::size_t fit) const {
@@ -383,25 +385,26 @@ class Searcher {
     return best_log_posterior_ - fits_[base].log_posterior;
   }
 
-  /// Does a fit explain little of what the best one does, and is that far from it?
+  /// Does a fit explain only little of what the best fit explains, and is it far worse?
   bool explains_little(std::size_t base) const {
     constexpr double little = 0.3;
     const double behind = nats_behind(base), whole = nats_behind(0);
     return behind > far_nats && behind > (1. - little) * whole;
   }
 
-  /// Is a fit far from one of its size that leaves nothing but noise?
+  /// Is a fit far worse than one of its size that leaves only noise?
   bool is_outdone(std::size_t base, std::size_t best) const {
     return nats_behind(base) - nats_behind(best) > far_nats && !fails_residual_test(fits_[best]);
   }
 
-  /// Would a partner not help by far, to first order? gain: twice its log likelihood.
+  /// Is the first-order gain of a partner (twice its log likelihood) far too small?
   bool is_hopeless(std::size_t base, double gain) const {
     constexpr double n_first_orders = 20.;
     return nats_behind(base) > n_first_orders * 0.5 * gain;
   }
 
-  /// Those that the same fit as simulated lacks, where calibrations make up for much of it.
+  /// Effects that the same fit as simulated lacks, where calibration parameters compensate for much
+  /// of them.
   std::vector<Partner> hidden_partners(std::size_t base) {
     constexpr double much_nats = 5.;
     const std::string name = fits_[base].hypothesis.name();
@@ -442,7 +445,8 @@ class Searcher {
 
   enum class Kept { possible, refuted };
 
-  /// Log posterior below which a fit leaves what another takes up as noise that follows the wind.
+  /// Log posterior below which a fit leaves in the residual what another fit takes as process noise
+  /// that follows the wind.
   double least_posterior() const {
     constexpr double least_lead = 12.;
     double least = -std::numeric_limits<double>::infinity();
@@ -451,7 +455,7 @@ class Searcher {
     return least;
   }
 
-  /// Does even a far better answer, of which this one is a part, leave too much?
+  /// Does even a far better answer that contains this one fail the residual test?
   bool is_part_of_too_little(std::size_t part) const {
     for (std::size_t whole = 0; whole < fits_.size(); ++whole)
       if (fails_residual_test(fits_[whole]) && holds(fits_[whole].hypothesis, part) &&
@@ -468,7 +472,7 @@ class Searcher {
   std::vector<Candidate> candidates(const Kept kept) const {
     std::map<std::string, Candidate> by_name;
     const double least = least_posterior();
-    // As a part of a combination what leaves too much may be right all the same.
+    // An answer that fails the residual test may still be right as a part of a combination.
     for (std::size_t i = 0; i < fits_.size(); ++i)
       if (is_refuted(i, least) == (kept == Kept::refuted)) add_choices(by_name, i);
     std::vector<Candidate> out;
@@ -498,10 +502,10 @@ class Searcher {
   const SearchOptions& options_;
   std::vector<const Effect*> testable_;
   std::vector<HypothesisFit> fits_;
-  std::vector<double> hidden_;  // log likelihood that form errors of each may explain
+  std::vector<double> hidden_;  // log likelihood that model form errors of each fit may explain
   std::mutex mutex_;
   double best_log_posterior_ = -std::numeric_limits<double>::infinity();
-  std::map<std::string, std::size_t> known_;  // number of the fit of a hypothesis
+  std::map<std::string, std::size_t> known_;  // hypothesis -> index of its fit
 };
 
 }  // namespace

@@ -19,27 +19,27 @@ struct Candidate {
 
 struct SearchResult {
   std::vector<HypothesisFit> fits;
-  std::vector<Candidate> candidates;  // most probable first; probabilities are calibrated
-  double odds_against_best = 0.;      // by the fits
-  /// Answers that leave too much to be the cause, or all of it: what comes nearest first.
+  std::vector<Candidate> candidates;  // most probable first, with calibrated probabilities
+  double odds_against_best = 0.;      // uncalibrated, from the fits
+  /// Answers that fail the residual test, the nearest one first.
   std::vector<Candidate> refuted;
 };
 
 struct SearchOptions {
   std::size_t max_effects = 3;
   std::size_t n_threads = 2;
-  std::vector<std::string> left_out = {};  // effects that are not tried
+  std::vector<std::string> left_out = {};  // effects that are not tested
   std::function<void()> on_fit = {};       // after each fit, one at a time
 };
 
-/// Fits none, every single effect, then combinations: the best ones of a size are each joined with
-/// the effects whose shape the residual resembles most. Each candidate is one hypothesis with one
-/// choice of calibration effects; its prior pays for every effect named. Throws UserError where
-/// none has a likelihood that is a number.
+/// Fits "none", every single effect, then combinations: the best hypotheses of each size are
+/// extended by the effects whose shapes the residual resembles most. Each candidate is one
+/// hypothesis with one choice of named calibration effects; every named effect costs prior
+/// probability. Throws UserError when no likelihood is finite.
 SearchResult search(const Experiment& experiment, const SearchOptions& options = {});
 
-/// Probabilities of the candidates, the best of which comes first, from their posteriors; and the
-/// odds against it.
+/// Probabilities of the candidates (best first) from their posteriors, and the odds against the
+/// best one.
 void set_probabilities(SearchResult& result);
 
 }  // namespace vibrissa::diagnosis

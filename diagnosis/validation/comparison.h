@@ -7,27 +7,28 @@
 
 namespace vibrissa::diagnosis {
 
-/// Base response of the strongest periodic record, line by line, as magnitudes |M / a|
-/// [N m / (m/s^2)].
+/// Base response of the strongest periodic record at its lines, magnitudes |M / a| [N m / (m/s^2)].
 struct ResponseComparison {
   std::string record{};
   std::vector<double> frequency_hz{};
   std::vector<double> measured{}, nominal{}, updated{};
-  std::vector<double> deviation{};  // of the measured one, noise of both channels
+  std::vector<double>
+      deviation{};  // standard deviation of the measured response by the noise of both channels
 };
 
-/// Moments of one record in free simulation, without their means [N m].
+/// Measured and freely simulated moments of one record, without their means [N m].
 struct TraceComparison {
   std::string record{};
   std::vector<double> time_s{};
   std::vector<double> measured{}, nominal{}, updated{};
 };
 
-/// Empty without a periodic base record. The fit's experiment. Proven by
+/// Empty without a periodic base record. experiment: that of the fit. Proven by
 /// tests/diagnosis/validation/comparison_test.cc.
 ResponseComparison compare_response(const Experiment& experiment, const HypothesisFit& fit);
 
-/// First record of the experiment that moves; empty when there is none. fitted_on: the fit's own.
+/// The first record of the experiment with an excitation; empty when there is none. fitted_on:
+/// experiment of the fit.
 TraceComparison compare_trace(const Experiment& fitted_on, const Experiment& held_out,
                               const HypothesisFit& fit);
 

@@ -13,13 +13,13 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// The lowest bins hold what wanders from day to day.
+/// The lowest bins, which contain drift that varies from day to day, are not used.
 constexpr std::size_t first_bin = 4;
 
-/// Of an effect's own noise the power is known so well: gusts and wakes differ from day to day.
+/// Factor on the power of process noise, because gusts and wakes vary from day to day.
 constexpr double own_noise_margin = 1.5;
 
-/// A fit's parameters with the noise that was measured, and the whole bounds of form errors.
+/// A fit's parameters with the measured noise levels and the full bounds of model form errors.
 Eigen::VectorXd evaluation_parameters(const Experiment& experiment, const HypothesisFit& fit) {
   Eigen::VectorXd x = fit.x;
   const NoiseLevels levels = noise_levels(experiment, fit, fit.chain(experiment));
@@ -58,7 +58,7 @@ ResidualExcess residual_excess(const Experiment& fitted_on, const Experiment& he
   const Eigen::VectorXd x = evaluation_parameters(fitted_on, fit);
   FitPosterior posterior(as_fitted, fit.fit_parameters, fit.hypothesis);
   const std::vector<Prediction> at = posterior.predict(x);
-  posterior.renew_slow_variance(x, at);
+  posterior.update_slow_variance(x, at);
   const double a_variance = posterior.acceleration_variance(x);
   const Chain nominal = fitted_on.nominal_chain();
   ResidualExcess worst;
@@ -83,7 +83,7 @@ bool contradicted_by(const ResidualExcess& left) {
 void refute_contradicted(SearchResult& result, const Experiment& fitted_on,
                          const Experiment& held_out) {
   constexpr std::size_t most_fits = 5;
-  constexpr double most_nats_behind = 4.6;  // one to a hundred
+  constexpr double most_nats_behind = 4.6;  // probability ratio 1 : 100
   std::set<std::size_t> contradicted;
   bool confirmed = false;
   for (const Candidate& candidate : result.candidates) {

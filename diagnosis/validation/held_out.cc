@@ -19,7 +19,7 @@ namespace {
 
 using Samples = std::vector<double>;
 
-/// Mean squares [(N m)^2] of what no model can predict in one record.
+/// Mean squares [(N m)^2] of the unpredictable parts of one record.
 struct FloorParts {
   double moment = 0., acceleration = 0., own = 0.;
 };
@@ -57,7 +57,7 @@ Line line_at(std::span<const double> error, double rate_hz, double frequency_hz)
   return {frequency_hz, solution(0), solution(1), right.dot(solution)};
 }
 
-/// The line of most energy within reach of a frequency: grid, then halved steps.
+/// The line with the most energy near a frequency: search on a grid, then with halved steps.
 Line strongest_line(std::span<const double> error, double rate_hz, double centre_hz,
                     double reach_hz) {
   constexpr int n_grid = 12, n_halvings = 10;
@@ -93,7 +93,7 @@ void take_hum_off(Samples& error, double rate_hz, const HypothesisFit& fit) {
   }
 }
 
-/// Slope of the straight line through samples, a sample.
+/// Slope per sample of the straight line through samples.
 double slope_of(std::span<const double> x) {
   const double n = static_cast<double>(x.size()), middle = 0.5 * (n - 1.);
   double sum = 0.;
@@ -111,7 +111,7 @@ double square_about_mean(std::span<const double> x, double slope) {
   return square - sum * sum / static_cast<double>(x.size());
 }
 
-/// Takes a ramp off when the first part of the first half predicts the rest of that half with it.
+/// Subtracts a ramp when the first part of the first half predicts the rest of that half by it.
 bool take_drift_off(Samples& error) {
   const std::span<const double> half = std::span(error).first(error.size() / 2);
   const std::span<const double> part = half.first(half.size() / 2);
@@ -122,7 +122,7 @@ bool take_drift_off(Samples& error) {
   return true;
 }
 
-/// An offset tells nothing: the mean of what is evaluated goes.
+/// Subtracts the mean of the evaluated part, because an offset carries no information.
 void take_mean_off(Samples& x, std::size_t first) {
   double mean = 0.;
   for (std::size_t i = first; i < x.size(); ++i)
@@ -130,7 +130,7 @@ void take_mean_off(Samples& x, std::size_t first) {
   for (double& value : x) value -= mean;
 }
 
-/// Sums over one block of time.
+/// Sums over one block in time.
 struct Block {
   double before = 0., after = 0., measured = 0.;
   FloorParts floor{};
@@ -151,9 +151,9 @@ std::optional<double> gap_closed(const Block& sum) {
   return 1. - (sum.after - floor) / (sum.before - floor);
 }
 
-/// By how much an interval between quantiles of resamples is too short for so few blocks: Student's
-/// quantile over the normal one, and the missing degree of freedom (Hesterberg 2015, expanded
-/// percentile interval).
+/// Factor by which a percentile interval is too short for few blocks: ratio of Student's to the
+/// normal quantile, and the missing degree of freedom (Hesterberg 2015, expanded percentile
+/// interval).
 double expansion(std::size_t n_blocks) {
   const double n = static_cast<double>(n_blocks), nu = n - 1.;
   return signals::student_quantile_975(nu) / signals::normal_quantile_975 * std::sqrt(n / nu);
@@ -176,7 +176,7 @@ std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
       add(sum, blocks[pick(random)], moment, acceleration);
     if (const auto value = gap_closed(sum)) values.push_back(*value);
   }
-  // Where many resamples have no gap at all there is nothing to give an interval of.
+  // No interval when many resamples have no gap.
   if (values.size() < options.n_resamples * 9 / 10) return std::nullopt;
   std::sort(values.begin(), values.end());
   const auto quantile = [&](double q) {

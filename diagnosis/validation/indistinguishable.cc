@@ -15,7 +15,7 @@ namespace {
 
 constexpr double enough_nats = 2.;
 
-/// Against a fit.
+/// Changes relative to a fit.
 FisherChanges changes_against(const Experiment& experiment, const HypothesisFit& fit) {
   std::vector<double> deviation;
   for (const WhitenedRecord& record : whitened_residual(experiment, fit))
@@ -23,14 +23,14 @@ FisherChanges changes_against(const Experiment& experiment, const HypothesisFit&
   return {experiment, std::move(deviation), noisy_chain(experiment, fit.fit_parameters, fit.x)};
 }
 
-/// One direction in which a prediction can be moved.
+/// One direction in which a prediction can change.
 struct Direction {
-  const Effect* effect = nullptr;  // nothing: noise levels, joint share
-  bool alternative = false;        // an effect that the fit does not hold
-  double half_prior = 0.;          // nats of a unit of it
+  const Effect* effect = nullptr;  // nullptr: noise levels, joint share
+  bool alternative = false;        // belongs to an effect that the fit does not contain
+  double half_prior = 0.;          // nats of a unit step
 };
 
-/// The question is what the data say: nuisances stay within this many spreads of their priors.
+/// Factor on the spreads of the nuisance priors, so that the data dominate.
 constexpr double n_spreads = 2.;
 
 class Directions {
@@ -38,7 +38,7 @@ class Directions {
   Directions(const Experiment& experiment, const HypothesisFit& fit)
       : changes_(changes_against(experiment, fit)) {
     std::vector<Eigen::VectorXd> columns;
-    add_figures(experiment, fit, columns);
+    add_parameters(experiment, fit, columns);
     add_alternatives(experiment, fit, columns);
     std::vector<double> half_priors;
     for (const Direction& direction : list_) half_priors.push_back(direction.half_prior);
@@ -47,8 +47,8 @@ class Directions {
 
   const std::vector<Direction>& list() const { return list_; }
 
-  /// What a named effect does: along its tangents from where it is to neutral, or as a whole where
-  /// neutral is infinitely far.
+  /// Influence of a named effect: along its tangents from its value to neutral, or its whole change
+  /// when neutral is infinitely far.
   Eigen::VectorXd change_of(const Effect& effect, const Experiment& experiment,
                             const HypothesisFit& fit) const {
     Eigen::VectorXd along = Eigen::VectorXd::Zero(directions_.columns().rows());
@@ -69,14 +69,14 @@ class Directions {
     return along;
   }
 
-  /// Nats of a change that are left when the chosen directions follow it.
+  /// Nats of a change that remain when the chosen directions follow it.
   double left(const Eigen::VectorXd& change, const std::vector<bool>& chosen) const {
     return directions_.left(change, chosen);
   }
 
  private:
-  void add_figures(const Experiment& experiment, const HypothesisFit& fit,
-                   std::vector<Eigen::VectorXd>& columns) {
+  void add_parameters(const Experiment& experiment, const HypothesisFit& fit,
+                      std::vector<Eigen::VectorXd>& columns) {
     for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
       const FitParameter& fit_parameter = fit.fit_parameters[i];
       if (fit_parameter.description.name == "model_form_error_share") continue;
@@ -114,7 +114,7 @@ class Directions {
   FisherDirections directions_;
 };
 
-/// Sets in which one named effect stands.
+/// Indistinguishable sets of one named effect.
 class Sets {
  public:
   Sets(const Directions& directions, const Effect& named, Eigen::VectorXd change)
@@ -148,7 +148,7 @@ class Sets {
       if (directions_.list()[i].effect == &effect) chosen[i] = on;
     return directions_.left(change_, chosen);
   }
-  /// The effects of the fit that together do what this one does.
+  /// The effects of the fit that together have the same influence as this one.
   std::vector<std::string> with_nuisances() const {
     const double left = directions_.left(change_, free_);
     std::vector<std::string> ids{named_.id};
@@ -164,13 +164,13 @@ class Sets {
   std::vector<bool> free_;
 };
 
-/// Hypothesis with one effect in another's place.
+/// The hypothesis with one effect replaced by another.
 std::string exchanged(const Hypothesis& hypothesis, const Effect& effect,
                       const Effect& alternative) {
   return hypothesis.without(effect).with(alternative).name();
 }
 
-/// Effects that do in a fit of their own what the named one does in the best fit.
+/// Effects whose own fit is as good as that of the named effect in the best fit.
 void add_refitted(const SearchResult& result, const HypothesisFit& best, const Effect& effect,
                   std::vector<std::vector<std::string>>& sets) {
   for (const Effect& alternative : effect_catalogue()) {
@@ -182,8 +182,8 @@ void add_refitted(const SearchResult& result, const HypothesisFit& best, const E
   }
 }
 
-/// Log likelihood of a fit whose calibrations but for the given ones are exactly nominal: in
-/// Gaussian approximation, tolerances taken out.
+/// Log likelihood of a fit whose calibration parameters, except the given ones, are exactly nominal
+/// (Gaussian approximation, without the tolerance priors).
 double likelihood_at_nominal_but(const HypothesisFit& fit, const std::vector<std::string>& ids) {
   const std::vector<Eigen::Index> all = calibrations_but(fit, {});
   const RecalibratedPosterior free = recalibrated_posterior(fit, all);
@@ -197,7 +197,7 @@ double likelihood_at_nominal_but(const HypothesisFit& fit, const std::vector<std
          nats_to(Eigen::VectorXd::Zero(fit.x.size()), calibrations_but(fit, ids));
 }
 
-/// Effects that do in a fit of their own what a named calibration does in the best fit.
+/// Effects whose own fit is as good as that of a named calibration effect in the best fit.
 void add_refitted_for_calibration(const SearchResult& result, const HypothesisFit& best,
                                   const std::vector<std::string>& calibrations,
                                   const std::string& named,
@@ -215,7 +215,7 @@ void add_refitted_for_calibration(const SearchResult& result, const HypothesisFi
   }
 }
 
-/// Each once, whatever way it was found.
+/// Removes duplicates.
 void add_new(std::vector<std::vector<std::string>>& sets, std::vector<std::string> set) {
   if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
 }

@@ -17,7 +17,7 @@ bool tells(const signals::DatasetRecord& entry) {
          entry.record.has(channel::wind_moment);
 }
 
-/// What is left of the moment once the predicted vibration is taken off, after the first samples.
+/// The measured moment minus the predicted vibration, without the first samples.
 void append_wind_estimate(const UpdatedModel& model, const signals::Record& record,
                           std::size_t first, std::vector<double>& out) {
   const std::vector<double> vibration = simulate_vibration(model, record);
@@ -30,7 +30,7 @@ void append_wind_estimate(const UpdatedModel& model, const signals::Record& reco
 std::optional<SeparationQuality> separation_quality(const UpdatedModel& simulation,
                                                     const UpdatedModel& updated,
                                                     const signals::Dataset& real) {
-  // What the unknown start leaves is gone by then.
+  // Transients have decayed by then.
   constexpr double settling_s = 0.5;
   if (!simulation.nominal.has_base) return std::nullopt;
   std::vector<double> truth, before, after;

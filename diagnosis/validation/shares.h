@@ -8,8 +8,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// Shares of n players in what they reach together, by Shapley (1953): the mean over all orders of
-/// what each adds. worth(set): what the players of a bit set reach; n small. The shares sum to
+/// Shapley values (1953) of n players: each player's contribution, averaged over all orders.
+/// worth(set): value of a set of players, given as bits; n must be small. The values sum to
 /// worth(all) - worth(none). Proven by tests/diagnosis/validation/shares_test.cc.
 std::vector<double> shapley_values(std::size_t n, const std::function<double(std::size_t)>& worth);
 
@@ -19,10 +19,9 @@ struct EffectShare {
   double share = 0.;
 };
 
-/// Of each effect of a fit with two or more, and of the calibrations that are free without any of
-/// them
-/// ("calibrations", last); empty where no gap is to be closed. Fits of the parts that the search
-/// has not made are made.
+/// Share of each effect of a fit with two or more effects, and of the free calibration parameters
+/// ("calibrations", last); empty when there is no gap. Missing fits of parts of the combination are
+/// made.
 std::vector<EffectShare> effect_shares(const Experiment& fitted_on, const Experiment& held_out,
                                        const SearchResult& result, const HypothesisFit& fit);
 

@@ -15,11 +15,11 @@ std::string reason_of(Lack lack) {
     case Lack::base:
       return "no usable fit record with base motion";
     case Lack::cross:
-      return "no cross_acceleration_m_s2";
+      return "cross_acceleration_m_s2 is not measured";
     case Lack::modes:
       return "the simulation has no mode";
     case Lack::duration:
-      return "too few seconds of motion";
+      return "the records with motion are too short";
     case Lack::repeats:
       break;
   }
@@ -35,7 +35,7 @@ std::vector<UntestedEffect> untested_effects(const Experiment& experiment) {
     const auto has = [&](Lack one) {
       return std::find(lack.begin(), lack.end(), one) != lack.end();
     };
-    // Where no sample repeats, the count of equal neighbours has told.
+    // Where no sample repeats, the effect is excluded and not untested.
     if (lack.empty() || has(Lack::repeats)) continue;
     out.push_back({effect.id, reason_of(has(Lack::wind) ? Lack::wind : lack.front())});
   }

@@ -7,16 +7,16 @@
 
 namespace vibrissa::diagnosis {
 
-/// An effect that these data cannot show at all: it is neither found nor excluded.
+/// An effect that these data cannot show: it is neither detected nor excluded.
 struct UntestedEffect {
   std::string effect{}, reason{};
 };
 
-/// Effects of the catalogue that the experiment does not show, alphabetical. Proven by
+/// Effects of the catalogue that the experiment cannot show, in alphabetical order. Proven by
 /// tests/diagnosis/validation/untested_test.cc.
 std::vector<UntestedEffect> untested_effects(const Experiment& experiment);
 
-/// Effects joined by their reason, for one line; empty when there is none.
+/// The effects grouped by reason, as one line; empty when there are none.
 std::string untested_sentence(const std::vector<UntestedEffect>& untested);
 
 }  // namespace vibrissa::diagnosis

@@ -11,7 +11,7 @@ namespace {
 
 namespace channel = signals::channel;
 
-/// Moment of a steady wind over its u |u|, at the speed that sensors are made for [N m / (m/s)^2].
+/// Moment of a steady wind divided by u |u|, at the design wind speed [N m / (m/s)^2].
 double steady_drag(const UpdatedModel& model, double rate_hz) {
   constexpr std::size_t n = 256;
   constexpr double usual_m_s = 2.;
@@ -26,7 +26,7 @@ std::vector<double> predicted_vibration(const UpdatedModel& model, const signals
   return simulate_vibration(model, record);
 }
 
-/// Half of the samples averaged over.
+/// Half the number of averaged samples.
 std::size_t reach(const NominalModel& nominal, double rate_hz) {
   constexpr double n_periods = 4.;
   if (nominal.modes.empty()) return 0;
@@ -34,7 +34,7 @@ std::size_t reach(const NominalModel& nominal, double rate_hz) {
   return static_cast<std::size_t>(0.5 * n_periods * period_s * rate_hz);
 }
 
-/// u of u |u|.
+/// u from u |u|.
 std::vector<double> speed_of(std::vector<double> square) {
   for (double& value : square) value = std::copysign(std::sqrt(std::abs(value)), value);
   return square;
@@ -68,7 +68,7 @@ double square_error(std::span<const double> x, std::span<const double> truth, st
 std::optional<WindSpeedError> wind_speed_error(const UpdatedModel& simulation,
                                                const UpdatedModel& updated,
                                                const signals::Dataset& real) {
-  // What the unknown start leaves is gone by then.
+  // Transients have decayed by then.
   constexpr double settling_s = 0.5;
   if (!simulation.nominal.has_wind) return std::nullopt;
   double before = 0., after = 0., n = 0.;

@@ -7,7 +7,7 @@
 namespace vibrissa::report {
 namespace {
 
-/// Lowest and highest value on paper of everything added.
+/// Lowest and highest plot coordinate of all added values.
 class Extent {
  public:
   explicit Extent(const Axis& axis) : axis_(axis) {}
@@ -17,7 +17,8 @@ class Extent {
     low_ = std::min(low_, at);
     high_ = std::max(high_, at);
   }
-  /// With a margin on both sides as part of the length; 0 .. 1 without any value.
+  /// The range with a margin on both sides, given as a share of the length; 0 .. 1 without any
+  /// value.
   Range range(const double margin) const {
     if (low_ > high_) return {0., 1.};
     const double length = high_ - low_;
@@ -40,7 +41,7 @@ bool may_share(const Panel& a, const Panel& b) {
   return a.x_label == b.x_label && a.log_x == b.log_x && !a.x_label.empty();
 }
 
-/// What the panel asks for, else what its own curves need.
+/// The range that the panel asks for; default: the range of its curves.
 Range own_x_range(const Panel& panel, const Axis& axis) {
   if (panel.x_range) return on_paper(axis, *panel.x_range);
   Extent extent(axis);
@@ -53,12 +54,12 @@ Range both(const Range& a, const Range& b) {
   return {std::min(a.low, b.low), std::max(a.high, b.high)};
 }
 
-/// A whole record and a part of it have the same x label but need axes of their own.
+/// A whole record and a part of it have the same x label but need different axes.
 bool is_most_of(const Range& part, const Range& whole) {
   return part.length() >= 0.8 * whole.length();
 }
 
-/// Neighbours that need nearly the same x range get the same.
+/// Neighbours with nearly the same x range get the same range.
 void join_x_ranges(const Figure& figure, std::vector<PanelLayout>& panels) {
   for (std::size_t first = 0, end = 0; first < panels.size(); first = end) {
     Range joint = panels[first].x.range, smallest = joint;
@@ -76,7 +77,7 @@ void join_x_ranges(const Figure& figure, std::vector<PanelLayout>& panels) {
   }
 }
 
-/// What lies left and right of the axes does not count.
+/// Values left and right of the x range do not count.
 void set_y_range(const Panel& panel, PanelLayout& placed) {
   Extent extent(placed.y);
   for (const Curve& curve : panel.curves)

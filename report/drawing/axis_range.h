@@ -7,9 +7,9 @@
 
 namespace vibrissa::report {
 
-/// Sets scale and range of the axes of all panels: the range asked for, else what the finite values
-/// need; neighbours with the same x label and nearly the same x range share it, and y gets a margin
-/// of 5 %.
+/// Sets scale and range of the axes of all panels: the given range; default: the range of the
+/// finite values. Neighbours with the same x label and nearly the same x range get the same x
+/// range. y gets a margin of 5 %.
 void set_ranges(const Figure& figure, std::vector<PanelLayout>& panels);
 
 /// Whether two neighbours have the same x axis, so that one set of numbers serves both.

@@ -10,8 +10,7 @@
 
 namespace vibrissa::report {
 
-/// Paints bands given in pixels. Used in place of vtkPlotArea, which leaves out a band of two
-/// points.
+/// Paints bands given in pixels. It replaces vtkPlotArea, which omits a band of two points.
 class BandPainter : public vtkContextItem {
  public:
   static BandPainter* New();

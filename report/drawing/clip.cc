@@ -15,7 +15,7 @@ struct Piece {
   bool empty() const { return from > to; }
 };
 
-/// Keeps what lies in the window of one coordinate, which runs from start to end.
+/// Keeps the part inside the window in one coordinate, which runs from start to end.
 void cut(Piece& piece, const double start, const double end, const Range& window) {
   const double change = end - start;
   if (change == 0.) {
@@ -63,7 +63,7 @@ Polyline clip_line(const Polyline& line, const Range& x_window, const Range& y_w
       if (!result.x.empty()) add(result, result.x.back(), gap);
       add(result, between(x[i - 1], x[i], piece.from), between(y[i - 1], y[i], piece.from));
     }
-    // The end itself where it is inside: between() may be off by a rounding error.
+    // The end itself where it is inside, because between() may have a rounding error.
     joined = piece.to == 1.;
     if (joined)
       add(result, x[i], y[i]);

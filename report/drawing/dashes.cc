@@ -7,7 +7,7 @@
 namespace vibrissa::report {
 namespace {
 
-/// Walks along a line and keeps what it passes while its pen is down.
+/// Follows a line and keeps the parts that are drawn.
 class Pen {
  public:
   Pen(const double on, const double off) : on_(on), off_(off) { assert(on > 0. && off > 0.); }

@@ -28,7 +28,7 @@
 namespace vibrissa::report {
 namespace {
 
-/// The charts plot pixels: in SVG files scaled axes would distort pens, and everywhere single
+/// The charts plot pixels, because scaled axes would distort pens in SVG files, and because single
 /// precision would lose a small change on a large value.
 std::vector<double> pixels(const Axis& axis, const std::vector<double>& values, const double start,
                            const double length) {
@@ -59,7 +59,7 @@ void add_column(vtkTable& table, const char* name, const std::vector<double>& va
   table.AddColumn(column);
 }
 
-/// What is seen of a line or of points. A value without x cannot be placed: it becomes a gap.
+/// The visible part of a line or of points. A value without x becomes a gap.
 Polyline visible(const Curve& curve, const PanelLayout& placed, const Strokes& strokes) {
   Polyline line{x_pixels(placed, curve.x), y_pixels(placed, curve.y)};
   for (std::size_t i = 0; i < line.x.size(); ++i)
@@ -109,7 +109,7 @@ void add_bands(BandPainter& painter, const Panel& panel, const PanelLayout& plac
   }
 }
 
-/// The page draws what there is to see of an axis.
+/// Hides the chart's axis, because the page draws it.
 void set_axes(vtkChartXY& chart, const Box& plot) {
   for (const int position : {vtkAxis::LEFT, vtkAxis::BOTTOM, vtkAxis::RIGHT, vtkAxis::TOP}) {
     vtkAxis* axis = chart.GetAxis(position);
@@ -146,7 +146,7 @@ vtkNew<vtkRenderWindow> window_with(const Figure& figure, const PageLayout& page
   vtkNew<PagePainter> painter;
   painter->show(figure, page);
   actor->GetScene()->AddItem(painter);
-  vtkNew<BandPainter> bands;  // below everything else that the charts draw
+  vtkNew<BandPainter> bands;  // painted first, below all other curves
   for (std::size_t p = 0; p < figure.panels.size(); ++p)
     add_bands(*bands, figure.panels[p], page.panels[p]);
   actor->GetScene()->AddItem(bands);

@@ -76,7 +76,7 @@ std::string printable(const std::string& text) {
 }
 
 double text_width(const std::string& text, const int size, const bool bold) {
-  constexpr int dots_per_inch = 72;  // one pixel a point
+  constexpr int dots_per_inch = 72;  // one pixel per point
   if (text.empty()) return 0.;
   vtkNew<vtkTextProperty> property;
   set_lettering(*property, size, bold);

@@ -6,18 +6,18 @@ class vtkTextProperty;
 
 namespace vibrissa::report {
 
-/// Dark text of a size in pixels in DejaVu Sans where it is installed (it has all the signs that
-/// labels use), else in VTK's own font.
+/// Dark text of a size in pixels in DejaVu Sans when it is installed (it has all characters that
+/// labels use), otherwise in VTK's own font.
 void set_lettering(vtkTextProperty& property, int size, bool bold = false);
 
-/// What can be printed with the font in use: without DejaVu Sans superscripts become "^-3", as a
-/// sign that VTK's font lacks would vanish and turn 10⁻³ into 10³.
+/// The text as the current font can print it. Without DejaVu Sans superscripts become "^-3",
+/// because a character missing in VTK's font would vanish and turn 10⁻³ into 10³.
 std::string printable(const std::string& text);
 
-/// In pixels, as set_lettering() and printable() would draw it. Needs no display.
+/// Size in pixels as drawn with set_lettering() and printable(). Needs no display.
 double text_width(const std::string& text, int size, bool bold);
 
-/// The rule behind printable(), independent of the fonts that are installed.
+/// The replacement rule of printable(), independent of the installed fonts.
 std::string without_superscripts(const std::string& text);
 
 }  // namespace vibrissa::report

@@ -11,19 +11,19 @@ namespace {
 
 constexpr int title_size = 20, heading_size = 17, label_size = 17, tick_size = 15, legend_size = 15;
 constexpr double margin = 14., right_margin = 36., row = 26., title_row = 32.;
-constexpr double tick_gap = 10.;  // between an axis and its numbers
+constexpr double tick_gap = 10.;  // between an axis and its tick labels
 constexpr double gap_between_panels = 16., gap_in_legend = 26., gap_after_sample = 7.;
 constexpr double gap_after_heading = 50., least_plot_height = 150.;
 
-/// Heights of plots follow from the rows of the legends, these from the left edge, and that from
-/// the numbers on the y axes, which hardly depend on the height: this guess serves for them.
+/// Estimated plot height for the tick labels of the y axes. The true height depends on the legends,
+/// these on the left edge, and this on the tick labels, which hardly depend on the height.
 constexpr double usual_plot_height = 0.7 * panel_height;
 
 bool is_in_degrees(const std::string& label) {
   return label.find("\u00b0") != std::string::npos;
 }
 
-/// Whether all that the legend of b would say is said by that of a.
+/// Does the legend of a contain all entries of the legend of b?
 bool covers(const Panel& a, const Panel& b) {
   for (std::size_t c = 0; c < b.curves.size(); ++c) {
     bool found = b.curves[c].label.empty();
@@ -35,7 +35,7 @@ bool covers(const Panel& a, const Panel& b) {
   return true;
 }
 
-/// Fills one page; the steps depend on each other in the order in which build() calls them.
+/// Builds one page; build() calls the steps in the order of their dependence.
 class PageBuilder {
  public:
   PageBuilder(const Figure& figure, const TextWidth& width)
@@ -118,8 +118,8 @@ class PageBuilder {
                                width_(label, legend_size, false) + gap_in_legend;
   }
 
-  /// Heading and legend in rows above the axes; y counts downward from the panel's top for now. A
-  /// legend that fits stands beside the heading and ends where the axes do.
+  /// Places heading and legend in rows above the axes; y counts downward from the panel's top at
+  /// this step. A legend that fits is beside the heading, right-aligned with the axes.
   void place_heading(const std::size_t p) {
     const Panel& given = figure_.panels[p];
     int& n_rows = heading_rows_[p];

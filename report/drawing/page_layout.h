@@ -13,26 +13,26 @@ namespace vibrissa::report {
 
 inline constexpr int page_width = 1200, panel_height = 400;  // pixels
 
-/// Pixels, y upward from the lower edge of the page.
+/// Rectangle in pixels, y upward from the lower edge of the page.
 struct Box {
   double left = 0., bottom = 0., width = 0., height = 0.;
   double right() const { return left + width; }
   double top() const { return bottom + height; }
 };
 
-/// One axis of a panel: what is shown, in the coordinates of the paper.
+/// One axis of a panel in plot coordinates.
 struct Axis {
   bool logarithmic = false;
   Range range{0., 1.};
   Ticks ticks;
 
-  /// The value, or its decimal logarithm; NaN for what cannot be shown.
+  /// The value, or its decimal logarithm; NaN for a value that cannot be shown.
   double on_paper(double value) const;
   /// 0 at the lower end of the range, 1 at the upper one.
   double part(double at) const { return (at - range.low) / range.length(); }
 };
 
-/// Sample line of a curve in the legend; y is its middle.
+/// Legend sample of a curve; y is its middle.
 struct LegendSample {
   std::size_t curve;
   double left, y;
@@ -44,13 +44,13 @@ struct PanelLayout {
   std::vector<LegendSample> legend;
 };
 
-/// Widths of pens and the like in pixels.
+/// Pen widths and other lengths in pixels.
 struct Strokes {
-  double line = 2., fine_line = 1.25;  // fine: curves of very many points
+  double line = 2., fine_line = 1.25;  // fine: curves with very many points
   double point = 7.;
   double dash = 9., dash_space = 6.;
   double thin = 1., long_tick = 6., short_tick = 3.;  // grid, frame and tick marks
-  double sample_width = 30., sample_height = 12.;     // in the legend
+  double sample_width = 30., sample_height = 12.;     // of the legend samples
 };
 
 struct PageLayout {
@@ -60,13 +60,13 @@ struct PageLayout {
   std::vector<PlacedText> texts;
 };
 
-/// Places everything on a page of page_width x n_panels * panel_height (higher only when legends
-/// need it): left edges of the panels in line, legends above the axes so that they hide no data and
-/// not repeated below one another, long labels in several lines, the x axis labelled once where
-/// neighbours share it. Proven by tests/report/drawing/page_layout_test.cc.
+/// Layout of a page of page_width x n_panels * panel_height pixels (higher only when legends need
+/// it): left edges of the panels are aligned, legends are above the axes so that they hide no data
+/// and are not repeated, long labels have several lines, and neighbours with the same x axis have
+/// one x label. Proven by tests/report/drawing/page_layout_test.cc.
 PageLayout lay_out(const Figure& figure, const TextWidth& text_width);
 
-/// The same page with everything on it larger by a whole factor.
+/// The page magnified by an integer factor.
 PageLayout magnified(PageLayout page, int factor);
 
 }  // namespace vibrissa::report

@@ -15,12 +15,12 @@ namespace {
 constexpr Colour grid_colour = {221, 221, 221}, fine_grid_colour = {240, 240, 240};
 constexpr Colour frame_colour = {110, 110, 110};
 
-/// The middle of a pixel: a thin line between two would be drawn wide and pale.
+/// The middle of a pixel, because a thin line between two pixels would be wide and pale.
 double middle(const double pixel, const double width) {
   return (std::floor(pixel / width) + 0.5) * width;
 }
 
-/// Draws one panel but for its texts and curves.
+/// Draws one panel without its texts and curves.
 class PanelPainter {
  public:
   PanelPainter(vtkContext2D& painter, const Strokes& strokes, const PanelLayout& placed)

@@ -11,8 +11,8 @@ namespace vibrissa::report {
 /// A band has the colour of its curve mixed with white.
 inline constexpr double band_tint = 0.3;
 
-/// Everything on a page but the curves: texts, legend samples, grids, frames and tick marks. Figure
-/// and page must outlive the painter.
+/// Paints everything on a page except the curves: texts, legend samples, grids, frames and ticks.
+/// Figure and page must outlive the painter.
 class PagePainter : public vtkContextItem {
  public:
   static PagePainter* New();

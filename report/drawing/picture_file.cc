@@ -20,7 +20,7 @@
 namespace vibrissa::report {
 namespace {
 
-/// The line without an attribute, which begins with a blank.
+/// The line without an attribute, whose name begins with a space.
 std::string without(std::string line, const std::string& attribute) {
   const std::size_t start = line.find(attribute);
   if (start == std::string::npos) return line;
@@ -28,8 +28,8 @@ std::string without(std::string line, const std::string& attribute) {
   return line.erase(start, end - start + 1);
 }
 
-/// Mends what the exporter writes: its clip paths hide whole curves in some viewers, while all that
-/// is drawn is clipped already; and for no outline it asks for one of dashes without length.
+/// Corrects the exporter's output: removes clip paths, which hide whole curves in some viewers
+/// (everything is clipped already), and outlines that consist of dashes of zero length.
 std::string updated(const std::string& line) {
   const std::string no_outline = " stroke-dasharray=\"0,10\"";
   const std::string unclipped = without(line, " clip-path=");
@@ -41,7 +41,7 @@ std::string updated(const std::string& line) {
   return plain;
 }
 
-/// A file of others' making that is gone when its reader is.
+/// A temporary file that is removed at the end.
 class PassingFile {
  public:
   explicit PassingFile(std::filesystem::path file) : file_(std::move(file)) {}
@@ -96,7 +96,7 @@ void write_png(vtkRenderWindow& window, const std::filesystem::path& file) {
 
 void write_svg(vtkRenderWindow& window, const std::filesystem::path& file, const std::string& title,
                const std::string& caption) {
-  // The exporter knows files only and is silent about failure.
+  // The exporter writes only files and does not report failure.
   const PassingFile raw(file.string() + ".raw");
   vtkNew<vtkSVGExporter> exporter;
   exporter->SetRenderWindow(&window);
@@ -108,7 +108,8 @@ void write_svg(vtkRenderWindow& window, const std::filesystem::path& file, const
   std::ifstream in(raw.path());
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   if (lines.empty() || lines.back() != "</svg>")
-    throw signals::ResourceError(file.string() + ": cannot be written; is the disk full?");
+    throw signals::ResourceError(file.string() +
+                                 ": the file cannot be written; check whether the disk is full");
   signals::write_file(file, [&](std::ostream& out) {
     for (const std::string& line : lines) out << updated(line) << '\n';
   });

@@ -9,8 +9,8 @@ class vtkRenderWindow;
 
 namespace vibrissa::report {
 
-/// Keeps the display open from one picture to the next: a virtual one starts anew whenever its last
-/// window closes, and may then miss the next.
+/// Keeps the display open between pictures: a virtual display restarts when its last window closes,
+/// and may then miss the next window.
 class OpenDisplay {
  public:
   OpenDisplay();
@@ -22,20 +22,19 @@ class OpenDisplay {
   vtkSmartPointer<vtkRenderWindow> window_;
 };
 
-/// A window that never appears on the screen. Making pictures in it
-/// aborts the program when no display can be opened: see draw_pictures().
+/// An off-screen window. Drawing in it aborts the program when no display can be opened: see
+/// draw_pictures().
 void prepare_offscreen(vtkRenderWindow& window, int width, int height);
 
-/// Pixels of a window are this much finer than those of its PNG file, for smooth edges.
+/// Oversampling of a window relative to its PNG file, for smooth edges.
 inline constexpr int oversampling = 2;
 
-/// Renders the window and writes it, smaller by oversampling, to a PNG file, which is whole or not
-/// there at all. Throws UserError with the
-/// path when it cannot be written.
+/// Renders the window and writes it, reduced by the oversampling, to a PNG file. The file is
+/// complete or does not exist. Throws UserError with the path when it cannot be written.
 void write_png(vtkRenderWindow& window, const std::filesystem::path& file);
 
-/// The same to SVG: lines stay lines, and letters become outlines that look alike in every viewer.
-/// Title and caption go into the file as text.
+/// The same as SVG: lines stay lines, and letters become outlines, which look the same in every
+/// viewer. Title and caption are stored in the file as text.
 void write_svg(vtkRenderWindow& window, const std::filesystem::path& file, const std::string& title,
                const std::string& caption);
 

@@ -11,7 +11,8 @@ namespace vibrissa::report {
 /// where the range has values of both signs, from blue over white at 0 to red.
 vtkSmartPointer<vtkLookupTable> colour_map(const Range& values);
 
-/// What colour_map() spans: the range, made symmetric where it has both signs and longer than 0.
+/// The range that colour_map() covers: symmetric when the range has both signs, and never of length
+/// 0.
 Range colour_range(const Range& values);
 
 }  // namespace vibrissa::report

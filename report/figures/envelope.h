@@ -12,11 +12,12 @@ struct Polyline {
   std::vector<double> x, y;
 };
 
-/// Fewer points that draw the same picture: of every run of finite points inside one of n_columns
-/// pixel columns of x_range the first, lowest, highest and last remain (M4: Jugel et al.
-/// 2014, VLDB 7(10)), so every spike is kept. Points outside count to a column left or right of the
-/// picture. Returned unchanged when x falls somewhere. x and y are as on paper (logarithms on a
-/// logarithmic axis), x finite wherever y is. Proven by tests/report/figures/envelope_test.cc.
+/// Fewer points that draw the same picture: in every run of finite points inside one of the
+/// n_columns pixel columns of x_range the first, lowest, highest and last points remain (M4: Jugel
+/// et al. 2014, VLDB 7(10)), so every spike is kept. Points outside belong to a column left or
+/// right of the picture. Returns the input unchanged when x is not ascending. x and y are plot
+/// coordinates (logarithms on a logarithmic axis); x is finite wherever y is. Proven by
+/// tests/report/figures/envelope_test.cc.
 Polyline envelope(const Polyline& line, const Range& x_range, std::size_t n_columns);
 
 /// Lower and upper edge of a filled area.

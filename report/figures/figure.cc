@@ -44,12 +44,13 @@ CurveStyle style_named(const std::string& name) {
 std::vector<double> numbers(const json& object, const std::string& key) {
   const auto list = object.find(key);
   if (list == object.end()) return {};
-  if (!list->is_array()) throw UserError("'" + key + "' is no list of numbers");
+  if (!list->is_array()) throw UserError("'" + key + "' must be a list of numbers");
   std::vector<double> values;
   values.reserve(list->size());
   for (const json& item : *list) {
     if (!item.is_number() && !item.is_null())
-      throw UserError("'" + key + "' holds " + item.dump().substr(0, 40) + ", which is no number");
+      throw UserError("'" + key + "' holds " + item.dump().substr(0, 40) +
+                      ", which is not a number");
     values.push_back(item.is_null() ? std::numeric_limits<double>::quiet_NaN()
                                     : item.get<double>());
   }
@@ -160,7 +161,7 @@ void check(const Figure& figure) {
     check_range(panel.x_range, panel.log_x, where + ": x_range");
     check_range(panel.y_range, panel.log_y, where + ": y_range");
     if (panel.log_y && !panel.y_names.empty())
-      throw UserError(where + ": y_names have no place on a logarithmic axis");
+      throw UserError(where + ": y_names are not allowed on a logarithmic axis");
     for (std::size_t c = 0; c < panel.curves.size(); ++c)
       check_curve(panel.curves[c], where + ", curve " + std::to_string(c + 1) + " ('" +
                                        panel.curves[c].label + "')");

@@ -17,7 +17,7 @@ double tick(const double first, const double rate, const std::size_t i) {
   return first + static_cast<double>(i) / rate;
 }
 
-/// Ticks of a clock, when that gives each value to the last bit.
+/// Uniform samples first + i / rate, when they reproduce each value exactly.
 std::optional<nlohmann::json> as_ticks(const std::vector<double>& values) {
   if (values.size() < 3) return {};
   const double first = values.front(), length = values.back() - first;

@@ -7,14 +7,14 @@
 
 namespace vibrissa::report {
 
-/// Lists of numbers in a small form that loses no digit; lists that are equal are kept once. Proven
+/// Lists of numbers in a compact lossless form; equal lists are stored once. Proven
 /// by tests/report/figures/packed_numbers_test.cc.
 class PackedNumbers {
  public:
-  /// The number of the list in json().
+  /// The index of the list in json().
   std::size_t add(const std::vector<double>& values);
 
-  /// One entry a list, as short as the values allow:
+  /// One entry per list, in the shortest form that holds the values exactly:
   /// {"n", "first", "rate"}: first + i / rate; {"f32"} and {"f64"}: little-endian bytes in base64.
   const nlohmann::json& json() const { return lists_; }
 

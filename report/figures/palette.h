@@ -7,8 +7,8 @@ namespace vibrissa::report {
 
 using Colour = std::array<unsigned char, 3>;
 
-/// Colours that people with any common colour blindness tell apart (Okabe and Ito 2008), those that
-/// are easily seen on white first. The number wraps around.
+/// Colours that can be distinguished with any common colour blindness (Okabe and Ito 2008); those
+/// with good contrast on white come first. The index wraps around.
 inline constexpr std::array<Colour, 8> palette = {{{0, 114, 178},
                                                    {213, 94, 0},
                                                    {0, 158, 115},

@@ -8,7 +8,7 @@
 
 namespace vibrissa::report {
 
-/// One entry of a table: a number, a count, a text or nothing (not known, not measured).
+/// One entry of a table: a number, a count, a text or nothing (unknown, not measured).
 class Cell {
  public:
   Cell() = default;
@@ -23,14 +23,14 @@ class Cell {
   bool is_text() const { return std::holds_alternative<std::string>(value_); }
   /// Rounded to n_digits significant digits; "-" for nothing and for NaN.
   std::string rounded(int n_digits) const;
-  /// All digits; empty for nothing, "nan" for NaN.
+  /// The number with all digits; empty for nothing, "nan" for NaN.
   std::string exact() const;
 
  private:
   std::variant<std::monostate, double, long long, std::string> value_;
 };
 
-/// Heading of a column. The unit is shown as "name [unit]"; empty: a pure number or a text.
+/// Heading of a column, shown as "name [unit]". unit is empty for a dimensionless number or a text.
 struct Column {
   std::string name;
   std::string unit;
@@ -42,7 +42,7 @@ class Table {
  public:
   explicit Table(std::vector<Column> columns);
 
-  /// One cell a column, in their order.
+  /// One cell per column, in the order of the columns.
   void add_row(std::vector<Cell> row);
   std::size_t n_rows() const { return rows_.size(); }
 

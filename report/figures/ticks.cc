@@ -9,7 +9,7 @@
 namespace vibrissa::report {
 namespace {
 
-/// Marks within this part of the range beyond its ends still count as inside.
+/// Ticks beyond the range by up to this share of its length count as inside.
 constexpr double tolerance = 1e-9;
 
 const std::string minus = "\u2212";
@@ -35,7 +35,7 @@ double degree_step(const double smallest) {
   return 360. * std::ceil(smallest / 360.);
 }
 
-/// Powers of a thousand, as in engineering units, once plain numbers get long.
+/// A power of a thousand (engineering notation) when plain numbers would be long.
 int common_exponent(const Range& range) {
   const double largest = std::max(std::abs(range.low), std::abs(range.high));
   const int exponent = static_cast<int>(std::floor(std::log10(largest)));
@@ -57,8 +57,7 @@ int n_inside(const Range& range, const std::vector<int>& digits) {
   return n;
 }
 
-/// Which multiples of the powers of ten get labels: as many as there is room for, but three at
-/// least.
+/// The multiples of the powers of ten that get labels: as many as fit, but at least three.
 std::vector<int> labelled_digits(const Range& range, const int n_most) {
   std::vector<int> best;
   for (const std::vector<int>& digits :

@@ -47,7 +47,7 @@ class Pipe {
   bool made_;
 };
 
-/// 0, or the system's error. The child writes both its outputs to output.
+/// Returns 0 or the system's error number. The child writes standard output and error to output.
 int spawn(const std::vector<std::string>& command, const int output, pid_t& pid) {
   std::vector<char*> arguments;
   for (const auto& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -68,14 +68,14 @@ int spawn(const std::vector<std::string>& command, const int output, pid_t& pid)
   return error;
 }
 
-/// One running child: collects its output and its end.
+/// One running child: collects its output and waits for its end.
 class Child {
  public:
   Child(const pid_t pid, const int output) : pid_(pid), output_(output) {
     ::fcntl(output_, F_SETFL, O_NONBLOCK);
   }
 
-  /// Whether the child ended before the deadline.
+  /// Did the child end before the deadline?
   bool wait_until(const Clock::time_point deadline,
                   const std::function<void()>& while_waiting = {}) {
     while (!has_ended()) {
@@ -88,11 +88,11 @@ class Child {
     return true;
   }
 
-  /// Asks the group of the child to end.
+  /// Sends the termination signal to the child's process group.
   void ask_to_end() const { ::kill(-pid_, SIGTERM); }
 
-  /// Ends what is left of the group and takes note of how the child ended. Until it is waited for,
-  /// its number, and so that of the group, is no one else's.
+  /// Kills the rest of the group and records how the child ended. The process id, and so the group
+  /// id, cannot be reused before the child is waited for.
   void finish(ChildResult& result) {
     ::kill(-pid_, SIGKILL);
     int status = 0;
@@ -112,7 +112,7 @@ class Child {
            information.si_pid == pid_;
   }
 
-  /// A closed pipe would be ready at once, for ever; the child may still live.
+  /// A closed pipe would always be ready although the child may still run.
   void wait_for_output(const milliseconds time) {
     pollfd ready{closed_ ? -1 : output_, POLLIN, 0};
     ::poll(&ready, 1, static_cast<int>(time.count()));
@@ -142,7 +142,7 @@ std::string ChildResult::what_happened() const {
     case End::killed:
       return "was ended by signal " + std::to_string(code) + " (" + ::strsignal(code) + ")";
     case End::out_of_time:
-      return "did not end within its time";
+      return "did not end within its time limit";
     case End::not_started:
       return std::string("could not be started: ") + std::strerror(code);
   }

@@ -44,7 +44,8 @@ std::filesystem::path RunFolder::file(const std::string& name) const {
   const auto relative = std::filesystem::path(name).lexically_normal();
   if (!relative.has_filename() || relative.is_absolute() || *relative.begin() == ".." ||
       relative == ".")
-    throw signals::UserError(path_.string() + ": '" + name + "' names no file in this folder");
+    throw signals::UserError(path_.string() + ": '" + name +
+                             "' is not a file name inside this folder");
   const auto full = path_ / relative;
   make_folder(full.parent_path());
   return full;

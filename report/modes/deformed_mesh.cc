@@ -29,7 +29,7 @@ namespace {
 
 using signals::UserError;
 
-/// Notes that VTK complained, instead of letting it print.
+/// Records an error message of VTK instead of printing it.
 class Complaints : public vtkCommand {
  public:
   static Complaints* New() { return new Complaints; }
@@ -48,11 +48,11 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid_by(const std::filesystem::path& f
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, complaints);
   reader->SetFileName(file.c_str());
   if (!reader->CanReadFile(file.c_str()))
-    throw UserError(file.string() + ": no VTK file of an unstructured mesh (.vtu)");
+    throw UserError(file.string() + ": this is not a VTK file of an unstructured mesh (.vtu)");
   reader->Update();
   if (complaints->any || reader->GetErrorCode() != 0)
     throw UserError(file.string() + ": this " + file.extension().string() +
-                    " file is damaged or not complete");
+                    " file is damaged or incomplete");
   if (reader->GetOutput()->GetNumberOfCells() == 0)
     throw UserError(file.string() + ": the mesh has no cells");
   return reader->GetOutput();
@@ -60,7 +60,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid_by(const std::filesystem::path& f
 
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file))
-    throw UserError(file.string() + ": there is no such file");
+    throw UserError(file.string() + ": the file does not exist");
   return file.extension() == ".pvtu" ? read_grid_by<vtkXMLPUnstructuredGridReader>(file)
                                      : read_grid_by<vtkXMLUnstructuredGridReader>(file);
 }
@@ -82,11 +82,11 @@ bool has_field(vtkDataSetAttributes& data, const std::string& name, const int n_
 
 double checked(const double value, const std::string& name) {
   if (!std::isfinite(value))
-    throw UserError("field '" + name + "' holds values that are not finite");
+    throw UserError("field '" + name + "' contains values that are not finite");
   return value;
 }
 
-/// std::hypot of three numbers may lose a NaN (libstdc++ 12); of two it does not.
+/// std::hypot of three numbers may lose a NaN (libstdc++ 12); std::hypot of two does not.
 double norm(vtkDataArray& vectors, const vtkIdType i) {
   return std::hypot(std::hypot(vectors.GetComponent(i, 0), vectors.GetComponent(i, 1)),
                     vectors.GetComponent(i, 2));
@@ -121,7 +121,8 @@ void add_colours(vtkUnstructuredGrid& grid, const ModePicture& picture) {
   data->AddArray(colours);
 }
 
-/// deal.II repeats the points of neighbouring cells; only shared ones tell inside from outside.
+/// deal.II repeats the points of neighbouring cells; only merged points show which faces are
+/// inside.
 vtkSmartPointer<vtkUnstructuredGrid> with_shared_points(vtkUnstructuredGrid& grid) {
   constexpr double part_of_size = 1e-6;  // coordinates in files are single precision
   vtkNew<vtkPoints> points;
@@ -186,8 +187,8 @@ vtkSmartPointer<vtkPolyData> outline_of(vtkPolyData& surface) {
   return edges->GetOutput();
 }
 
-/// 1, 2 or 5 times a power of ten that moves the mesh by up to 15 % of its size; 1 where nothing
-/// moves.
+/// 1, 2 or 5 times a power of ten that displaces the mesh by up to 15 % of its size; 1 without
+/// displacement.
 double visible_scale(vtkUnstructuredGrid& grid, const std::string& displacement) {
   vtkDataArray& field = *grid.GetPointData()->GetArray(displacement.c_str());
   double largest = 0.;

@@ -10,8 +10,8 @@
 
 namespace vibrissa::report {
 
-/// Surface of a mesh before and after it deforms, with the values to be shown as colours in the
-/// point or cell array colour_array.
+/// Surface of a mesh at rest and deformed, with the values to show as colours in the point or cell
+/// array colour_array.
 struct DeformedMesh {
   vtkSmartPointer<vtkPolyData> rest, deformed;
   vtkSmartPointer<vtkPolyData> rest_outline, deformed_edges;
@@ -22,10 +22,9 @@ inline constexpr const char* colour_array = "vibrissa_colour";
 
 /// Reads a .vtu file (compressed or not; linear, quadratic or Lagrange cells, points shared by
 /// cells or repeated in each as deal.II writes them), or a .pvtu with the parts that it lists.
-/// Throws UserError with the file for: a missing
-/// or damaged file, no cells, a field that is not there (lists those there are) or has another
-/// number of components, values that are not finite. Proven by
-/// tests/report/modes/deformed_mesh_test.cc.
+/// Throws UserError with the file for: a missing or damaged file, no cells, a missing field (the
+/// message lists the existing ones), a wrong number of components, values that are not finite.
+/// Proven by tests/report/modes/deformed_mesh_test.cc.
 DeformedMesh read_deformed_mesh(const std::filesystem::path& vtu, const ModePicture& picture);
 
 }  // namespace vibrissa::report

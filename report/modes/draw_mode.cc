@@ -37,7 +37,7 @@ vtkNew<vtkActor> plain_actor(vtkPolyData& shape, const double grey, const double
 }
 
 vtkNew<vtkActor> coloured_actor(const DeformedMesh& mesh, vtkLookupTable& colours) {
-  vtkNew<vtkPolyDataNormals> normals;  // round sides look round, edges stay edges
+  vtkNew<vtkPolyDataNormals> normals;  // smooth shading of round sides, sharp edges
   normals->SetInputData(mesh.deformed);
   normals->SetFeatureAngle(40.);
   vtkNew<vtkPolyDataMapper> mapper;

@@ -19,7 +19,8 @@ Eigen::Vector3d point(vtkPolyData& shape, const vtkIdType i) {
   return {x[0], x[1], x[2]};
 }
 
-/// Angle of the axis in the x-y plane along which points move most; 0 when none stands out.
+/// Angle of the axis in the x-y plane along which the points move most; 0 when no direction
+/// dominates.
 double direction_of_motion(const DeformedMesh& mesh) {
   double xx = 0., xy = 0., yy = 0.;
   for (vtkIdType i = 0; i < mesh.rest->GetNumberOfPoints(); ++i) {

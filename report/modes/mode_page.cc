@@ -20,7 +20,7 @@ constexpr double margin = 20., title_row = 30., row = 24.;
 constexpr double longest_side = 860., shortest_side = 330.;
 constexpr double column_width = 210., bar_width = 22., compass_length = 42.;
 
-/// Sides of the box for the mesh: as it needs, within limits.
+/// Sides of the box for the mesh, within limits.
 Box mesh_box(const MeshView& view) {
   const double aspect = std::clamp(view.width / view.height, 0.01, 100.);
   Box box{margin, margin, longest_side, longest_side};
@@ -120,7 +120,7 @@ void ModePagePainter::paint_bar(vtkContext2D& painter) const {
     for (std::size_t c = 0; c < colour.size(); ++c)
       colour[c] = static_cast<unsigned char>(std::lround(255. * rgba[c]));
     set_fill(painter, colour);
-    // A little higher than its step, so that no seam shows.
+    // Slightly higher than the step, so that no gap is visible.
     painter.DrawRect(static_cast<float>(bar.left),
                      static_cast<float>(bar.bottom + static_cast<double>(i) * step),
                      static_cast<float>(bar.width),

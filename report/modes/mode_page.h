@@ -13,8 +13,8 @@
 
 namespace vibrissa::report {
 
-/// Places of everything on the page of a deformed mesh: the mesh, and right of it a colour bar, the
-/// directions of the axes and the scale of the deformation.
+/// Layout of the picture of a deformed mesh: the mesh, and right of it a colour bar, the directions
+/// of the axes and the scale of the deformation.
 struct ModePage {
   int width = 0, height = 0;
   Box mesh;
@@ -25,11 +25,11 @@ struct ModePage {
   std::vector<PlacedText> texts;
 };
 
-/// Pixels, everything times zoom. Proven by tests/report/modes/mode_page_test.cc.
+/// Layout in pixels, multiplied by zoom. Proven by tests/report/modes/mode_page_test.cc.
 ModePage mode_page(const ModePicture& picture, const DeformedMesh& mesh, const MeshView& view,
                    const TextWidth& text_width, int zoom);
 
-/// Paints a ModePage but for the mesh itself.
+/// Paints a ModePage without the mesh itself.
 class ModePagePainter : public vtkContextItem {
  public:
   static ModePagePainter* New();

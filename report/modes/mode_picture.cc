@@ -16,7 +16,7 @@ void check(const ModePicture& picture) {
   const auto path = std::filesystem::path(picture.vtu).lexically_normal();
   if (picture.vtu.empty() || path.is_absolute() || *path.begin() == "..")
     throw UserError(where + "vtu '" + picture.vtu + "' must name a file inside the run folder");
-  if (picture.displacement.empty()) throw UserError(where + "'displacement' names no field");
+  if (picture.displacement.empty()) throw UserError(where + "'displacement' must name a field");
   if (picture.scale && !std::isfinite(*picture.scale))
     throw UserError(where + "'scale' must be a finite number");
   if (!std::isfinite(picture.colour_factor))

@@ -36,8 +36,7 @@ std::string inlined_picture(const fs::path& png, const std::string& title) {
          base64(std::as_bytes(std::span(bytes))) + "\">\n";
 }
 
-/// Builds the body; what the script needs collects in data as the elements that refer to it are
-/// made.
+/// Builds the body of the page, and collects the data that its elements need for the script.
 class Body {
  public:
   explicit Body(const fs::path& folder) : folder_(folder) {
@@ -64,7 +63,8 @@ class Body {
   }
 
  private:
-  /// What may be wider than the page: it alone scrolls, by keys, too.
+  /// Wraps content that may be wider than the page, so that only this content scrolls (also by
+  /// keys).
   static std::string scrolled(const std::string& label, const std::string& html) {
     return "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" +
            html_escaped(label) + "\">\n" + html + "</div>\n";
@@ -96,8 +96,8 @@ class Body {
            html_element("h3", figure.title) + "<div class=\"plots\"></div>\n<figcaption>" +
            html_escaped(figure.caption) + "</figcaption>\n<div class=\"tools\">" +
            save_button("figures", number, figure.title) +
-           "</div>\n<details><summary>In numbers</summary>" +
-           scrolled("Numbers of " + figure.title, figure_in_words(figure)) +
+           "</div>\n<details><summary>Ranges of the curves</summary>" +
+           scrolled("Ranges of the curves of " + figure.title, figure_in_words(figure)) +
            "</details>\n</figure>\n";
   }
 
@@ -112,13 +112,14 @@ class Body {
     data_["views"].push_back(list);
     return "<figure class=\"view\" data-view=\"" + std::to_string(number) +
            "\">\n<div class=\"stage\"></div>\n<div class=\"still\">" +
-           html_element("p",
-                        "Without WebGL the shapes cannot be turned; this is a picture of one.") +
+           html_element(
+               "p",
+               "The browser has no WebGL, so the 3D view is replaced by a picture of one shape.") +
            inlined_picture(folder_ / "figures" / (scenes.front().name + ".png"),
                            scenes.front().title) +
            "</div>\n<figcaption></figcaption>\n<div class=\"tools\">" +
-           save_button("views", number, "the shape shown") +
-           "</div>\n<details><summary>In words</summary><ul>" + names +
+           save_button("views", number, "the visible shape") +
+           "</div>\n<details><summary>List of the shapes</summary><ul>" + names +
            "</ul></details>\n</figure>\n";
   }
 
@@ -143,7 +144,7 @@ std::string key_numbers(const std::vector<KeyNumber>& numbers) {
   return html + "</dl>\n";
 }
 
-/// The template with each {{NAME}} replaced, in one pass: what is filled in is not looked at again.
+/// The template with each {{NAME}} replaced in one pass; replaced text is not searched again.
 std::string filled(const std::string_view text, const std::map<std::string, std::string>& values) {
   std::string result;
   std::size_t at = 0;

@@ -10,18 +10,18 @@
 
 namespace vibrissa::report {
 
-/// A number that a reader should take away.
+/// A main result of the page.
 struct KeyNumber {
   std::string label{};
   std::string value{};  // with its unit
-  std::string note{};   // interval, or beside what it stands
+  std::string note{};   // interval or reference value
 };
 
 struct PageTable {
-  std::string name{};  // of the CSV file, without extension
+  std::string name{};  // name of the CSV file, without extension
   std::string caption{};
   Table table;
-  bool folded = false;  // to be opened by those who want it
+  bool folded = false;  // the reader must open it
 };
 
 struct PageSection {
@@ -29,24 +29,23 @@ struct PageSection {
   std::vector<std::string> text{};  // paragraphs
   std::vector<PageTable> tables{};
   std::vector<Figure> figures{};
-  std::vector<ModePicture> scenes{};  // shown in one view, chosen from a list
+  std::vector<ModePicture> scenes{};  // shown in one view; the reader chooses from a list
 };
 
-/// What report.html of a run folder says: the verdict first.
+/// Content of report.html of a run folder.
 struct Page {
   std::string title{};
   std::string headline{};              // the verdict in one sentence
-  std::vector<std::string> verdict{};  // more of it, a paragraph each
+  std::vector<std::string> verdict{};  // further paragraphs
   std::vector<KeyNumber> numbers{};
   std::vector<PageSection> sections{};
 };
 
-/// One document that asks nothing of a network or of other files: text, tables, interactive figures
-/// and surfaces, with the command line of the folder's run.json. folder: the run folder, for
-/// run.json, the meshes of the scenes and figures/NAME.png, which stands in for a scene where there
-/// is no WebGL; of these, what is missing is left out, but a mesh. What it says depends on nothing
-/// else. Throws UserError as check() and read_deformed_mesh() do. Proven by
-/// tests/report/page/page_test.cc and tests/report/browser.
+/// One HTML document that needs no network and no other files: text, tables, interactive figures
+/// and surfaces, with the command line from the folder's run.json. folder: the run folder with
+/// run.json, the meshes of the scenes and figures/NAME.png (shown instead of a scene without
+/// WebGL). Missing files are left out, except meshes. Throws UserError like check() and
+/// read_deformed_mesh(). Proven by tests/report/page/page_test.cc and tests/report/browser.
 std::string to_html(const Page& page, const std::filesystem::path& folder);
 
 /// Writes FOLDER/report.html.

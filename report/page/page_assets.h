@@ -4,8 +4,8 @@
 
 namespace vibrissa::report {
 
-/// Files of report/page and of the JavaScript libraries, as they were at the time of the build
-/// (made by cmake/VibrissaEmbed.cmake), so that the program needs none of them when it runs.
+/// Files of report/page and of the JavaScript libraries, embedded at build time by
+/// cmake/VibrissaEmbed.cmake, so that the program does not need them when it runs.
 std::string_view page_template();
 std::string_view page_style();
 std::string_view page_script();

@@ -46,10 +46,10 @@ std::string figure_in_words(const Figure& figure) {
   Table table({{"panel", ""},
                {"curve", ""},
                {"points", ""},
-               {"across", ""},
-               {"from, to", ""},
-               {"upwards", ""},
-               {"least, most", ""}});
+               {"x axis", ""},
+               {"range of x", ""},
+               {"y axis", ""},
+               {"range of y", ""}});
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     const Panel& panel = figure.panels[p];
     for (const Curve& curve : panel.curves) {

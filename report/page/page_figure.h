@@ -8,13 +8,13 @@
 
 namespace vibrissa::report {
 
-/// A figure as the page's script draws it: as its file (figure.h), with the number of a list in
-/// numbers in place of each list, and of each curve the fields "csv" that stand before its values
-/// in to_csv(). Proven by tests/report/page/page_test.cc.
+/// A figure for the page's script: the JSON of figure.h, but with the index of a list in numbers
+/// instead of each list, and with the leading CSV fields of each curve in "csv". Proven by
+/// tests/report/page/page_test.cc.
 nlohmann::json page_figure(const Figure& figure, PackedNumbers& numbers);
 
-/// What the figure shows, for those who do not see it: a table in HTML with the number of points
-/// and the ranges of each curve.
+/// Text alternative of the figure: an HTML table with the number of points and the ranges of each
+/// curve.
 std::string figure_in_words(const Figure& figure);
 
 }  // namespace vibrissa::report

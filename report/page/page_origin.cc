@@ -9,7 +9,7 @@
 namespace vibrissa::report {
 namespace {
 
-/// A word of a command line as a shell takes it.
+/// A word of a command line, quoted for a shell.
 std::string shell_word(const std::string& word) {
   const bool plain = !word.empty() && word.find_first_not_of(
                                           "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"

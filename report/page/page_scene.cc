@@ -43,7 +43,7 @@ std::vector<double> components(vtkDataArray& array, const double factor) {
   return list;
 }
 
-/// The points of all cells, one cell after the other.
+/// The point numbers of all cells, one cell after the other.
 std::vector<double> corners(vtkCellArray& cells) {
   std::vector<double> list;
   vtkNew<vtkIdList> ids;

@@ -1,11 +1,11 @@
-// Draws the figures of the page from the data in it; no other file is asked for.
+// Draws the figures of the page from the data in the page; no other file is needed.
 "use strict";
 (function () {
   const data = JSON.parse(document.getElementById("data").textContent);
   const root = document.documentElement;
   const plots = [], views = [];
 
-  // ---- Lists of numbers, as report/packed_numbers.h packs them
+  // ---- Lists of numbers, packed by report/figures/packed_numbers.h
   const unpacked = new Map();
 
   function bytesOf(text) {
@@ -25,7 +25,7 @@
     return unpacked.get(index);
   }
 
-  // ---- CSV, to the letter as report::to_csv writes it
+  // ---- CSV, identical to the output of report::to_csv
 
   // The shortest text that reads back to the same double, as C++'s std::to_chars chooses it.
   function exact(value) {
@@ -95,8 +95,7 @@
     return root.dataset.theme ? root.dataset.theme === "dark" : prefersDark.matches;
   }
 
-  // A colour of the palette that stands out from the page: black and the dark ones are lightened
-  // on dark, the yellow is darkened on light.
+  // A colour of the palette with enough contrast: dark colours are lightened on a dark page, yellow is darkened on a light page.
   function curveColour(number) {
     const rgb = data.palette[number % data.palette.length];
     const light = (0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2]) / 255;
@@ -148,7 +147,7 @@
     return Number.isFinite(value) && !(log && value <= 0);
   }
 
-  // All that the x axis can show.
+  // Range of x over all curves.
   function extentOf(curves, panel) {
     let [least, most] = panel.x_range || [Infinity, -Infinity];
     for (const curve of curves)
@@ -160,7 +159,7 @@
     return [least, most];
   }
 
-  // The curve's points with x ascending and on the axis; y is a number, or low, middle, high.
+  // The curve's points that the axis can show, with ascending x; y is a number, or low, middle, high.
   function pointsOf(curve, panel, bars) {
     const x = numbers(curve.x), band = curve.style === "band";
     const yLow = numbers(band ? curve.y_low : curve.y), yHigh = band ? numbers(curve.y_high) : yLow;
@@ -180,14 +179,14 @@
     return { points, scattered: !ascending };
   }
 
-  // A band goes on straight between its points where only other curves have one.
+  // Linear interpolation of a band at points that only other curves have.
   function between(before, after, x) {
     if (!before || !after) return null;
     const part = (x - before[0]) / (after[0] - before[0]);
     return [low, middle, high].map((k) => before[1][k] + part * (after[1][k] - before[1][k]));
   }
 
-  // All curves as rows of one table by x, which the curves need not share.
+  // All curves as rows of one table sorted by x; the curves need not have the same x.
   function rowsOf(curves, bands) {
     const together = curves.every((points) => points.length === curves[0].length) &&
       curves.slice(1).every((points) => points.every((point, i) => point[0] === curves[0][i][0]));
@@ -217,7 +216,7 @@
     return names.map((label, i) => ({ v: i + 1, label }));
   }
 
-  // Powers of ten, and 2 and 5 between them where there are few.
+  // Powers of ten; with multiples 2 and 5 where there are few.
   function logTicks(from, to, pixels) {
     const decades = Math.log10(to / from), ticks = [];
     if (decades < 0.7) return null;
@@ -240,15 +239,15 @@
     };
   }
 
-  // On a touch screen one finger scrolls the page, two zoom the plot.
+  // On a touch screen one finger scrolls the page and two fingers zoom the plot.
   function interaction(reset) {
     const usual = Dygraph.defaultInteractionModel;
     const byTwo = (action) => (event, g, context) => { if (event.touches.length > 1) action(event, g, context); };
     return Object.assign({}, usual, { touchstart: byTwo(usual.touchstart), touchmove: byTwo(usual.touchmove), dblclick: reset });
   }
 
-  // A line with many points a pixel, by what it spans in each column of pixels: looks the same and
-  // takes a fraction of the time to paint.
+  // A line with many points per pixel is drawn by its range in each column of pixels. It looks the same and
+  // is much faster to paint.
   function denseLine({ drawingContext, points }) {
     let column = null, drawn = false;
     const lineTo = (x, y) => {
@@ -262,7 +261,7 @@
     };
     drawingContext.beginPath();
     for (const { canvasx, canvasy, yval } of points) {
-      if (yval === null) continue;  // a point of other curves
+      if (yval === null) continue;  // point of another curve
       const x = Math.round(2 * canvasx) / 2;
       if (!Number.isFinite(canvasy)) {
         flush();
@@ -280,7 +279,7 @@
     drawingContext.stroke();
   }
 
-  // Dashes of a dense line could not be seen.
+  // Dashes of a dense line would not be visible.
   function lineOf(dashes) {
     return (event) => {
       if (event.points.length > 4 * event.plotArea.w) return denseLine(event);
@@ -317,7 +316,7 @@
       this.box = element("div", {
         class: "plot" + (names ? " named" : figure.panels.length > 1 ? " low" : ""), tabindex: "0", role: "group",
         "aria-label": "Plot " + [figure.title, panel.title].filter(Boolean).join(", ") + ": " + panel.y_label +
-          " against " + panel.x_label + ". Plus and minus zoom, arrow keys move, 0 shows all."
+          " against " + panel.x_label + ". Plus and minus keys zoom, arrow keys move, 0 shows everything."
       });
       if (names) this.box.style.height = 3.5 + 1.6 * names + "rem";
       this.readout = element("span", { class: "readout" });
@@ -347,7 +346,7 @@
       const made = this.curves.map((curve) => pointsOf(curve, panel, bars));
       const rows = rowsOf(made.map((m) => m.points), bands);
       if (!rows.length) {
-        this.readout.textContent = "There are no values that these axes can show.";
+        this.readout.textContent = "No data: these axes can show none of the values.";
         return;
       }
       const series = {};
@@ -410,12 +409,12 @@
       this.readout.textContent = "at " + rounded(x, 5) + (values.length ? ": " + values.join(", ") : "");
     }
 
-    // Of the panels with the same axis the last has the control for it.
+    // The last of the panels with the same axis has the range selector.
     isLast() {
       return !this.mates.slice(this.mates.indexOf(this) + 1).some((mate) => this.shares(mate));
     }
 
-    // Panels with the same axis show the same part of it.
+    // Panels with the same axis always show the same range.
     lead() {
       if (this.following) return;
       for (const mate of this.mates) {
@@ -432,7 +431,7 @@
       return mate.panel.x_label === this.panel.x_label && mate.panel.log_x === this.panel.log_x && near(a, c) && near(b, d);
     }
 
-    // Part of the axis: factor times as long about its middle, moved by a share of its length.
+    // Changes the visible range: factor times as long about its middle, moved by a share of its length.
     show(factor, move) {
       const there = this.panel.log_x ? Math.log : (v) => v, back = this.panel.log_x ? Math.exp : (v) => v;
       const [from, to] = this.g.xAxisRange().map(there), [least, most] = this.extent.map(there);
@@ -474,7 +473,7 @@
       b.addEventListener("click", all(action));
       return b;
     };
-    return element("span", { class: "zoom", role: "group", "aria-label": "Part of the axis that is shown" },
+    return element("span", { class: "zoom", role: "group", "aria-label": "Visible range of the axis" },
       button("+", "Zoom in", (plot) => plot.show(0.5, 0)), button("\u2212", "Zoom out", (plot) => plot.show(2, 0)),
       button("\u2190", "Move left", (plot) => plot.show(1, -0.2)), button("\u2192", "Move right", (plot) => plot.show(1, 0.2)),
       button("All", "Show all", (plot) => plot.reset()));
@@ -488,7 +487,7 @@
     place.querySelector(".tools").prepend(zoomButtons(made));
   }
 
-  // ---- Paper. Plots are made smaller, not drawn anew: a canvas that changes its size is printed empty.
+  // ---- Printing. Plots are scaled down and not redrawn, because a resized canvas is printed empty.
   function print(begins) {
     const paper_px = 660;
     printing = begins;
@@ -498,7 +497,7 @@
   addEventListener("beforeprint", () => print(true));
   addEventListener("afterprint", () => print(false));
 
-  // ---- All of it, a figure at a time so that the page answers meanwhile
+  // ---- Draws one figure at a time, so that the page stays responsive
   const waiting = [...document.querySelectorAll("figure[data-figure], figure[data-view]")];
   function next() {
     const place = waiting.shift();

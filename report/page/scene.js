@@ -1,4 +1,4 @@
-// A view of deformed surfaces that can be turned, one of them at a time, moving as its mode does.
+// A rotatable 3D view of one deformed surface at a time, animated with its mode shape.
 "use strict";
 function makeView(figure, scenes, { numbers, exact, element, rounded, paint }) {
   const stage = figure.querySelector(".stage"), caption = figure.querySelector("figcaption");
@@ -7,7 +7,7 @@ function makeView(figure, scenes, { numbers, exact, element, rounded, paint }) {
   let shown = 0, amplitude = 1, playing = !still, phase = Math.PI / 2, visible = true;
   let renderer = null, camera, controls, mesh, outline, world, before = 0;
 
-  // Corners of the triangles, or the points where the colours belong to points.
+  // Vertices of the triangles; with colours per cell, each triangle has its own vertices.
   function shape(scene) {
     const points = numbers(scene.points), moves = numbers(scene.moves);
     const triangles = Uint32Array.from(numbers(scene.triangles)), values = numbers(scene.values);
@@ -112,7 +112,7 @@ function makeView(figure, scenes, { numbers, exact, element, rounded, paint }) {
     }
     renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     const canvas = renderer.domElement;
-    for (const [name, value] of Object.entries({ tabindex: "0", role: "img", "aria-label": "Solid view: " + scenes.map((s) => s.title).join("; ") + ". Arrow keys turn it, plus and minus zoom." }))
+    for (const [name, value] of Object.entries({ tabindex: "0", role: "img", "aria-label": "3D view: " + scenes.map((s) => s.title).join("; ") + ". Arrow keys rotate the view, plus and minus keys zoom." }))
       canvas.setAttribute(name, value);
     stage.append(canvas);
     world = new THREE.Scene();
@@ -124,7 +124,7 @@ function makeView(figure, scenes, { numbers, exact, element, rounded, paint }) {
     camera.add(lamp);
     controls = new THREE.OrbitControls(camera, canvas);
     controls.enableKeys = false;
-    controls.enableZoom = false;  // until the view is chosen: the wheel scrolls the page
+    controls.enableZoom = false;  // until the view has the focus: the wheel scrolls the page
     controls.addEventListener("change", () => { if (mesh) render(); });
     canvas.addEventListener("pointerdown", () => canvas.focus());
     canvas.addEventListener("focus", () => { controls.enableZoom = true; });
@@ -167,7 +167,7 @@ function makeView(figure, scenes, { numbers, exact, element, rounded, paint }) {
     slider.addEventListener("input", () => { amplitude = Number(slider.value); deform(); });
     const whole = element("button", { type: "button" }, "Reset view");
     whole.addEventListener("click", () => { lookAtAll(); render(); });
-    const parts = [play, element("label", {}, "Size of motion", slider), whole];
+    const parts = [play, element("label", {}, "Amplitude", slider), whole];
     if (scenes.length > 1) {
       const choice = element("select", {}, ...scenes.map((scene, i) => element("option", { value: String(i) }, scene.title)));
       choice.addEventListener("change", () => load(Number(choice.value)));

@@ -8,7 +8,7 @@
 namespace vibrissa::report {
 
 std::string base64(const std::span<const std::byte> bytes) {
-  // The library counts in int: whole groups of three go piece by piece.
+  // The library counts in int, so groups of three bytes are encoded piece by piece.
   constexpr std::size_t piece = 3 * (std::size_t{1} << 20);
   static_assert(piece < std::numeric_limits<int>::max());
   std::string text;

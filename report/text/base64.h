@@ -6,7 +6,8 @@
 
 namespace vibrissa::report {
 
-/// The bytes by RFC 4648, with padding. Proven by tests/report/figures/packed_numbers_test.cc.
+/// The bytes in base64 (RFC 4648) with padding. Proven by
+/// tests/report/figures/packed_numbers_test.cc.
 std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace vibrissa::report

@@ -16,7 +16,7 @@ void check_file_name(const std::string& kind, const std::string& name) {
   if (name.empty() || name.front() == '.' || name.ends_with(".scene") ||
       !std::all_of(name.begin(), name.end(), is_plain))
     throw signals::UserError(kind + " name '" + name +
-                             "' is no plain file name: use letters, digits, '_', '-' and '.'");
+                             "' is not a plain file name: use letters, digits, '_', '-' and '.'");
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -9,7 +9,7 @@ namespace vibrissa::report {
 /// starting with a dot, not ending in ".scene". The message begins with kind ("figure").
 void check_file_name(const std::string& kind, const std::string& name);
 
-/// Makes the folder and its parents unless they are there. Throws UserError with the reason.
+/// Creates the folder and its parents if they do not exist. Throws UserError with the reason.
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace vibrissa::report

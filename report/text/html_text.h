@@ -6,15 +6,15 @@
 
 namespace vibrissa::report {
 
-/// The text as it must stand in HTML, between tags or in a quoted attribute. Proven, as
-/// what follows, by tests/report/text/html_text_test.cc.
+/// The text escaped for HTML, between tags or in a quoted attribute. Proven, as the functions
+/// below, by tests/report/text/html_text_test.cc.
 std::string html_escaped(std::string_view text);
 
-/// An element of this tag with the text, escaped, and a line break.
+/// An HTML element with this tag and the escaped text, followed by a line break.
 std::string html_element(const std::string& tag, std::string_view text);
 
-/// JSON that stays within a script element whatever its strings hold: no '<', '>' or '&' as such.
-/// Bytes that are no UTF-8 become U+FFFD.
+/// JSON that is safe inside a script element: '<', '>' and '&' are escaped. Invalid UTF-8 bytes
+/// become U+FFFD.
 std::string script_json(const nlohmann::json& json);
 
 }  // namespace vibrissa::report

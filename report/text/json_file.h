@@ -12,10 +12,11 @@ namespace vibrissa::report {
 
 using signals::read_json;
 
-/// Two-space indented, lists of numbers on one line each; the file is whole or not there at all.
+/// Writes JSON with two spaces of indentation and each list of numbers on one line. The file is
+/// complete or does not exist.
 void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 
-/// The number; null for nothing and for one that is not finite, which JSON cannot hold.
+/// The number; null for nothing and for a number that is not finite, which JSON cannot represent.
 nlohmann::json json_or_null(const std::optional<double>& number);
 
 /// json[key] as a T. Throws UserError that names the key when it is missing or of another type.
@@ -30,7 +31,7 @@ T required(const nlohmann::json& json, const std::string& key) {
   }
 }
 
-/// As required(), with a default for a missing key.
+/// Like required(), with a default for a missing key.
 template <typename T>
 T given_or(const nlohmann::json& json, const std::string& key, const T& otherwise) {
   return json.is_object() && json.contains(key) ? required<T>(json, key) : otherwise;

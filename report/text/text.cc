@@ -17,6 +17,13 @@ std::string formatted(const char* format, const int precision, const double valu
   return {buffer.data(), static_cast<std::size_t>(length)};
 }
 
+std::string without_trailing_zeros(std::string decimal) {
+  if (decimal.find('.') == std::string::npos) return decimal;
+  decimal.erase(decimal.find_last_not_of('0') + 1);
+  if (decimal.back() == '.') decimal.pop_back();
+  return decimal;
+}
+
 }  // namespace
 
 std::string significant(const double value, const int n_digits) {
@@ -24,11 +31,13 @@ std::string significant(const double value, const int n_digits) {
   if (std::isnan(value)) return "-";
   if (std::isinf(value)) return value > 0. ? "inf" : "-inf";
   if (value == 0.) return "0";
-  // The exponent after rounding: 9.996 with three digits is 10.0, not 10.00.
+  // The exponent after rounding: 9.996 with three digits is 10.0 and has one decimal.
   const std::string rounded = formatted("%.*e", n_digits - 1, value);
-  const int exponent = std::atoi(rounded.c_str() + rounded.find('e') + 1);
-  if (exponent < -4 || exponent >= 6) return rounded;
-  return formatted("%.*f", std::max(0, n_digits - 1 - exponent), value);
+  const std::size_t e = rounded.find('e');
+  const int exponent = std::atoi(rounded.c_str() + e + 1);
+  if (exponent < -4 || exponent >= 6)
+    return without_trailing_zeros(rounded.substr(0, e)) + rounded.substr(e);
+  return without_trailing_zeros(formatted("%.*f", std::max(0, n_digits - 1 - exponent), value));
 }
 
 std::string csv_field(const std::string& text) {

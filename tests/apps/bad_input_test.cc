@@ -11,7 +11,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// What must hold for every mistake of the user.
+/// Checks that hold for every user error.
 void expect_refusal(const ProgramResult& result, const testing::Matcher<const std::string&>& text) {
   EXPECT_EQ(result.status, 2) << result.errors;
   EXPECT_THAT(result.errors, text);
@@ -162,7 +162,7 @@ TEST(BadModel, ResponsesInMatlabsNewerVersionAreRefused) {
                  HasSubstr("written as version 5"));
 }
 
-/// A record of 400 samples whose rows a test can spoil.
+/// A record of 400 samples whose rows a test can damage.
 std::string record_text(const std::function<std::string(int, std::string)>& spoil) {
   std::ostringstream text;
   text << "time_s,base_acceleration_m_s2,base_moment_N_m\n";

@@ -86,8 +86,8 @@ TEST(Bode, FindsTheGainOfASensorWithoutDynamicsByEveryMethodWithinItsDeviation) 
       ++n_known;
     }
     ASSERT_GT(n_known, 20u) << method;
-    // Of few periods or realisations the deviations scatter themselves: with 6 degrees of freedom
-    // 98 % are within three of them.
+    // With few periods or realisations the standard deviations are themselves uncertain: with 6
+    // degrees of freedom 98 % of the errors are within three of them.
     EXPECT_GT(static_cast<double>(n_covered), 0.9 * static_cast<double>(n_known)) << method;
   }
 }
@@ -119,7 +119,7 @@ TEST(Bode, SaysThatOddDistortionIsNotToldWithoutOddDetectionLines) {
   EXPECT_TRUE(document["points"][0].contains("even_distortion_power_n2_m2"));
 }
 
-// A cube's scatter between realisations is distortion; noise is none here.
+// The scatter of a cubic system between realisations is distortion; there is no noise here.
 TEST(Bode, TellsDistortionFromNoiseByRealisations) {
   const Folder folder;
   const std::string made = drives(folder, random_phases + "--grid odd --realisations 4");
@@ -149,7 +149,8 @@ TEST(Bode, LeavesDeviationAndDistortionAsColumns) {
   EXPECT_THAT(content(folder.file("b/detection.csv")), HasSubstr("even detection"));
 }
 
-// Two processes share one computation to rounding only; a transverse pair is one resonance twice.
+// Two processes give the same result only up to rounding; a transverse pair has the same resonance
+// twice.
 TEST(BodeFrequencies, AreAsManyWhateverRoundingMakesOfAPair) {
   const double pair = 37.371;
   const auto exact = views::bode_frequencies(1., 250., {pair, pair});

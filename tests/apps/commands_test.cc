@@ -80,13 +80,14 @@ TEST(LongModes, JsonGivesThePublishedResonanceAndItsConvergence) {
     const auto& convergence = document["convergence"];
     EXPECT_EQ(convergence["levels"].size(), 3u);
     EXPECT_LT(convergence["last_change_percent"].get<double>(), 0.2);
-    // The edge of the clamp and of the bond, where stress is singular, keeps it below Q2's four.
+    // The stress singularity at the edges of clamp and bond keeps the order below the four of Q2
+    // elements.
     EXPECT_GT(convergence["observed_order"].get<double>(), 1.);
     EXPECT_NEAR(convergence["extrapolated_hz"].get<double>(), frequency_hz, 0.003 * frequency_hz);
   }
 }
 
-// The finite-element sensor's own clean records, at the order that the band asks for.
+// Noise-free records of the finite-element sensor, with the order that the band requires.
 TEST(Identify, CleanRecordsOfBothSensorsFitHeldOutDataTo99Percent) {
   for (const std::string name : {"flow", "whisker"}) {
     const Folder folder;
@@ -148,7 +149,7 @@ TEST(Separate, WritesTheWarpingPathOfTheEstimatesOnRequest) {
       vibrissa("separate '" + record + "' --method nlms --settling 0.1 --truth truth" +
                " --dtw-path '" + path + "'");
   ASSERT_EQ(result.status, 0) << result.errors;
-  // What removes nothing is the truth itself here: its path is the diagonal from 0.1 s on.
+  // Here the record without separation equals the truth, so its path is the diagonal from 0.1 s on.
   EXPECT_THAT(content(path), testing::StartsWith("method,truth [s],estimate [s]\n"
                                                  "nothing removed,0.1,0.1\n"
                                                  "nothing removed,0.102,0.102\n"));

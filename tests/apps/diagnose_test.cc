@@ -45,7 +45,7 @@ TEST(DiagnoseCommand, LeavesTheExplanationInAFolder) {
   ASSERT_EQ(result.status, 0) << result.errors;
   EXPECT_EQ(content(folder.file("out/verdict.txt")), result.output);
   EXPECT_TRUE(fs::exists(folder.file("out/resonance_gap.json")));
-  EXPECT_THAT(content(folder.file("out/report.html")), HasSubstr("Likeliest: stiffness"));
+  EXPECT_THAT(content(folder.file("out/report.html")), HasSubstr("Most probable: stiffness"));
 }
 
 TEST(DiagnoseCommand, SaysNothingWhereItsFolderIsTaken) {
@@ -125,7 +125,7 @@ TEST(DiagnoseCommand, LeavesVerdictRankingAndFigures) {
                folder.file("real") + "' -o '" + folder.file("out") + "'");
   ASSERT_EQ(result.status, 0) << result.errors;
   const auto answer = nlohmann::json::parse(content(folder.file("out/diagnosis.json")));
-  EXPECT_EQ(answer["schema"], "vibrissa-diagnosis-1");
+  EXPECT_EQ(answer["schema"], "vibrissa-diagnosis-2");
   EXPECT_EQ(answer["verdict"], "delay");
   EXPECT_THAT(result.output, HasSubstr("delay"));
   for (const char* name :
@@ -160,8 +160,8 @@ TEST(DiagnoseCommand, LeavesAModelThatTheOtherCommandsTake) {
   EXPECT_EQ(nlohmann::json::parse(again.output)["verdict"], "none");
 }
 
-/// Of a record that `simulate` writes for the sensor with this setting; the diagnosis has the case
-/// alone.
+/// Diagnosis of a record that `simulate` writes for the sensor with this setting; the diagnosis
+/// knows the unchanged case.
 nlohmann::json diagnosis_of_simulated(const std::string& setting) {
   const Folder folder;
   const std::string model = coarse_case(folder), record = folder.file("real.csv");
@@ -187,7 +187,7 @@ double first_model_frequency_hz(const std::string& setting) {
 TEST(DiagnoseCommand, FindsNothingInWhatItsOwnSimulatorWrote) {
   const auto answer = diagnosis_of_simulated("Records/Seed=7");
   EXPECT_EQ(answer["verdict"], "none");
-  // Of what was tried: how far any answer is trusted, trials of other sensors say.
+  // Among the tested answers, because probability_of_tried comes from trials with other sensors.
   EXPECT_GT(answer["ranking"][0]["probability"].get<double>(),
             0.5 * answer["probability_of_tried"].get<double>());
 }

@@ -46,7 +46,7 @@ diagnosis::Diagnosis example() {
   return d;
 }
 
-TEST(DiagnosisPage, SaysTheVerdictThenWhereWhatHowFarAndWhatNext) {
+TEST(DiagnosisPage, SaysVerdictLocationCauseImprovementAndNextExperiment) {
   const report::Page page = views::diagnosis_page(example());
   EXPECT_EQ(page.headline,
             "Joint friction and stiffness explain why the bench differs from the simulation");
@@ -54,7 +54,7 @@ TEST(DiagnosisPage, SaysTheVerdictThenWhereWhatHowFarAndWhatNext) {
               ElementsAre("The simulation lacks this physics.", HasSubstr("Doubtful: a</script>")));
   std::vector<std::string> headings;
   for (const report::PageSection& section : page.sections) headings.push_back(section.heading);
-  EXPECT_THAT(headings, ElementsAre("Where", "What", "How far", "What next"));
+  EXPECT_THAT(headings, ElementsAre("Where", "Cause", "Improvement", "Next experiment"));
   EXPECT_THAT(page.sections[3].text, ElementsAre(HasSubstr("Measure wide band: it splits")));
 }
 
@@ -64,33 +64,33 @@ TEST(DiagnosisPage, GivesEachNumberItsUnitAndItsInterval) {
   EXPECT_EQ(page.numbers[0].value, "90 %");
   EXPECT_EQ(page.numbers[1].value, "97 %");
   EXPECT_EQ(page.numbers[1].note, "95 % interval 95 % to 98 %");
-  EXPECT_EQ(page.numbers[2].value, "3.0 %");
-  EXPECT_EQ(page.numbers[3].value, "0.0120 m/s");
+  EXPECT_EQ(page.numbers[2].value, "3 %");
+  EXPECT_EQ(page.numbers[3].value, "0.012 m/s");
 }
 
 TEST(DiagnosisPage, ShowsTheParametersOfAnswersThatAreNotImprobable) {
-  const report::PageSection what = views::diagnosis_page(example()).sections[1];
-  ASSERT_THAT(what.tables, SizeIs(3));
-  EXPECT_EQ(what.tables[1].table.to_csv(),
-            "answer,effect,parameter,value,95 % from,95 % to,unit,at limit\n"
+  const report::PageSection cause = views::diagnosis_page(example()).sections[1];
+  ASSERT_THAT(cause.tables, SizeIs(3));
+  EXPECT_EQ(cause.tables[1].table.to_csv(),
+            "answer,effect,parameter,value,95 % from,95 % to,unit,at limit of range\n"
             "joint_friction+stiffness,stiffness,ratio,0.71,0.7,0.72,,\n");
 }
 
 TEST(DiagnosisPage, ShowsTheWholeHeldOutRecordAndItsFirstSecond) {
-  const report::PageSection how_far = views::diagnosis_page(example()).sections[2];
-  ASSERT_THAT(how_far.figures, SizeIs(1));
-  ASSERT_THAT(how_far.figures[0].panels, SizeIs(2));
-  EXPECT_THAT(how_far.figures[0].panels[0].curves[0].x, SizeIs(4000));
-  EXPECT_THAT(how_far.figures[0].panels[1].curves[0].x, SizeIs(1000));
+  const report::PageSection improvement = views::diagnosis_page(example()).sections[2];
+  ASSERT_THAT(improvement.figures, SizeIs(1));
+  ASSERT_THAT(improvement.figures[0].panels, SizeIs(2));
+  EXPECT_THAT(improvement.figures[0].panels[0].curves[0].x, SizeIs(4000));
+  EXPECT_THAT(improvement.figures[0].panels[1].curves[0].x, SizeIs(1000));
 }
 
 TEST(DiagnosisPage, SaysInPlainWordsWhatIsNoEffect) {
   diagnosis::Diagnosis d;
-  EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("No cause is needed"));
+  EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("No cause: noise explains"));
   d.verdict = "outside_catalogue";
-  EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("no known effect explains"));
+  EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("a cause that is not in the catalogue"));
   d.verdict = "stiffness";
-  EXPECT_THAT(views::diagnosis_page(d).verdict, ElementsAre(HasSubstr("wants recalibration")));
+  EXPECT_THAT(views::diagnosis_page(d).verdict, ElementsAre("The simulation needs recalibration."));
   d.verdict = "delay";
   EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("Delay explains why"));
 }

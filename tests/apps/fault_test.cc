@@ -23,7 +23,7 @@ std::string record_in(const Folder& folder) {
   return folder.write("record.csv", text.str());
 }
 
-// Of blocks of 512 bytes; files that grow beyond it are refused as by a full disk.
+// Limit in blocks of 512 bytes; larger files fail as on a full disk.
 const std::string small_disk = "ulimit -f 16;";
 
 TEST(Faults, OnAFullDiskLeaveTheOldFileAndNothingHalfWritten) {

@@ -48,7 +48,7 @@ TEST(Identify, FindsTheSensorByEveryMethodAndSaysWhich) {
     const json found = result.json();
     EXPECT_EQ(found["method"], method);
     EXPECT_NEAR(found["modes"][0]["frequency_hz"].get<double>(), 31.47, 0.3) << method;
-    // Welch's segments leak about a resonance this sharp: what they give is the poorer model.
+    // Welch's segments have leakage at such a sharp resonance, so the model is less accurate.
     EXPECT_GT(found["fit_percent"].get<double>(), method == "frequency" ? 75. : 94.) << method;
   }
   const auto unknown = vibrissa("identify '" + record + "' --method arx");
@@ -66,7 +66,7 @@ TEST(Identify, OfAFewHundredSamplesEndsWithATableAndAModel) {
   EXPECT_TRUE(std::filesystem::exists(model));
 }
 
-/// What lies between the samples is told once, to identify.
+/// The hold is given once, to identify.
 TEST(Separate, TakesTheInputBetweenSamplesAsTheModelWasFitted) {
   const Folder folder;
   const std::string record = folder.file("r.csv"), model = folder.file("model.json");

@@ -144,7 +144,7 @@ TEST_F(Processes, AreRefusedWorkForOne) {
   EXPECT_THAT(job.output, HasSubstr("without mpirun"));
 }
 
-// The first alone finds out that it cannot write, while the others wait for it.
+// Only the first process finds that it cannot write, while the others wait for it.
 TEST_F(Processes, EndWhenTheFirstFails) {
   const std::string out = folder_.file("run");
   fs::create_directories(out);
@@ -157,7 +157,7 @@ TEST_F(Processes, EndWhenTheFirstFails) {
   EXPECT_THAT(job.output, HasSubstr("not empty"));
 }
 
-// The second is given another case, which is none.
+// The second process gets another case file, which does not exist.
 TEST_F(Processes, EndWhenAnotherFails) {
   const std::string program = std::string("-np 1 ") + VIBRISSA_PROGRAM + " modes ";
   const auto job = by_shell(program + case_file("flow_sensor.prm") + " : " + program +

@@ -51,7 +51,7 @@ TEST(Reproduce, LeavesEveryFigureAsDataAndTheTableOfNumbers) {
   }
   EXPECT_THAT(content(reproduction().file("r/reproduction.md")), testing::HasSubstr("31.47"));
   EXPECT_THAT(content(reproduction().file("r/report.html")),
-              testing::HasSubstr("numbers that the paper states come out within 10 %"));
+              testing::HasSubstr("numbers of the paper are reproduced within 10 %"));
 }
 
 TEST(Reproduce, CleanRecordsOfBothSensorsFitTo99Point5PercentOnHeldOutData) {

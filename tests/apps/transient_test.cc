@@ -47,7 +47,7 @@ std::function<void()> for_seconds(const double time_s) {
   return [=] { usleep(static_cast<useconds_t>(1e6 * time_s)); };
 }
 
-/// Machines take unlike times to begin: until then, but no longer than two minutes.
+/// Waits for the start, which takes a machine-dependent time, at most two minutes.
 std::function<void()> until_there(const std::string& file) {
   return [=] {
     constexpr double look_again_s = 0.02;
@@ -86,7 +86,7 @@ TEST(Transient, SmallStrainIsWhatTheReducedModelSays) {
                 .status,
             0);
   const auto full = signals::read_record(folder.file("run/record.csv"));
-  // Both take straight lines between the samples.
+  // Both interpolate linearly between the samples.
   const auto reduced =
       signals::simulate(signals::read_reduced_model(folder.file("model.json")),
                         {.sampling_rate_hz = full.sampling_rate_hz(),

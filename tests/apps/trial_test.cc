@@ -117,13 +117,13 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
   EXPECT_EQ(share("none, false alarm"), Pair(0, 1));
   EXPECT_EQ(score.trust.at("none").second, 2u);
   EXPECT_EQ(score.trust.at("single").second, 4u);
-  // Behind one of the two wrong names stood no known effect.
+  // One of the two wrong answers had a cause outside the catalogue.
   EXPECT_EQ(score.unknown.at("single").hits, 1u);
   EXPECT_EQ(score.unknown.at("single").of, 2u);
   EXPECT_EQ(share("calibration_only, false alarm"), Pair(0, 1));
   EXPECT_EQ(share("nameless, wrong name above 0.8"), Pair(1, 1));
   EXPECT_EQ(share("wrong name above 0.8"), Pair(1, 5));
-  // The one delay that was found: 0.1 ms off, said to be known to 0.1 ms.
+  // The one detected delay has an error of 0.1 ms and a stated standard deviation of 0.1 ms.
   EXPECT_NEAR(score.figures.at("parameter error over its deviation, median"), 1., 1e-6);
 }
 
@@ -153,14 +153,14 @@ TEST_F(WrittenTrial, CountsWhatFurtherExperimentsResolve) {
                 {"confidence_set", set}};
   };
   json undecided = answer("sensor_lowpass", 0.6);
-  // That no effect is known can never be ruled out.
+  // outside_catalogue can never be excluded.
   undecided["recommended"] = after("delay", {"delay", "outside_catalogue"});
   undecided["by_chance"] = after("delay", {"delay", "sensor_lowpass"});
   add("single", delay, undecided);
   undecided["recommended"] = after("sensor_lowpass", {"sensor_lowpass"});
   undecided.erase("by_chance");
   add("single", delay, undecided);
-  // An experiment that came to no answer resolved nothing.
+  // An experiment without an answer has resolved nothing.
   undecided["recommended"] = {{"experiment", "wide_band"}, {"message", "no such file"}};
   add("single", delay, undecided);
   const trial::TrialScore score = trial::score_trial(trial_, labels_);
@@ -195,7 +195,7 @@ TEST_F(WrittenTrial, CountsTheGapThatStandsOutOfTheNoiseOfItsOwnRecords) {
   };
   json closed = answer("delay", 0.9);
   json& held_out = closed["diagnosis"]["ranking"][0]["held_out"];
-  // Of 0.24 above the floor 0.06 is left.
+  // 0.06 of 0.24 above the noise floor is left.
   held_out = {
       {"not_predictable", json::array()},
       {"records", {record("held_out", 0.5, std::sqrt(0.07)), record("other_level", 0.11, 0.12)}}};
@@ -240,7 +240,7 @@ TEST(LongTrial, OfTenSensorsIsMadeRunAndScored) {
   ASSERT_EQ(vibrissa("trial make --quiet --cases 10 --seed 4021 --out '" + trial + "'").status, 0);
   EXPECT_EQ(content(trial + "/trial.json").find("\"class\""), std::string::npos)
       << "labels can be read before the score";
-  // The key is gone while the diagnosis runs.
+  // The key is moved away while the diagnosis runs.
   fs::rename(trial + ".key", folder.file("elsewhere"));
   const auto run = vibrissa("trial run --json --max-effects 2 '" + trial + "'");
   ASSERT_EQ(run.status, 0) << run.errors;
@@ -259,8 +259,9 @@ TEST(LongTrial, OfTenSensorsIsMadeRunAndScored) {
   EXPECT_LE(shares["wrong name above 0.8"]["hits"], 3);
   ASSERT_EQ(vibrissa("trial score --key '" + folder.file("elsewhere") + "' '" + trial + "'").status,
             0);
-  EXPECT_NE(content(trial + "/score/report.html").find(" of 10 sealed sensors"), std::string::npos);
-  // Answers that are there are not made again.
+  EXPECT_NE(content(trial + "/score/report.html").find(" of 10 sensors with sealed labels"),
+            std::string::npos);
+  // Existing answers are not computed again.
   const auto again = vibrissa("trial run --json --max-effects 2 '" + trial + "'");
   EXPECT_EQ(json::parse(again.output)["there_before"], 10);
   EXPECT_EQ(json::parse(again.output)["answered"], 0);

@@ -84,7 +84,7 @@ TEST_F(BadRecords, ADeadSensorIsNamedWithItsRecord) {
     for (std::size_t i = 1; i < lines.size(); ++i)
       lines[i].replace(lines[i].rfind(','), std::string::npos, ",0");
   });
-  expect_refused({"base_high: base_moment_N_m is 0 throughout"});
+  expect_refused({"base_high: base_moment_N_m is constant at 0"});
 }
 
 }  // namespace

@@ -57,12 +57,12 @@ TEST(DiagnosisJson, TellsTheErrorOfTheWindSpeedWhereThereIsOne) {
   diagnosis.wind_speed = WindSpeedError{0.4, 0.05};
   EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["wind_speed_error_m_s"],
             nlohmann::json({{"before", 0.4}, {"after", 0.05}}));
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("wind speed off by 0.4 m/s -> 0.05 m/s"));
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("wind speed error 0.4 m/s -> 0.05 m/s"));
 }
 
 TEST(DiagnosisJson, HoldsEveryKeyOfTheSchema) {
   const auto json = nlohmann::json::parse(diagnosis_json(example()));
-  EXPECT_EQ(json["schema"], "vibrissa-diagnosis-1");
+  EXPECT_EQ(json["schema"], "vibrissa-diagnosis-2");
   for (const char* key : {"nrmse", "noise_floor_nrmse", "p_value"})
     EXPECT_TRUE(json["gap"][key].is_number()) << key;
   const auto& location = json["location"];
@@ -139,8 +139,9 @@ TEST(VerdictText, TellsTheOddsOfNoKnownEffect) {
   diagnosis.probability_of_tried = 0.7;
   diagnosis.probability_of_outside = 0.1;
   EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["probability_of_outside"], 0.1);
-  EXPECT_THAT(verdict_text(diagnosis),
-              HasSubstr("what these records do not show 30 %; of all that no known effect 10.0 %"));
+  EXPECT_THAT(
+      verdict_text(diagnosis),
+      HasSubstr("not decided by these records: 30 %; outside the catalogue in total: 10 %"));
 }
 
 TEST(VerdictText, TellsWhatComesNearest) {
@@ -150,10 +151,10 @@ TEST(VerdictText, TellsWhatComesNearest) {
   diagnosis.verdict = "outside_catalogue";
   EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["nearest_known"]["effect"],
             "delay+stiffness");
-  EXPECT_THAT(verdict_text(diagnosis),
-              HasSubstr("Nearest: delay+stiffness closes 98 % of the gap, but leaves more than"));
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("Nearest known answer: delay+stiffness closes 98 "
+                                                 "% of the gap, but fails the residual test"));
   diagnosis.nearest_known->residual_excess = ResidualExcess{"other_level", 1.5, 30.};
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("but leaves 2.5 times"));
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("residual test: 2.5"));
   EXPECT_EQ(nlohmann::json::parse(
                 diagnosis_json(diagnosis))["nearest_known"]["residual_excess"]["record"],
             "other_level");
@@ -175,7 +176,7 @@ TEST(VerdictText, KeepsEveryNumberOfManyEffects) {
   parameters.back().at_limit = true;
   const std::string text = verdict_text(diagnosis, 1000);
   EXPECT_THAT(text, HasSubstr("the_last"));
-  EXPECT_THAT(text, HasSubstr("(the limit of what is tried)"));
+  EXPECT_THAT(text, HasSubstr("(limit of the searched range)"));
   EXPECT_THAT(text, testing::Not(HasSubstr("...")));
 }
 
@@ -211,13 +212,14 @@ TEST(VerdictText, SaysCauseSizeAndWhatToDoNext) {
 
 TEST(VerdictText, TellsACalibrationFromPhysics) {
   Diagnosis diagnosis = example();
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("missing physics"));
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("The simulation lacks this physics"));
   diagnosis.verdict = "stiffness";
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("recalibrate"));
+  EXPECT_THAT(verdict_text(diagnosis),
+              HasSubstr("needs recalibration: set stiffness to 0.713 times the simulated"));
   diagnosis.verdict = "none";
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("noise explains it"));
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("noise explains the difference"));
   diagnosis.verdict = "outside_catalogue";
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("no known effect"));
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("a cause that is not in the catalogue"));
 }
 
 TEST(DiagnosisJson, TellsRecalibrationFromMissingPhysics) {

@@ -75,7 +75,7 @@ TEST(Diagnose, DoubtsACauseThatRecordsItHasNotSeenDoNotConfirm) {
   ASSERT_TRUE(diagnosis.nearest_known);
   EXPECT_EQ(diagnosis.nearest_known->name, "stiffness");
   EXPECT_THAT(diagnosis.findings, not_confirmed);
-  EXPECT_NE(verdict_text(diagnosis).find("does not carry over"), std::string::npos);
+  EXPECT_NE(verdict_text(diagnosis).find("cross-validation fails"), std::string::npos);
 }
 
 TEST(Diagnose, TellsWhatComesNearestWhereNothingKnownExplainsTheGap) {
@@ -170,7 +170,7 @@ TEST(Diagnose, SaysWhatIsMissingWhenNothingCanBeSaid) {
   }
 }
 
-/// Diagnosis of a rig at another rate than that of the records from which the nominal model comes.
+/// Diagnosis of a rig with another sampling rate than the simulation's records.
 Diagnosis diagnosed_at(double rate_hz, double stiffness) {
   static const NominalModel nominal = identify_nominal(test::rig_dataset(test::OneModeRig{}));
   test::OneModeRig rig = test::noisy_rig();
@@ -200,7 +200,7 @@ TEST(Diagnose, IsRightWhereRecordsDifferInTheirRates) {
   rig.stiffness = 0.9;
   signals::Dataset dataset = test::rig_dataset(rig);
   rig.rate_hz = 800.;
-  // Of the same length: only the rate tells them apart.
+  // Same length, so that they differ only in the sampling rate.
   for (const signals::DatasetRecord& entry : test::rig_dataset(rig, {.seed = 70}).records)
     dataset.records.push_back(entry);
   const Diagnosis diagnosis = diagnose(test::nominal_of(test::OneModeRig{}, false), dataset,
@@ -244,7 +244,8 @@ TEST(Diagnose, IsTooPoorFromRecordsThatAreAllTooShort) {
     diagnose(test::nominal_of(test::OneModeRig{}, false), dataset);
     FAIL();
   } catch (const TooLittleData& error) {
-    EXPECT_THAT(error.what(), HasSubstr("base_high: 300 samples are too few"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("base_high: the record is not used: 300 samples are too few"));
   }
 }
 
@@ -303,7 +304,7 @@ TEST(Diagnose, DiagnosesWindAlone) {
   std::erase_if(dataset.records, [](const auto& entry) { return entry.excitation.base; });
   const Diagnosis diagnosis =
       diagnose(test::nominal_of(test::OneModeRig{}, true), dataset, {.search = {.max_effects = 1}});
-  // Without base motion the sensor's gain does the same: either may come first.
+  // Without base motion the sensor's gain has the same influence, so either may come first.
   EXPECT_THAT(diagnosis.verdict, testing::AnyOf("drag_error", "sensor_gain"));
   EXPECT_THAT(diagnosis.indistinguishable,
               Contains(testing::UnorderedElementsAre("drag_error", "sensor_gain")));
@@ -311,7 +312,7 @@ TEST(Diagnose, DiagnosesWindAlone) {
               Contains(testing::Field(&UntestedEffect::effect, "reference_gain")));
 }
 
-/// Cases of a rig that shares nothing with this project, where they lie beside it.
+/// Cases of an independent rig simulator, if they are available.
 TEST(Practice, CasesAreDiagnosed) {
   namespace fs = std::filesystem;
   const fs::path practice = fs::path(VIBRISSA_SOURCE_DIR) / ".." / "shared" / "practice";

@@ -16,8 +16,8 @@ NominalModel solid() {
   return nominal;
 }
 
-/// A fit with nothing but this effect, its parameters at these coordinates, each with a deviation
-/// of 0.01 and without correlation.
+/// A fit with only this effect and its parameters at these coordinates, each with a standard
+/// deviation of 0.01 and without correlation.
 HypothesisFit fit_of(const std::string& id, const std::vector<double>& x) {
   HypothesisFit fit;
   const Effect& effect = find_effect(id);

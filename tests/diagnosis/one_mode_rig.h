@@ -13,18 +13,18 @@
 
 namespace vibrissa::diagnosis::test {
 
-/// A whisker of one mode on a rig, integrated by classical Runge-Kutta at many steps a sample. It
-/// shares no code with the chain that is tested.
+/// A whisker with one mode on a rig, integrated by classical Runge-Kutta with many steps per
+/// sample. It shares no code with the tested chain.
 ///   x'' + c0 loss x' + k0 ((stiffness + warming) x + cubic x^3) = -a + drag w |w|,
 ///   M = moment_mass (k x + c x'), w = u - own_motion (x' + base velocity)
-/// with the clock of the moment's channel behind by delay_s. Under the readout rotation
-/// moment_mass k0 x is read; a turned rig sees the cosine of what moves it. A second mode that the
-/// base moves adds extra_residue moment_mass y,  y'' + 2 0.02 w y' + w^2 y = w^2 a.
+/// with the clock of the moment channel delayed by delay_s. With the readout rotation the reading
+/// is moment_mass k0 x; a rotated rig has the cosine of its excitation. A second mode that the base
+/// excites adds extra_residue moment_mass y,  y'' + 2 0.02 w y' + w^2 y = w^2 a.
 struct OneModeRig {
   double frequency_hz = 35., damping_ratio = 0.05;
   double moment_mass = 6e-5;  // kg m: M / a at rest is -this
   double drag = 0.8;          // (m/s^2) / (m/s)^2
-  double own_motion = 0.;     // share of its velocity that the air feels
+  double own_motion = 0.;     // share of its velocity in the relative wind
   double stiffness = 1., loss = 1.;
   double cubic = 0.;    // 1/m^2
   double delay_s = 0.;  // whole steps of integration
@@ -37,10 +37,10 @@ struct OneModeRig {
   static constexpr std::size_t n_steps = 16;
 
   using Signal = std::function<double(double t_s)>;
-  Signal base_velocity = [](double) { return 0.; };  // where the air feels it
-  Signal warming = [](double) { return 0.; };        // of the stiffness, in the course of a record
+  Signal base_velocity = [](double) { return 0.; };  // for the relative wind
+  Signal warming = [](double) { return 0.; };        // change of the stiffness during a record
 
-  /// Runge's and Kutta's, of x'' = slope(t, x, x').
+  /// One Runge-Kutta step of x'' = slope(t, x, x').
   template <typename Slope>
   static void step(const Slope& slope, double t, double dt, double& x, double& v) {
     const double k1 = slope(t, x, v), v2 = v + 0.5 * dt * k1;
@@ -105,7 +105,7 @@ inline double no_signal(double) {
   return 0.;
 }
 
-/// Terms of equal height and random phase, each of its angular frequency and its angle.
+/// Sines of equal amplitude and random phase, by angular frequency and phase.
 template <typename Term>
 OneModeRig::Signal sum_of_terms(const std::vector<double>& frequencies_hz, double level,
                                 unsigned seed, const Term& term) {
@@ -124,7 +124,7 @@ OneModeRig::Signal sum_of_terms(const std::vector<double>& frequencies_hz, doubl
   };
 }
 
-/// Sum of sines of equal height and random phase. Peak about level sqrt(2 n).
+/// Sum of sines of equal amplitude and random phase. Peak about level sqrt(2 n).
 inline OneModeRig::Signal sines(const std::vector<double>& frequencies_hz, double level,
                                 unsigned seed) {
   return sum_of_terms(frequencies_hz, level, seed,
@@ -146,7 +146,7 @@ inline std::vector<double> odd_lines_hz(double line_hz, double low_hz, double hi
   return out;
 }
 
-/// For records that do not repeat.
+/// For records that are not periodic.
 inline std::vector<double> scattered_lines_hz() {
   std::vector<double> out;
   for (double f = 5.137; f < 110.; f += 3.3171) out.push_back(f);
@@ -198,7 +198,7 @@ inline signals::Dataset rig_dataset(const OneModeRig& rig, const RigDatasetOptio
   return out;
 }
 
-/// What the rig is without extras, as theory has it.
+/// Nominal model of the rig without extras, from theory.
 inline NominalModel nominal_of(const OneModeRig& rig, bool wind) {
   NominalModel model;
   StructuralMode mode{.frequency_rad_s = 2. * std::numbers::pi * rig.frequency_hz,
@@ -213,7 +213,7 @@ inline NominalModel nominal_of(const OneModeRig& rig, bool wind) {
   model.has_base = true;
   model.has_wind = wind;
   model.base_misfit = model.wind_misfit = 1e-4;
-  // All of the compliance is in the rig's one spring.
+  // The rig's only spring has the whole compliance.
   model.joint_share = 1.;
   model.joint_share_deviation = 0.02;
   return model;

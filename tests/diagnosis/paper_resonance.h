@@ -4,7 +4,7 @@
 
 namespace vibrissa::diagnosis::test {
 
-/// The reference study's own gap of resonances, explained.
+/// Explanations of the reference study's resonance gap.
 inline ResonanceDiagnosis paper() {
   const ResonanceExample example = paper_gap();
   return explain_resonance_gap(example.simulated, example.measured, example.model);

@@ -1,4 +1,4 @@
-// The program that draw_pictures() starts in these tests, in place of the whole of vibrissa.
+// The program that draw_pictures() starts in these tests instead of vibrissa.
 #include <iostream>
 #include <string>
 

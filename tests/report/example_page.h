@@ -10,7 +10,7 @@
 
 namespace vibrissa::report::testing {
 
-/// What a hostile file may call a record.
+/// A hostile record name.
 inline constexpr const char* hostile_name =
     R"(run </script><script>alert("x")</script> & 'co' {{style}} <!-- <img src=x onerror=alert(1)>)";
 
@@ -70,7 +70,7 @@ inline Figure example_trace(const std::size_t n, const std::string& record) {
                       .curves = {curve}}}};
 }
 
-/// Every double that is hard to write.
+/// Doubles that are difficult to print exactly.
 inline Figure example_numbers() {
   Curve curve{.style = CurveStyle::points};
   for (int power = -30; power <= 30; ++power)
@@ -85,7 +85,7 @@ inline Figure example_numbers() {
           .panels = {{.x_label = "Place", .y_label = "Number", .curves = {curve}}}};
 }
 
-/// Names in place of numbers.
+/// Names instead of numbers.
 inline Figure example_ranking() {
   return {
       .name = "ranking",
@@ -99,7 +99,7 @@ inline Figure example_ranking() {
            .curves = {{.style = CurveStyle::points, .x = {0.9, 0.08, 0.02}, .y = {3., 2., 1.}}}}}};
 }
 
-/// A page with all that a page may hold, in a folder with its run.json and meshes.
+/// A page with all kinds of content, in a folder with its run.json and meshes.
 inline Page example_page(const std::filesystem::path& folder, const std::size_t n_samples = 20000) {
   std::filesystem::create_directories(folder);
   write_json(folder / "run.json",

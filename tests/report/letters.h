@@ -7,7 +7,7 @@
 
 namespace vibrissa::report {
 
-/// Wider than the letters in use, so that what fits here fits on paper.
+/// Wider than the real letters, so that a text that fits here always fits.
 inline double wide_letters(const std::string& text, const int size, const bool bold) {
   return (bold ? 0.75 : 0.65) * size * static_cast<double>(n_characters(text));
 }

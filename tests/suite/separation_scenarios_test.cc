@@ -37,7 +37,7 @@ TEST(DriftingMoment, OfAResonanceThatStaysIsThatOfTheModel) {
   EXPECT_LT(largest_difference(moment, expected), 1e-10 * size);
 }
 
-// By the end of a slow drift the response is that of a sensor with the last resonance.
+// At the end of a slow drift the response equals that of a sensor with the final resonance.
 TEST(DriftingMoment, EndsAsTheResponseOfASensorWithTheLastResonance) {
   const auto a = noise(200000);
   auto last = beam;

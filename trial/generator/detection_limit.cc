@@ -15,7 +15,7 @@ double LikelihoodRatio::noncentrality(const World& world, const bool random) con
   double sum = 0.;
   for (std::size_t i = 0; i < change.size(); ++i) {
     const double share = std::norm(change[i]) / noise_[i];
-    // One draw of a variance has twice its square's mean.
+    // The estimate of a variance from one draw has a variance of twice its square.
     sum += random ? 0.5 * share * share : 2. * share;
   }
   return sum;

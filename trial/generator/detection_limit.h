@@ -8,8 +8,9 @@
 
 namespace vibrissa::trial {
 
-/// The likelihood-ratio test that knows the form of what a world adds to the plain one: its
-/// unexplained change over the noise of both channels, in the fit takes. Noise is taken as white.
+/// Likelihood-ratio test that knows the form of a world's change relative to the plain world: its
+/// unexplained change relative to the noise of both channels, in the fit takes. The noise is
+/// assumed white.
 class LikelihoodRatio {
  public:
   LikelihoodRatio(const World& plain, const Session& session);
@@ -22,13 +23,13 @@ class LikelihoodRatio {
   std::vector<double> noise_;
 };
 
-/// Non-centrality of one parameter that is found in half of all cases at one false alarm in a
-/// hundred.
+/// Non-centrality at which one parameter is detected in half of all cases with 1 % false alarms.
 inline constexpr double half_power_at_one_percent = 6.63;
 
-/// Size at which that test finds an unknown in half of all cases at one false alarm in a hundred
-/// (non-centrality 6.63 for one parameter), and that benches' own spread does not hide. Nothing
-/// where even the largest stays below. Proven by tests/trial/generator/detection_limit_test.cc.
+/// Detection limit: the size at which that test detects an effect in half of all cases with 1 %
+/// false alarms (non-centrality 6.63 for one parameter), but at least the variation between
+/// benches. Nothing when even the largest size stays below it. Proven by
+/// tests/trial/generator/detection_limit_test.cc.
 std::optional<double> detection_limit(const LikelihoodRatio& test, const Unknown& unknown,
                                       double sign, double shape);
 

@@ -9,21 +9,21 @@
 
 namespace vibrissa::trial {
 
-/// In detection limits.
+/// Sizes in multiples of the detection limit.
 struct Sizes {
   double low = smallest_in_limits, high = largest_in_limits;
 };
 
-/// Adds effects to a case, each of a size by chance that its bench shows: log-uniform in detection
-/// limits, within the usual range. Proven by tests/trial/generator/detection_limit_test.cc.
+/// Adds effects of random sizes to a case: log-uniform in multiples of the detection limit on its
+/// bench, within the usual range. Proven by tests/trial/generator/detection_limit_test.cc.
 class EffectDraw {
  public:
-  /// The case as it is on its bench, else as simulated. Both must outlive it.
+  /// of: a case that is as simulated, on its own bench. Both arguments must outlive this object.
   EffectDraw(TrialCase& of, std::mt19937_64& random)
       : case_(of), plain_(of.world), random_(random) {}
 
   void add_by_chance(const std::vector<Unknown>& list, const Sizes& sizes = {});
-  /// The first of the list that can be asked, from the one whose turn it is.
+  /// The next effect of the list (cyclic) that is detectable on this bench.
   void add_in_turn(const std::vector<Unknown>& list, std::size_t turn, const Sizes& sizes = {});
 
  private:
@@ -33,7 +33,7 @@ class EffectDraw {
   TrialCase& case_;
   World plain_;
   std::mt19937_64& random_;
-  std::optional<LikelihoodRatio> test_;  // when the first effect is asked
+  std::optional<LikelihoodRatio> test_;  // created for the first effect
 };
 
 }  // namespace vibrissa::trial

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double step = 1.5, below_the_limit = 0.7;
 
-/// Where else than in its size an unknown varies.
+/// Further parameters (shapes) of an effect beside its size.
 std::vector<double> shapes_of(const Unknown& unknown) {
   static const std::map<std::string, std::vector<double>> several{{"joint_friction", {0.1, 0.9}},
                                                                   {"extra_mode", {0.1, 0.5, 0.9}},
@@ -33,8 +33,8 @@ std::vector<double> sizes_of(const Unknown& unknown, const double limit) {
 
 }  // namespace
 
-std::vector<EffectLadder> optimise_ladders(const UnexplainedChange& change,
-                                           const std::function<void()>& on_unknown) {
+std::vector<EffectLadder> effect_ladders(const UnexplainedChange& change,
+                                         const std::function<void()>& on_unknown) {
   World quietest = change.plain();
   quietest.moment_noise = quietest_moment;
   quietest.acceleration_noise = quietest_accelerometer;

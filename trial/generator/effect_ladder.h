@@ -8,16 +8,16 @@
 
 namespace vibrissa::trial {
 
-/// One unknown of one shape over a ladder of sizes, from below the detection limit of the quietest
-/// bench to the largest that is usual.
+/// One effect of one shape at a ladder of sizes, from below the detection limit of the quietest
+/// bench to the largest usual size.
 struct EffectLadder {
   const Unknown* unknown = nullptr;
   std::vector<double> sizes;
   std::vector<std::vector<std::complex<float>>> changes;  // unexplained [size][line]
 };
 
-/// All named unknowns, some in several shapes. on_unknown: called after each.
-std::vector<EffectLadder> optimise_ladders(const UnexplainedChange& change,
-                                           const std::function<void()>& on_unknown);
+/// Ladders of all named effects, some with several shapes. on_unknown: called after each effect.
+std::vector<EffectLadder> effect_ladders(const UnexplainedChange& change,
+                                         const std::function<void()>& on_unknown);
 
 }  // namespace vibrissa::trial

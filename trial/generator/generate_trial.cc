@@ -1,6 +1,6 @@
-// Writes a blind trial: generate_trial SEED FIRST COUNT FOLDER [finite-strain]. Records go to
-// FOLDER, the labels into it under seal, the key beside it. The last line says what the labels are
-// bound to.
+// Writes a blind trial: generate_trial SEED FIRST COUNT FOLDER [finite-strain]. The records and the
+// encrypted labels go to FOLDER, the key to FOLDER.key. The last line of the output is the
+// commitment (hash) of the labels.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -57,7 +57,7 @@ json label_of(const trial::TrialCase& trial_case) {
 void generate(std::uint64_t seed, std::size_t first, std::size_t count, const fs::path& folder,
               const trial::Physics physics) {
   if (fs::exists(folder))
-    throw signals::UserError(folder.string() + " exists: name another folder");
+    throw signals::UserError(folder.string() + " exists already; give another folder");
   const fs::path making = folder.string() + ".making", key_file = folder.string() + ".key";
   fs::remove_all(making);
   write_dataset(making / "sim", trial::simulated_records(seed, physics));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double run_up_s = 1.5;
 constexpr std::size_t margin = 32;  // samples
-/// Eddies smaller than fin and probe are averaged by both.
+/// Fin and probe average eddies that are smaller than themselves.
 constexpr double smallest_eddy_hz = 150.;
 
 std::size_t run_up(const Take& take) {
@@ -63,7 +63,7 @@ class Bench {
         odd_multisine(take.period_samples * motion_.steps_per_sample(), motion_.fine_hz(),
                       take.low_hz, take.high_hz, take.base_rms, seed);
     std::vector<double> out(n);
-    // The record begins after the run-up, which is whole periods.
+    // The record begins after the run-up, which consists of whole periods.
     for (std::size_t i = 0; i < n; ++i) out[i] = period[i % period.size()];
     return out;
   }
@@ -85,7 +85,7 @@ class Bench {
     return gusty(take.wind_mean, take.gustiness, 0.15, n, seed);
   }
 
-  /// The wind that the sensor feels: delayed, with gusts that the probe does not see.
+  /// Wind at the sensor: delayed, and with gusts that the probe does not measure.
   std::vector<double> wind_at_sensor(const Take& take, const std::vector<double>& probe,
                                      const std::uint64_t seed) const {
     std::vector<double> out = probe;
@@ -108,7 +108,7 @@ class Bench {
   const Session& session_;
 };
 
-/// Of a multisine.
+/// A take with two periods of a multisine.
 Take two_periods(const std::string& name, const double rms, const std::size_t period,
                  const std::uint64_t drive) {
   return {.name = name,

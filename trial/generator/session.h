@@ -10,29 +10,30 @@
 
 namespace vibrissa::trial {
 
-/// One record of a session on the bench.
+/// One record (take) of a session on the bench.
 struct Take {
   std::string name{};
   double base_rms = 0.;   // m/s^2; 0: the stage is at rest
   double wind_mean = 0.;  // m/s; 0: the fan is off
   std::size_t n_samples = 0, period_samples = 0;
   signals::Split split = signals::Split::fit;
-  std::uint64_t drive = 0;  // takes with the same number are driven alike
+  std::uint64_t drive = 0;  // takes with the same number have the same excitation
   double low_hz = 3., high_hz = 110.;
   double gustiness = 0.35;  // turbulence intensity of the wind
 
   bool is_at_rest() const { return base_rms == 0. && wind_mean == 0.; }
 };
 
-/// At rest, two levels, the higher one twice, wind, both; two more are held out.
+/// The usual session: at rest, two levels (the higher one twice), wind, both; and two held-out
+/// takes.
 std::vector<Take> usual_takes();
-/// Two thirds less of all, for motions that take long to compute: at rest, two levels, wind, both;
-/// one more is held out.
+/// A session of a third of the length, for motions that are slow to compute: at rest, two levels,
+/// wind, both; and one held-out take.
 std::vector<Take> short_takes();
-/// Another level and another wind, to see how far an answer carries.
+/// Held-out takes at another level and another wind, for cross-validation.
 std::vector<Take> transfer_takes();
 
-/// What the bench can do besides, under the names of the menu of experiments that are recommended.
+/// Further experiments of the bench, with the names of the menu of recommended experiments.
 struct FurtherExperiment {
   std::string name;
   std::vector<Take> takes;
@@ -45,11 +46,11 @@ struct Session {
   bool noise = true;
 };
 
-/// The records that the bench writes of a sensor that moves so; both sensors sample that on their
-/// own clocks.
+/// The records that the bench writes for a sensor with this motion; accelerometer and moment sensor
+/// have their own clocks.
 signals::Dataset record_session(Motion& motion, const Structure& structure, const World& world,
                                 const Session& session);
-/// By the modes.
+/// The same with the motion of the modes.
 signals::Dataset record_session(const Structure& structure, const World& world,
                                 const Session& session);
 

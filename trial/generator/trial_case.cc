@@ -13,14 +13,14 @@ namespace vibrissa::trial {
 namespace {
 
 using enum CaseClass;
-/// Twenty turns; single effects are what most people come with.
+/// Cycle of twenty cases; single effects are the most frequent.
 constexpr std::array turns{single,           pair,       none, single,   nameless, single,
                            left_out,         single,     pair, single,   triple,   single,
                            calibration_only, single,     none, left_out, single,   wrong_metadata,
                            nameless,         below_limit};
 
-/// Something else in the catalogue does the very same, or every hypothesis has it free: without its
-/// name it is not outside.
+/// Effects that others in the catalogue can replace exactly, or that every hypothesis contains as
+/// calibration parameters. Removing them from the catalogue does not make the cause an unknown one.
 bool has_exact_alias(const std::string& id) {
   static const std::set<std::string> aliased{"stiffness",  "base_compliance", "mass",
                                              "damping",    "reference_gain",  "sensor_gain",
@@ -45,7 +45,7 @@ std::vector<Unknown> without_aliases(std::vector<Unknown> list) {
   return list;
 }
 
-/// How many cases of a kind come before the one of that number.
+/// Number of cases of a kind before the case with this number.
 std::size_t n_before(const CaseClass kind, const std::size_t number) {
   const auto in = [&](std::size_t n) {
     return static_cast<std::size_t>(std::count(turns.begin(), turns.begin() + n, kind));
@@ -146,7 +146,7 @@ TrialCase draw_case(const std::uint64_t seed, const std::size_t number, const Ph
 signals::Dataset records_of(const TrialCase& trial_case) {
   signals::Dataset out = recorded(trial_case.physics, trial_case.world, trial_case.session);
   if (trial_case.kind != wrong_metadata) return out;
-  // By turns: a fan that was off, and a period that is not the drive's.
+  // Alternately a fan that was off and a wrong period.
   if (trial_case.seed / turns.size() % 2 == 0) {
     for (signals::DatasetRecord& entry : out.records)
       if (entry.name == "base_low") entry.excitation.wind = true;

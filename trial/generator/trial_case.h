@@ -10,21 +10,21 @@
 
 namespace vibrissa::trial {
 
-/// What kind of question a case asks.
+/// Kind of a case.
 enum class CaseClass {
   single,
   pair,
   triple,
   none,
-  calibration_only,  // a little off in modulus, damping, gains and drag, as every built sensor
-  nameless,          // something that no catalogue has
-  left_out,          // one effect that the diagnoser's catalogue is told to lack
-  below_limit,       // a quarter of the detection limit
-  wrong_metadata     // a take that says wind was on, or another period
+  calibration_only,  // building tolerances of modulus, damping, gains and drag only
+  nameless,          // an effect that is in no catalogue
+  left_out,          // an effect that is removed from the catalogue of the diagnosis
+  below_limit,       // an effect of a quarter of the detection limit
+  wrong_metadata     // a take with a wrong excitation (wind) or a wrong period
 };
 std::string to_string(CaseClass kind);
 
-/// What the sensor's motion is computed by.
+/// Method that computes the sensor's motion.
 enum class Physics {
   modes,         // modal_motion.h
   finite_strain  // solid_motion.h
@@ -32,40 +32,41 @@ enum class Physics {
 
 struct CaseEffect {
   std::string id;
-  double size = 0.;   // signed, in the unit of unknowns.h
+  double size = 0.;   // signed, in the unit of Unknown::unit
   double limit = 0.;  // detection limit, positive
 };
 
-/// One sensor to be diagnosed, with the truth about it.
+/// One sensor to be diagnosed, with its true causes.
 struct TrialCase {
   CaseClass kind = CaseClass::none;
   Physics physics = Physics::modes;
   std::vector<CaseEffect> effects;
-  std::vector<std::string> left_out;  // of the catalogue; public
+  std::vector<std::string> left_out;  // effects that are removed from the catalogue; public
   std::uint64_t seed = 0;
   World world;
   Session session;
 };
 
-/// A sensor as simulated on a bench of its own: how noisy its channels are is by chance.
+/// A sensor as simulated on a bench with random noise levels.
 World plain_world(std::mt19937_64& random);
 
-/// Case number of a trial's seed: its class by turns, what is left out of the catalogue, too, all
-/// else by chance. Sizes are log-uniform from 1 to 30 detection limits, within the usual range.
-/// Of finite strain only what the solid can do is asked, in detection limits of the modes. Proven
-/// by tests/trial/generator/detection_limit_test.cc.
+/// The case with this number in the trial of a seed. Its class and the removed effect follow a
+/// fixed cycle; everything else is random. Sizes are log-uniform from 1 to 30 detection limits,
+/// within the usual range. Finite-strain cases contain only effects that the solid can simulate;
+/// their detection limits are those of the modes. Proven by
+/// tests/trial/generator/detection_limit_test.cc.
 TrialCase draw_case(std::uint64_t seed, std::size_t number, Physics physics = Physics::modes);
 
-/// The records of a case, its takes labelled as the bench's log says, which may be wrong.
+/// The records of a case, with the metadata of the bench's log, which may be wrong.
 signals::Dataset records_of(const TrialCase& trial_case);
 
-/// What the bench can do besides. Nothing of finite strain, where it would take an hour.
+/// Records of the further experiments; empty for finite strain, where they would take an hour.
 std::vector<FurtherExperiment> further_experiments(Physics physics);
-/// What further experiments would show of it, on another day: their records by name.
+/// Records of the further experiments on another day, by name.
 std::vector<std::pair<std::string, signals::Dataset>> further_records_of(
     const TrialCase& trial_case);
 
-/// The simulation of the sensor as designed: the same takes without one at rest, free of noise.
+/// The simulation of the sensor as designed: the same takes except the one at rest, without noise.
 signals::Dataset simulated_records(std::uint64_t seed, Physics physics = Physics::modes);
 
 }  // namespace vibrissa::trial

@@ -8,7 +8,7 @@
 namespace vibrissa::trial {
 namespace {
 
-/// Usual peaks of the nominal sensor at the higher level.
+/// Usual peak moments of the nominal sensor at the higher level.
 constexpr double peak_moment = 6e-4, first_moment = 2.28e-5;
 
 double hum_frequency(const double shape) {
@@ -145,7 +145,7 @@ std::vector<Unknown> of_the_reference() {
            .largest = 1.,
            .random = true,
            .apply = [](World& w, double s, double) { w.reference_noise = s; },
-           // A quiet accelerometer that was made noisier, up to the loudest that is usual.
+           // Additional noise of a quiet accelerometer, up to the largest usual noise.
            .hidden_below =
                [](const World& plain) {
                  const double loudest = loudest_accelerometer, usual = plain.acceleration_noise;
@@ -245,7 +245,7 @@ const std::vector<Unknown>& nameless_unknowns() {
        .unit = "of four usual peaks",
        .start = 0.3,
        .largest = 0.9,
-       // Out of reach at first.
+       // The stop is out of reach at first.
        .apply = [](World& w, double s, double) { w.joint.stop = 4. * (1. - s) * w.joint.scale; }},
       {.id = "loose_contact",
        .unit = "of the gain",
@@ -297,7 +297,7 @@ const Unknown& find_unknown(const std::string& id) {
   for (const auto* list : {&named_unknowns(), &nameless_unknowns()})
     for (const Unknown& unknown : *list)
       if (unknown.id == id) return unknown;
-  throw signals::UserError("unknown \"" + id + "\" is in no list of the trial's generator");
+  throw signals::UserError("the generator of trials has no effect \"" + id + "\"");
 }
 
 }  // namespace vibrissa::trial

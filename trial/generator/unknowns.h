@@ -8,30 +8,30 @@
 
 namespace vibrissa::trial {
 
-/// Sizes that are asked, in detection limits.
+/// Range of the sizes of effects, in multiples of the detection limit.
 inline constexpr double smallest_in_limits = 1., largest_in_limits = 30.;
 
-/// One thing that the bench may do and the simulation does not. size: how strong, in the unit said;
-/// shape in 0..1: whatever else may vary (a frequency, a share).
+/// One effect that the bench may have and the simulation does not. size: strength in the given
+/// unit; shape in 0..1: a further parameter (a frequency, a share).
 struct Unknown {
   std::string id;
   std::string unit;
-  double start = 0.;    // where the search for the detection limit begins
-  double largest = 0.;  // usual range
+  double start = 0.;    // start of the search for the detection limit
+  double largest = 0.;  // upper end of the usual range
   bool either_sign = false;
-  bool random = false;      // changes variances, not means
-  bool fixed_size = false;  // is there or not
+  bool random = false;      // changes variances and not means
+  bool fixed_size = false;  // has only one size
   std::function<void(World&, double size, double shape)> apply;
-  /// Size below which it cannot be told from what benches differ by, though a test that knew the
-  /// bench would tell; nothing: 0.
+  /// Size below which the effect cannot be distinguished from the variation between benches;
+  /// nothing: 0.
   std::function<double(const World& plain)> hidden_below{};
 };
 
-/// Those that have a name, in the words of docs/effects.md.
+/// Effects of the catalogue, with the ids of docs/effects.md.
 const std::vector<Unknown>& named_unknowns();
-/// Those that have none.
+/// Effects that are in no catalogue.
 const std::vector<Unknown>& nameless_unknowns();
-/// Throws UserError for an id that neither list has.
+/// Throws UserError for an id that is in neither list.
 const Unknown& find_unknown(const std::string& id);
 
 }  // namespace vibrissa::trial

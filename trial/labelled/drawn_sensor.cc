@@ -54,8 +54,8 @@ bool DrawnSensor::is_answered_by(const std::string& answer,
          });
 }
 
-/// Half of all sensors are as simulated but for what is named, the others a little off in all
-/// calibrations.
+/// Half of all sensors are as simulated apart from the named effects; the others deviate by
+/// building tolerances in all calibration parameters.
 void DrawnSensor::draw_calibrations(const diagnosis::Experiment& experiment) {
   as_built_ = uniform(0., 1.) >= 0.5;
   if (!as_built_) return;
@@ -69,7 +69,7 @@ void DrawnSensor::draw_calibrations(const diagnosis::Experiment& experiment) {
   }
 }
 
-/// What is named of a calibration may lie anywhere in its range.
+/// A named calibration parameter has its full range.
 std::vector<double> DrawnSensor::recalibrated(const diagnosis::Effect& effect) {
   std::vector<double> values;
   for (const diagnosis::Parameter& parameter : effect.parameters)
@@ -79,7 +79,7 @@ std::vector<double> DrawnSensor::recalibrated(const diagnosis::Effect& effect) {
   return values;
 }
 
-/// By its tolerance.
+/// Draw within the tolerance.
 double DrawnSensor::drawn(const diagnosis::Parameter& parameter) {
   const diagnosis::Prior& prior = parameter.prior;
   const double step = prior.kind == diagnosis::Prior::Kind::normal
@@ -121,7 +121,8 @@ std::vector<double> DrawnSensor::with_noise(std::span<const double> x, const dou
   return out;
 }
 
-/// Of the effects: a course by their spectrum, and the line of a random walk.
+/// Process noise of the effects: a random signal with their spectrum, and the straight line of a
+/// random walk.
 void DrawnSensor::add_own_noise(const diagnosis::Chain& chain, const signals::DatasetRecord& entry,
                                 std::vector<double>& moment) {
   const std::size_t n = moment.size() - moment.size() % 2;

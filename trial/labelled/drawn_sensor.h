@@ -12,23 +12,25 @@
 
 namespace vibrissa::benchmarks {
 
-/// A sensor drawn by the priors of the nominal model's own catalogue: half of all are as simulated
-/// but for what is named, the others a little off in all calibrations; a quarter have no effect,
-/// half have one, a quarter two, from a tenth of their first start up to it.
+/// A sensor drawn from the priors of the catalogue: half of all sensors are as simulated apart from
+/// the named effects, the others deviate by building tolerances in all calibration parameters; a
+/// quarter have no effect, half have one, a quarter have two, with sizes from a tenth of their
+/// first start up to it.
 class DrawnSensor {
  public:
   DrawnSensor(const diagnosis::Experiment& experiment, unsigned seed);
 
   const std::string& name() const { return name_; }
-  /// Of its effects those that such records can show: a likelihood-ratio test that knows the form
-  /// and size finds them more often than not at one false alarm in a hundred.
+  /// The effects that such records can show: a likelihood-ratio test that knows form and size
+  /// detects them in more than half of all cases with 1 % false alarms.
   std::string shown_name(const diagnosis::NominalPoint& point) const;
-  /// Does the answer name what is shown, and beyond it at most calibrations that are a little off?
+  /// Does the answer name the detectable effects and, beyond them, at most calibration effects that
+  /// deviate?
   bool is_answered_by(const std::string& answer, const diagnosis::NominalPoint& point) const;
   double share() const { return share_; }
-  /// Of an effect that it has.
+  /// True value of an effect's parameter.
   const std::vector<double>& values(const std::string& effect) const;
-  /// inputs: what moves it; clean: the same, prepared.
+  /// inputs: excitation records; clean: the same, prepared.
   signals::Dataset measure(const signals::Dataset& inputs,
                            const std::vector<diagnosis::PreparedRecord>& clean);
 
@@ -47,8 +49,8 @@ class DrawnSensor {
   std::mt19937 random_;
   diagnosis::UpdatedModel model_;
   std::string name_;
-  bool as_built_ = false;  // a little off in all calibrations
-  double share_ = 0.;      // of the effects' first starts
+  bool as_built_ = false;  // building tolerances in all calibration parameters
+  double share_ = 0.;      // size relative to the effects' first starts
 };
 
 }  // namespace vibrissa::benchmarks

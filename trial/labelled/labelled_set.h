@@ -15,7 +15,7 @@
 /// A folder with sim/, caseNNN/real/ and labels.json.
 namespace vibrissa::benchmarks {
 
-/// labels.json of the set; read after the answer is given.
+/// labels.json of the set; it is read only after the diagnosis.
 inline nlohmann::json label_of(const std::filesystem::path& set, const std::string& name) {
   return signals::read_json(set / "labels.json")[name];
 }
@@ -24,7 +24,7 @@ inline std::string sorted_name(const std::string& name) {
   return diagnosis::joined_name(diagnosis::effect_ids(name));
 }
 
-/// The name without calibration effects, as sensors that are a little off everywhere are scored.
+/// The name without calibration effects, used to score sensors with building tolerances.
 inline std::string without_calibrations(const std::string& name) {
   const std::vector<std::string>& calibrations = diagnosis::nuisance_ids();
   std::vector<std::string> ids;
@@ -44,7 +44,7 @@ inline std::vector<std::string> cases_of(const std::filesystem::path& set) {
   return names;
 }
 
-/// main of a scoring program: user's mistakes become a message and exit code 2.
+/// main() of a scoring program: a UserError becomes a message and exit status 2.
 inline int guarded(const std::function<int()>& run) {
   signals::keep_freed_memory();  // as the program does
   try {

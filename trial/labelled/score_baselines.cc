@@ -1,4 +1,4 @@
-// Scores what others do against labels: score_baselines SET. Five ways to name a cause with the
+// Scores baseline methods against labels: score_baselines SET. Five methods name a cause with the
 // same simulator of the measuring chain and the same records as `vibrissa diagnose`:
 //   correlation   the effect whose shape the residual of the simulation resembles most
 //   k, c, m       sensitivity updating of stiffness, damping and mass alone, by BIC
@@ -27,11 +27,11 @@ using namespace vibrissa;
 using namespace vibrissa::diagnosis;
 using namespace vibrissa::benchmarks;
 
-/// Residual of the simulation as it is, and the shapes of effects at their starts, whitened by the
+/// Residual of the simulation, and the shapes of effects at their starts, whitened by the standard
 /// deviations of the fit without effects; real and imaginary parts in turn.
 struct Shapes {
   Eigen::VectorXd residual;
-  std::vector<std::string> ids;  // one a column
+  std::vector<std::string> ids;  // one per column
   Eigen::MatrixXd columns;
 };
 
@@ -86,7 +86,7 @@ double bic(double log_likelihood, std::size_t n_parameters, std::size_t n_bins) 
          static_cast<double>(n_parameters) * std::log(static_cast<double>(n_bins));
 }
 
-/// Lasso by coordinate descent along a path of penalties; of its points that of the least BIC.
+/// Lasso by coordinate descent along a path of penalties; returns the point with the least BIC.
 std::string by_lasso(const Shapes& shapes) {
   const Eigen::MatrixXd gram = shapes.columns.transpose() * shapes.columns;
   const Eigen::VectorXd overlap = shapes.columns.transpose() * shapes.residual;
@@ -128,7 +128,7 @@ std::size_t n_bins(const Experiment& experiment) {
   return sum;
 }
 
-/// The hypothesis of the least BIC.
+/// The hypothesis with the least BIC.
 std::string by_bic(const Experiment& experiment, const HypothesisFit& none,
                    const std::vector<std::vector<std::string>>& hypotheses) {
   double least = bic(none.log_likelihood, none.fit_parameters.size(), n_bins(experiment));

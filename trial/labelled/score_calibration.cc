@@ -1,10 +1,9 @@
-// Are the probabilities and intervals of answers as often right as they say? score_calibration
-// SIMULATION N SEED: N sensors with effects of the nominal model's own catalogue move as the
-// simulation's records do, are measured with noise and diagnosed. Prints every trial, how often
-// answers of a probability were right, the confidence in the fits that would make them as often
-// right as they say (diagnosis/search/calibrated_odds.h), and with a fourth argument, intervals,
-// how often 95 % intervals hold the truth: of the parameters of right answers, and of the gap
-// closed, whose truth is that of many further records.
+// Calibration of the probabilities and intervals of answers: score_calibration SIMULATION N SEED. N
+// sensors with effects of the catalogue have the excitation of the simulation's records, are
+// measured with noise and diagnosed. Prints every trial, the share of right answers by stated
+// probability, the confidence factor that calibrates the fits (diagnosis/search/calibrated_odds.h),
+// and with a fourth argument, intervals, the coverage of the 95 % intervals: of the parameters of
+// right answers, and of the gap closed, whose true value is computed from many further records.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -35,7 +34,7 @@ using diagnosis::PreparedRecord;
 using signals::Split;
 namespace channel = signals::channel;
 
-/// The simulation's records, and one at rest.
+/// The simulation's records plus one record at rest.
 signals::Dataset inputs_of(const signals::Dataset& simulation) {
   signals::Dataset out = simulation;
   signals::Record still(simulation.records.front().record.sampling_rate_hz(), 2048);
@@ -46,7 +45,7 @@ signals::Dataset inputs_of(const signals::Dataset& simulation) {
 }
 
 struct Trial {
-  double odds_against = 0.;  // of the best answer, as the fits say
+  double odds_against = 0.;  // odds against the best answer by the fits
   bool right = false;
   double probability(double confidence) const {
     return 1. / (1. + diagnosis::calibrated_odds(odds_against, confidence));
@@ -77,14 +76,14 @@ void print_reliability(const std::vector<Trial>& trials, const double confidence
     }
     if (n == 0.) continue;
     error += std::abs(said - right);
-    std::printf("  said %.2f..%.2f: %3.0f answers, mean %.3f, right %.3f\n", edges[i], edges[i + 1],
-                n, said / n, right / n);
+    std::printf("  stated %.2f..%.2f: %3.0f answers, mean %.3f, right %.3f\n", edges[i],
+                edges[i + 1], n, said / n, right / n);
   }
-  std::printf("  expected calibration error %.3f, surprise %.3f nats\n",
+  std::printf("  expected calibration error %.3f, mean negative log likelihood %.3f nats\n",
               error / static_cast<double>(trials.size()), surprise(trials, confidence));
 }
 
-/// As the fits say, as the diagnosis says, and as these trials would have it.
+/// Calibration of the fits, of the diagnosis, and with the best factor for these trials.
 void print_calibration(const std::vector<Trial>& trials) {
   double best = 1.;
   for (double confidence = 0.05; confidence < 3.; confidence *= 1.02)
@@ -93,7 +92,7 @@ void print_calibration(const std::vector<Trial>& trials) {
     print_reliability(trials, confidence);
 }
 
-/// The same spectra with other phases: another record of the kind.
+/// Another record of the same kind: the same spectra with other phases.
 std::vector<double> another_of_its_kind(std::span<const double> x, std::mt19937& random) {
   std::vector<Complex> spectrum = signals::real_fft(x);
   std::uniform_real_distribution<double> phase(0., 2. * std::numbers::pi);
@@ -104,7 +103,7 @@ std::vector<double> another_of_its_kind(std::span<const double> x, std::mt19937&
   return {fft.time().begin(), fft.time().end()};
 }
 
-/// Many further records of the kinds that are held out.
+/// Many further records of the held-out kinds.
 signals::Dataset further_inputs(const signals::Dataset& inputs) {
   constexpr int n_copies = 12;
   std::mt19937 random(1);
@@ -123,7 +122,7 @@ signals::Dataset further_inputs(const signals::Dataset& inputs) {
   return out;
 }
 
-/// What moves the sensors, as datasets and prepared.
+/// Excitation of the sensors, as datasets and prepared.
 struct Inputs {
   signals::Dataset records;
   std::vector<PreparedRecord> clean;
@@ -141,7 +140,7 @@ Inputs prepared(const diagnosis::NominalModel& nominal, signals::Dataset records
   return out;
 }
 
-/// How often something was so.
+/// Relative frequency of an event.
 struct Share {
   int n = 0, yes = 0;
   void count(bool is_so) {
@@ -178,7 +177,7 @@ void count_parameters(Coverage& coverage, const DrawnSensor& sensor,
   }
 }
 
-/// Diagnoses one sensor and adds what its intervals hold.
+/// Diagnoses one sensor and counts the coverage of its intervals.
 class Trials {
  public:
   Trials(const diagnosis::NominalModel& nominal, const signals::Dataset& simulation)
@@ -189,14 +188,14 @@ class Trials {
                                                   diagnosis::InputNoise::as_measured)),
         point_(experiment_, diagnosis::usual_noise()) {}
 
-  /// with_intervals: counts what they hold, too.
+  /// with_intervals: also counts the coverage of the intervals.
   Trial run(unsigned seed, bool with_intervals) {
     DrawnSensor sensor(experiment_, seed);
     const signals::Dataset real =
         diagnosis::in_pieces(sensor.measure(bench_.records, bench_.clean));
     Experiment fit_records =
         diagnosis::prepare_experiment(nominal_, real, Split::fit, diagnosis::InputNoise::reduced);
-    // Parameters that are relative to the sensor's own amplitudes then mean the same in both.
+    // Parameters relative to the sensor's amplitudes then have the same meaning in both.
     fit_records.scales = experiment_.scales;
     const diagnosis::SearchResult result = diagnosis::search(fit_records);
     const diagnosis::Candidate& best = result.candidates.front();
@@ -215,10 +214,11 @@ class Trials {
   }
 
   void print_coverage() const {
-    coverage_.parameters.print("95 % intervals of the parameters of right answers hold the truth");
+    coverage_.parameters.print(
+        "95 % intervals of the parameters of right answers contain the truth");
     for (const auto& [name, share] : coverage_.by_parameter)
       if (share.yes < share.n) share.print(("  " + name).c_str());
-    coverage_.gap_closed.print("95 % intervals of the gap closed hold that of further records");
+    coverage_.gap_closed.print("95 % intervals of the gap closed contain that of further records");
   }
 
  private:
@@ -234,7 +234,7 @@ class Trials {
                            fitted_on, held_out(sensor.measure(further_.records, further_.clean)),
                            fit, {.n_resamples = 0})
                            .overall;
-    // Where there is hardly a gap, the share of it that closes says nothing.
+    // With hardly any gap, the share of it that closes has no meaning.
     if (!stated.gap_closed_ci95 || !truth.gap_closed ||
         truth.nrmse_before < 1.1 * truth.noise_floor)
       return;

@@ -1,5 +1,5 @@
 // Scores diagnoses against labels: score_diagnosis SET [FIRST LAST], SET a folder with sim/,
-// caseNNN/real/ and labels.json. The labels are read after the diagnosis of a case is made.
+// caseNNN/real/ and labels.json. The labels are read after the diagnosis of a case.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 using namespace vibrissa;
 using namespace vibrissa::benchmarks;
 
-/// Parameters of labels.json that are the same quantity as a parameter of ours.
+/// Parameters of labels.json that are the same quantity as a parameter of the catalogue.
 struct SameQuantity {
   const char* label;
   const char* effect;
   const char* parameter;
-  double factor;  // ours over the label's
+  double factor;  // catalogue value divided by the label's value
 };
 constexpr SameQuantity same_quantities[] = {
     {"delay", "delay", "tau", 1.},
@@ -52,7 +52,7 @@ bool shares_an_effect(const std::string& label, const std::string& verdict) {
          });
 }
 
-/// The likeliest links are those of the label's effects.
+/// Are the most probable links those of the label's effects?
 bool links_are_right(const std::string& label, std::vector<std::string> links) {
   std::set<std::string> expected;
   for (const std::string& id : diagnosis::effect_ids(label))
@@ -66,14 +66,14 @@ void score_parameters(const nlohmann::json& label, const diagnosis::RankedAnswer
   for (const SameQuantity& same : same_quantities) {
     if (!label["parameters"].contains(same.label)) continue;
     const double truth = same.factor * label["parameters"][same.label].get<double>();
-    for (const diagnosis::ParameterEstimate& ours : answer.parameters) {
-      if (ours.effect != same.effect || ours.name != same.parameter) continue;
-      const bool covered = ours.ci95[0] <= truth && truth <= ours.ci95[1];
+    for (const diagnosis::ParameterEstimate& estimate : answer.parameters) {
+      if (estimate.effect != same.effect || estimate.name != same.parameter) continue;
+      const bool covered = estimate.ci95[0] <= truth && truth <= estimate.ci95[1];
       score.parameters += 1;
       score.parameters_covered += covered;
       if (!covered)
         std::printf("       %s %s: %g (%g..%g), label %g\n", same.effect, same.parameter,
-                    ours.value, ours.ci95[0], ours.ci95[1], truth);
+                    estimate.value, estimate.ci95[0], estimate.ci95[1], truth);
     }
   }
 }
@@ -124,14 +124,14 @@ void score_case(const fs::path& set, const std::string& name,
 
 void print(const Score& score) {
   std::printf(
-      "%d cases: %d right, %d when calibrations are left out, %d more with one of a pair named; "
-      "none %d of %d; %d wrong with more than 0.8; links right %d\n",
+      "%d cases: %d right, %d without calibration effects, %d more with one effect of a pair "
+      "named; none: %d of %d; wrong with probability above 0.8: %d; links right: %d\n",
       score.n, score.right, score.right_without_calibrations, score.half, score.nones_right,
       score.nones, score.wrong_and_sure, score.links_right);
   const auto least = std::min_element(score.gaps_closed.begin(), score.gaps_closed.end());
   std::printf(
-      "gap closed, reducible and named: median %.3f, least %.3f; parameters within their "
-      "interval: %d of %d; seconds: median %.1f, most %.1f\n",
+      "gap closed of right reducible answers: median %.3f, minimum %.3f; parameters within their "
+      "interval: %d of %d; seconds: median %.1f, maximum %.1f\n",
       median(score.gaps_closed), least == score.gaps_closed.end() ? NAN : *least,
       score.parameters_covered, score.parameters, median(score.seconds),
       *std::max_element(score.seconds.begin(), score.seconds.end()));

@@ -16,11 +16,11 @@ struct BoxNormal {
   std::array<std::array<double, n>, n> curvature{};
 };
 
-/// ln of the integral over x in 0..1 of exp(slope (x - t) - curvature (x - t)^2 / 2), t the best x:
-/// the slope is none inside.
+/// ln of the integral over x in 0..1 of exp(slope (x - t) - curvature (x - t)^2 / 2), where t is
+/// the maximum; inside the interval the slope is zero.
 inline double log_side_integral(const double t, const double slope, const double curvature) {
   const double root = std::sqrt(0.5 * curvature);
-  // Far outside of 0..1 it falls like an exponential, of which erf keeps no digits.
+  // Far outside of 0..1 the function falls exponentially, where erf has no accurate digits.
   if (const double beyond = std::abs(slope) / curvature * root; beyond > 3.)
     return std::log(-std::expm1(-std::abs(slope)) / std::abs(slope));
   const double centre = t + slope / curvature;
@@ -29,7 +29,7 @@ inline double log_side_integral(const double t, const double slope, const double
          std::log(width * 0.5 * std::sqrt(2. * std::numbers::pi / curvature));
 }
 
-/// Where in the box it is largest, by coordinate descent.
+/// Maximum in the box by coordinate ascent.
 template <std::size_t n>
 std::array<double, n> best_in_box(const BoxNormal<n>& f) {
   constexpr int n_sweeps = n < 2 ? 1 : 8;
@@ -44,9 +44,9 @@ std::array<double, n> best_in_box(const BoxNormal<n>& f) {
   return t;
 }
 
-/// ln of the integral over the box, side after side about the best place, the best seen first;
-/// exact for one side. Where not even the largest value is worth it, that. Proven by
-/// tests/trial/observer/box_integral_test.cc.
+/// ln of the integral over the box, one dimension after the other about the maximum, the
+/// best-determined first; exact for one dimension. Returns the maximum when even that is
+/// negligible. Proven by tests/trial/observer/box_integral_test.cc.
 template <std::size_t n>
 double log_box_integral(BoxNormal<n> f, const double worth_it) {
   constexpr double flat = 1e-6;

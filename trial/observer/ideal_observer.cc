@@ -17,14 +17,15 @@
 namespace vibrissa::trial {
 namespace {
 
-/// Probability and set, the likeliest first.
+/// Probabilities and sets, the most probable first.
 using Posterior = IdealObserver::Posterior;
 
 constexpr double widest_step = 2., held = 0.95;
 
-/// Records as a vector of independent normal numbers of unit variance: both parts of each line of
-/// what changes means, then the power of each line for what changes variances. Its square is the
-/// non-centrality of the test that knows the form.
+/// Signature of an effect in records that are a vector of independent normal numbers of unit
+/// variance: real and imaginary part of each line for changes of the mean, then the power of each
+/// line for changes of variances. The squared norm of a signature is the non-centrality of the
+/// likelihood-ratio test that knows the form.
 Eigen::VectorXd whitened(const std::vector<std::complex<float>>& change,
                          const std::vector<double>& noise, const bool random) {
   const auto n = static_cast<Eigen::Index>(change.size());
@@ -42,7 +43,7 @@ Eigen::VectorXd whitened(const std::vector<std::complex<float>>& change,
   return out;
 }
 
-/// Where on a ladder a size is, and the signature there.
+/// Position of a size on a ladder, and the signature there.
 struct LadderOnBench {
   const EffectLadder* ladder;
   std::vector<Eigen::VectorXd> signatures;
@@ -57,8 +58,8 @@ struct LadderOnBench {
     return (1. - t) * std::pow(size / sizes[i], power()) * signatures[i] +
            t * std::pow(size / sizes[i + 1], power()) * signatures[i + 1];
   }
-  /// Of the test that has the first lines. Nothing: the largest stays below. Below the ladder a
-  /// signature goes with its power.
+  /// Detection limit of the test that uses the first lines; nothing when the largest size stays
+  /// below it. Below the ladder a signature is extrapolated by a power law.
   std::optional<double> limit(const ObservedBench& bench, const std::size_t n_lines) const {
     const auto noncentrality = [&](const Eigen::VectorXd& signature) {
       const Eigen::Index n = signature.size() / 3, first = static_cast<Eigen::Index>(n_lines);
@@ -89,7 +90,7 @@ std::size_t number_of(const Unknown& unknown) {
   return static_cast<std::size_t>(&unknown - named_unknowns().data());
 }
 
-/// Log of a sum of exponentials that comes term by term.
+/// Logarithm of a sum of exponentials, added term by term.
 class LogSum {
  public:
   void add(const double x) {
@@ -106,12 +107,12 @@ class LogSum {
   double largest_ = -std::numeric_limits<double>::infinity(), sum_ = 0.;
 };
 
-/// Posterior of all sets of up to three unknowns.
+/// Posterior of all sets of up to three effects.
 class Sets {
  public:
   Sets(std::size_t n, const std::array<double, 4>& log_asked)
       : n_(n + 1), log_asked_(log_asked), sums_(n_ * n_ * n_) {}
-  /// evidence: log, or no more than what is worth it, which it is told.
+  /// evidence: returns the log evidence, or an upper bound when that is below the given threshold.
   template <std::size_t n, class Evidence>
   void add(std::array<std::size_t, n> unknowns, double log_prior, const Evidence& evidence) {
     if (!std::isfinite(log_asked_[n])) return;
@@ -225,8 +226,8 @@ void IdealObserver::spread_priors() {
   }
 }
 
-/// What is off by a normal share widens the noise along its signature: inner products are those of
-/// (1 + N N^T)^-1.
+/// A normally distributed building tolerance widens the noise along its signature: inner products
+/// use (1 + N N^T)^-1.
 void IdealObserver::allow_for_building(const std::vector<EffectLadder>& ladders,
                                        const std::vector<double>& noise) {
   const std::array<std::pair<const char*, double>, 4> off{{{"stiffness", built_modulus},
@@ -239,7 +240,7 @@ void IdealObserver::allow_for_building(const std::vector<EffectLadder>& ladders,
     const auto& [id, deviation] = off[static_cast<std::size_t>(i)];
     const auto ladder = std::find_if(ladders.begin(), ladders.end(),
                                      [&](const EffectLadder& l) { return l.unknown->id == id; });
-    // Small enough to be straight.
+    // Small enough for a linear response.
     const double size = 0.2 * deviation;
     spread.col(i) = on_bench(*ladder, noise).at(size) * (deviation / size);
     for (Eigen::Index k = 0; k < n; ++k)
@@ -292,7 +293,8 @@ ObservedSensor IdealObserver::draw(const std::size_t n_effects, std::mt19937_64&
   return out;
 }
 
-/// ln of the likelihood over that of none: what is seen along each step less half of its square.
+/// Log likelihood ratio to "none": inner product of record and signature minus half of the
+/// signature's square.
 template <std::size_t n>
 BoxNormal<n> IdealObserver::likelihood(const std::array<std::size_t, n>& steps,
                                        const Seen& seen) const {
@@ -311,7 +313,7 @@ BoxNormal<n> IdealObserver::likelihood(const std::array<std::size_t, n>& steps,
 }
 
 Posterior IdealObserver::posterior_of(const Seen& seen) const {
-  // Each set of as many unknowns is as likely as another.
+  // All sets with the same number of effects have the same prior probability.
   const double m = static_cast<double>(there_.size());
   const auto& asked = bench_.asked;
   Sets sets(named_unknowns().size(),

@@ -14,17 +14,18 @@ namespace vibrissa::trial {
 
 struct ObservedBench {
   double acceleration_noise = 0.;  // m/s^2
-  /// Every sensor is a little off in modulus, damping, gain and drag, and the observer allows for
-  /// it; else all that is not asked is as simulated, and the observer knows.
+  /// Every sensor deviates by building tolerances in modulus, damping, gain and drag, and the
+  /// observer includes them; otherwise everything except the true effects is as simulated, and the
+  /// observer knows it.
   bool as_built = false;
-  /// How often none, one, two and three effects are asked, to each other, as the observer knows.
+  /// Relative frequencies of 0, 1, 2, 3 true effects, which the observer knows.
   std::array<double, 4> asked{2., 9., 2., 1.};
 };
 
 /// A sensor as the observer sees it.
 struct ObservedSensor {
-  std::vector<std::size_t> unknowns{};  // of named_unknowns(), ascending
-  std::vector<double> in_limits{};      // size of each
+  std::vector<std::size_t> unknowns{};  // indices of named_unknowns(), ascending
+  std::vector<double> in_limits{};      // sizes in multiples of the detection limit
   /// Inner products of the records of each block with all signatures.
   std::vector<Eigen::VectorXd> seen{};
 };
@@ -33,46 +34,47 @@ struct ObserverAnswer {
   std::vector<std::size_t> unknowns{};
   double probability = 0.;
   bool right = false, among_three = false;
-  std::size_t set_size = 0;  // answers that hold 95 %
-  bool set_holds = false;    // the truth is among them
+  std::size_t set_size = 0;  // number of answers in the 95 % set
+  bool set_holds = false;    // the truth is in the 95 % set
 };
 
-/// Who knows the form of every effect, the noise of the bench, how often each answer is asked and
-/// how large it then is. By Bayes's rule over none, one, two and three effects: whoever knows less
-/// names fewer of them rightly. What effects add to the records is taken to add up, and to go
-/// straight from step to step; a change of a variance is seen as one of a mean, of the variance
-/// that it has without. Proven by tests/trial/observer/ideal_observer_test.cc.
+/// Ideal Bayesian observer, an upper bound on the accuracy of a diagnosis: it knows the form of
+/// every effect, the noise of the bench, and the distribution of the number and sizes of effects,
+/// and applies Bayes' rule over 0, 1, 2 and 3 effects. Contributions of several effects are assumed
+/// additive and piecewise linear between the sizes of a ladder; a change of a variance is treated
+/// as a change of a mean with the variance without the effect. Proven by
+/// tests/trial/observer/ideal_observer_test.cc.
 class IdealObserver {
  public:
-  /// Probability and set of unknowns, the likeliest first.
+  /// Probabilities and sets of effects, the most probable first.
   using Posterior = std::vector<std::pair<double, std::vector<std::size_t>>>;
 
-  /// noise: of each line of the ladders, UnexplainedChange::noise. block_ends: where the lines of
-  /// the usual session end, which make the detection limits, and those of each further experiment,
-  /// for which sensors must not be as built; nothing: all are of the usual one.
+  /// noise: of each line of the ladders, from UnexplainedChange::noise. block_ends: end indices of
+  /// the lines of the usual session, which determine the detection limits, and of each further
+  /// experiment (not possible with as_built); empty: all lines belong to the usual session.
   IdealObserver(const std::vector<EffectLadder>& ladders, const std::vector<double>& noise,
                 const ObservedBench& bench, std::vector<std::size_t> block_ends = {});
 
   ObservedSensor draw(std::size_t n_effects, std::mt19937_64& random) const;
-  /// By the usual session, and further experiment number 1, 2 ..; 0: none.
+  /// Answer from the usual session plus the further experiment with number 1, 2 ..; 0: none.
   ObserverAnswer answer(const ObservedSensor& sensor, std::size_t further = 0) const;
 
  private:
-  /// A step of a ladder, of one sign: start + t edge, t in 0..1.
+  /// A section between two sizes of a ladder, for one sign: start + t edge, t in 0..1.
   struct Step {
-    std::size_t unknown = 0, first = 0, second = 0;  // signatures
+    std::size_t unknown = 0, first = 0, second = 0;  // indices of signatures
     double sign = 1., log_prior = 0.;
-    double low = 1., high = 1.;  // in limits
+    double low = 1., high = 1.;  // in multiples of the detection limit
   };
   struct Path {
     std::size_t unknown = 0, first_step = 0, n_steps = 0;
   };
 
-  /// What a session shows of the steps: inner products of their starts and edges.
+  /// Inner products of the starts and edges of all sections in a session.
   struct View {
     Eigen::MatrixXd starts, starts_edges, edges;
   };
-  /// What is seen along the steps of a sensor.
+  /// Inner products of a sensor's records with the sections.
   struct Seen {
     const View& view;
     Eigen::VectorXd start, edge;
@@ -91,10 +93,10 @@ class IdealObserver {
   std::vector<Eigen::VectorXd> signatures_;
   std::vector<Step> steps_;
   std::vector<Path> paths_;
-  std::vector<std::size_t> there_;  // unknowns that this bench can show
+  std::vector<std::size_t> there_;  // effects that are detectable on this bench
   std::vector<std::size_t> block_ends_;
   std::vector<Eigen::MatrixXd> inner_, noise_root_;  // of each block
-  std::vector<View> views_;                          // of the first block alone and with each other
+  std::vector<View> views_;  // of the first block alone, and combined with each other block
 };
 
 }  // namespace vibrissa::trial

@@ -1,4 +1,5 @@
-// How often could anyone be right? The ideal observer asked about sensors like those of a trial.
+// Upper bound on the accuracy of a diagnosis: the ideal Bayesian observer on sensors like those of
+// a trial.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
@@ -45,12 +46,12 @@ struct Tally {
 
 using Tallies = std::map<std::string, Tally>;
 
-/// Sensors of which more than one answer is left, and how many of them further experiments resolve:
-/// one answer is left then, the right one.
+/// Sensors with more than one remaining answer, and how many of them further experiments resolve:
+/// then exactly one answer, the right one, remains.
 struct FurtherTally {
   std::size_t undecided = 0;
-  double by_any = 0.;     // by at least one of the experiments
-  double by_chance = 0.;  // mean over them
+  double by_any = 0.;     // resolved by at least one of the experiments
+  double by_chance = 0.;  // mean over the experiments
   void add(const IdealObserver& observer, const ObservedSensor& sensor, std::size_t n_experiments) {
     std::size_t n_resolve = 0;
     for (std::size_t i = 1; i <= n_experiments; ++i) {
@@ -76,10 +77,10 @@ struct Result {
   FurtherTally further{};
 };
 
-/// Takes of the usual session, and of each further experiment after it.
+/// Takes of the usual session, followed by those of each further experiment.
 struct Takes {
   std::vector<trial::Take> all{};
-  std::vector<std::size_t> block_ends{};  // in lines
+  std::vector<std::size_t> block_ends{};  // counted in frequency lines
   std::size_t n_further() const { return block_ends.size() - 1; }
 };
 
@@ -126,7 +127,7 @@ Result observe(const Options& options) {
   std::vector<trial::EffectLadder> ladders;
   {
     signals::Progress progress("effects", trial::named_unknowns().size(), options.is_talkative());
-    ladders = trial::optimise_ladders(change, [&] { progress.advance(); });
+    ladders = trial::effect_ladders(change, [&] { progress.advance(); });
   }
   signals::Progress progress("benches", options.n_benches, options.is_talkative());
   std::mt19937_64 random(options.seed);
@@ -145,7 +146,7 @@ Result observe(const Options& options) {
 }
 
 void print(const Result& result) {
-  std::printf("%-28s %5s %6s %6s %6s %6s %5s\n", "", "of", "right", "said", "first3", "set95",
+  std::printf("%-28s %5s %6s %6s %6s %6s %5s\n", "", "n", "right", "stated", "top3", "in95",
               "size");
   for (const auto& [name, tally] : result.tallies)
     std::printf("%-28s %5zu %6.3f %6.3f %6.3f %6.3f %5.2f\n", name.c_str(), tally.of,
@@ -153,10 +154,16 @@ void print(const Result& result) {
                 tally.share(static_cast<double>(tally.among_three)),
                 tally.share(static_cast<double>(tally.set_holds)),
                 tally.share(static_cast<double>(tally.set_size)));
+  std::printf(
+      "n: sensors; right: share of right answers; stated: their mean stated probability;\n"
+      "top3: truth among the three most probable answers; in95: truth in the 95 %% set;\n"
+      "size: mean number of answers in that set\n");
   if (const FurtherTally& further = result.further; further.undecided > 0)
-    std::printf("of %zu undecided resolved by the best further experiment: %.3f, by chance: %.3f\n",
-                further.undecided, further.by_any / static_cast<double>(further.undecided),
-                further.by_chance / static_cast<double>(further.undecided));
+    std::printf(
+        "of %zu undecided sensors, share resolved by the best further experiment: %.3f, by a "
+        "random one: %.3f\n",
+        further.undecided, further.by_any / static_cast<double>(further.undecided),
+        further.by_chance / static_cast<double>(further.undecided));
 }
 
 void print_json(const Result& result, const Options& options) {
@@ -178,20 +185,23 @@ void print_json(const Result& result, const Options& options) {
 
 int main(int argc, char** argv) try {
   CLI::App app(
-      "How often could anyone be right? Asks an observer who knows the form of every effect, the "
-      "noise of the bench and how often what is asked, about sensors like those of a blind trial.");
+      "Upper bound on accuracy (ideal Bayesian observer): accuracy of an observer who knows the "
+      "form of every effect, the noise of the bench and the relative frequencies of all effects, "
+      "on sensors like those of a blind trial.");
   Options options;
-  app.add_option("--benches", options.n_benches, "Number of benches, with 22 sensors each")
+  app.add_option("--benches", options.n_benches, "Number of benches, each with 22 sensors")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "Seed of all random draws")->capture_default_str();
-  auto* as_built =
-      app.add_flag("--as-built", options.as_built,
-                   "Every sensor deviates by a few percent in modulus, damping, gain and drag");
-  app.add_flag("--further", options.further,
-               "Where several answers remain, adds each further experiment; not with --as-built")
+  app.add_option("--seed", options.seed, "Seed of the random sensors")->capture_default_str();
+  auto* as_built = app.add_flag(
+      "--as-built", options.as_built,
+      "Every sensor deviates by building tolerances in modulus, damping, gain and drag");
+  app.add_flag(
+         "--further", options.further,
+         "When more than one answer remains, add each further experiment; not with --as-built")
       ->excludes(as_built);
-  app.add_option("--asked", options.asked, "Relative frequencies of 0, 1, 2 and 3 true effects")
+  app.add_option("--asked", options.asked,
+                 "Relative frequencies of 0, 1, 2, 3 true effects; 0: never")
       ->check(CLI::Range(0., 1e6))
       ->capture_default_str();
   app.add_flag("--json", options.json, "Machine-readable result on standard output");

@@ -10,7 +10,7 @@
 namespace vibrissa::trial {
 namespace {
 
-/// What the drive moves the base at: it neither starts nor drifts.
+/// Velocity of the driven base, without a start step and without drift.
 std::vector<double> base_velocity(const std::vector<double>& acceleration, const double fine_hz) {
   const auto free_of_mean = [](std::vector<double> x) {
     const double sum = std::accumulate(x.begin(), x.end(), 0.);
@@ -72,8 +72,7 @@ std::vector<double> ModalMotion::base_moment(const std::vector<double>& a,
   return out;
 }
 
-/// The hinge's moment m where it agrees with the turn that it leads to, by the secant rule. y: what
-/// there is without it.
+/// Implicit solution for the hinge's moment m by the secant method. y: outputs without this moment.
 double ModalMotion::hinge_moment(const Eigen::VectorXd& y, const double acceleration,
                                  const double guess) const {
   const auto mismatch = [&](double m) {
@@ -91,7 +90,7 @@ double ModalMotion::hinge_moment(const Eigen::VectorXd& y, const double accelera
   return m1;
 }
 
-/// Rotational acceleration of a stage that rocks below its own resonance.
+/// Rotational acceleration of a stage that rocks below its resonance.
 std::vector<double> ModalMotion::stage_tilt(const std::vector<double>& a) const {
   std::vector<double> out(a.size(), 0.);
   if (world_.rocking == 0.) return out;

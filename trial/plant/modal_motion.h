@@ -8,17 +8,16 @@
 
 namespace vibrissa::trial {
 
-/// Modes and the hinge, at 16 times the sampling rate: exact steps of the modes, the hinge's moment
-/// found by the secant rule in each. The hinge remembers from record to record. Proven by
-/// tests/trial/generator/session_test.cc.
+/// Modes and the nonlinear hinge at 16 times the sampling rate: exact time steps of the modes; the
+/// hinge's moment is solved implicitly in each step. The hinge keeps its memory from record to
+/// record. Proven by tests/trial/generator/session_test.cc.
 class ModalMotion : public Motion {
  public:
-  /// Both must outlive it.
+  /// Both arguments must outlive this object.
   ModalMotion(const Structure& structure, const World& world);
 
   std::size_t steps_per_sample() const override { return 16; }
-  /// What depends on the motion that it drives (hinge, the air's relative speed) is found by
-  /// repeating the step.
+  /// Loads that depend on the motion (hinge, relative wind) are found by repeating the step.
   std::vector<double> base_moment(const std::vector<double>& acceleration,
                                   const std::vector<double>& wind, std::uint64_t seed) override;
 

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double base_mass_kg = 0.1, mount_damping = 0.02, extra_damping = 0.02;
 
-/// M q'' + C q' + K q = F f. Coordinates: modes, then what is there of spring, mount, oscillator.
+/// M q'' + C q' + K q = F f. Coordinates: modes, then base spring, mount and oscillator, if they
+/// exist.
 struct SecondOrder {
   Eigen::MatrixXd mass, damping, stiffness, force;
   Eigen::Index spring = -1, mount = -1, extra = -1, n_modes = 0;
@@ -88,13 +89,13 @@ StateSpace make_plant(const Structure& s, const World& world) {
       moment(i) = s.tilt(i) * m.stiffness(i, i);
       moment(n + i) = s.tilt(i) * m.damping(i, i);
     }
-    // What the modes that are cut off carry statically.
+    // Static correction for the omitted modes.
     const double rest = s.first_moment_kg_m - s.tilt.dot(s.base);
     const double rest_tilt = s.inertia_kg_m2 - s.tilt.squaredNorm();
     out.d(output::moment, input::acceleration) = -rest;
     out.d(output::moment, input::tilt_acceleration) = -rest_tilt;
     out.d(output::moment, input::wind) = s.wind_moment - s.tilt.dot(s.wind);
-    // The hinge's moment is one of the moments that the modes carry.
+    // The hinge's moment acts on the modes like the other moments.
     out.d(output::moment, input::hinge) = s.tilt.dot(s.hinge());
     if (m.mount >= 0) {
       moment -= rest * out.a.row(n + m.mount);

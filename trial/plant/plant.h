@@ -5,7 +5,7 @@
 
 namespace vibrissa::trial {
 
-/// Places of the inputs and outputs of the mechanical plant.
+/// Indices of the inputs and outputs of the mechanical plant.
 namespace input {
 enum : Eigen::Index { acceleration, tilt_acceleration, wind, hinge, n };
 }
@@ -13,11 +13,11 @@ namespace output {
 enum : Eigen::Index { moment, hinge_turn, hinge_rate, wind_velocity, n };
 }
 
-/// All that is linear between stage, wind and moment: the modes, a spring under the base, a base
-/// that moves on its mount, one more oscillator. Inputs: axial [m/s^2] and rotational [rad/s^2]
-/// acceleration of the stage, wind u|u| [m^2/s^2], moment of the hinge beyond its spring [N m].
-/// Outputs: base moment on the support [N m], turn [rad] and rate of the hinge, mean velocity of
-/// what the wind meets [m/s]. Proven by tests/trial/plant/structure_test.cc.
+/// The linear system from stage and wind to the moment: the modes, a spring under the base, a base
+/// that moves on its mount, an additional oscillator. Inputs: axial [m/s^2] and rotational
+/// [rad/s^2] acceleration of the stage, wind u|u| [m^2/s^2], moment of the hinge in addition to its
+/// spring [N m]. Outputs: base moment on the support [N m], rotation [rad] and rate of the hinge,
+/// mean velocity of the surface in the wind [m/s]. Proven by tests/trial/plant/structure_test.cc.
 StateSpace make_plant(const Structure& structure, const World& world);
 
 }  // namespace vibrissa::trial

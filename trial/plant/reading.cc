@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// What the accelerometer's electronics do before anything is sampled.
+/// Effects of the accelerometer's electronics before sampling.
 std::vector<double> reference_signal(const World& world, const FineRecord& fine) {
   std::vector<double> out = fine.acceleration;
   const double h = 1. / fine.rate_hz;
@@ -38,7 +38,7 @@ std::vector<double> reference_signal(const World& world, const FineRecord& fine)
   return out;
 }
 
-/// What the moment's electronics add and bend.
+/// Additions and nonlinearity of the moment sensor's electronics.
 std::vector<double> sensor_signal(const World& world, const Structure& structure,
                                   const FineRecord& fine, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
@@ -52,7 +52,7 @@ std::vector<double> sensor_signal(const World& world, const Structure& structure
                world.cross_axis * structure.first_moment_kg_m * fine.across[i] +
                world.wind_pickup * fine.wind[i];
     if (world.field_curvature != 0.) {
-      // A dipole's field over a distance that shrinks with the moment, with slope one at rest.
+      // Field of a dipole at a distance that decreases with the moment, with slope one at rest.
       const double e = world.field_curvature;
       m = (1. - std::pow(std::max(0.2, 1. + e * m), -3.)) / (3. * e);
     }
@@ -68,7 +68,7 @@ std::vector<double> sensor_signal(const World& world, const Structure& structure
   return out;
 }
 
-/// White noise of which a share is slow (AR(1), 5 Hz).
+/// White noise with a share of slow noise (AR(1), 5 Hz).
 class Noise {
  public:
   Noise(double deviation, double colour, double rate_hz)
@@ -103,7 +103,7 @@ signals::Record read_out(const World& world, const Structure& structure, const F
   std::vector<double> a(n), across(n), wind(n), moment(n);
   for (std::size_t k = 0; k < n; ++k) {
     const double t = static_cast<double>(k) / rate_hz;
-    // What is read again is the conversion that was there, noise and all.
+    // A repeated reading returns the same conversion including its noise.
     a[k] = k > 0 && reference_at[k] == reference_at[k - 1]
                ? a[k - 1]
                : signal(reference).at(reference_at[k]) + axial.next(random);

@@ -8,13 +8,13 @@
 
 namespace vibrissa::trial {
 
-/// What happens on the bench, on the fine clock; the record begins at time 0.
+/// True signals on the bench on the fine time grid; the record begins at time 0.
 struct FineRecord {
   const std::vector<double>&acceleration, &across, &wind, &moment;
   double rate_hz = 0., first_s = 0.;
 };
 
-/// What accelerometer, probe and moment sensor make of it, each by its own electronics and clock.
+/// Readings of accelerometer, probe and moment sensor, each with its own electronics and clock.
 signals::Record read_out(const World& world, const Structure& structure, const FineRecord& fine,
                          std::size_t n, double rate_hz, std::uint64_t seed, bool noise);
 

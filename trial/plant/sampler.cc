@@ -14,7 +14,7 @@ double FineSignal::at(const double t_s) const {
         std::clamp(i, 0l, static_cast<long>(values.size()) - 1))];
   };
   const double a = value(-1), b = value(0), c = value(1), d = value(2);
-  // Lagrange's cubic through four neighbours.
+  // Cubic Lagrange interpolation through four neighbours.
   const double x = part;
   return -a * x * (x - 1.) * (x - 2.) / 6. + b * (x + 1.) * (x - 1.) * (x - 2.) / 2. -
          c * (x + 1.) * x * (x - 2.) / 2. + d * (x + 1.) * x * (x - 1.) / 6.;

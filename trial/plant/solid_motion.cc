@@ -14,7 +14,8 @@ namespace {
 
 fem::SensorParameters parameters_of(const World& world) {
   fem::SensorParameters out = sensor_parameters(world.solid);
-  // Modal damping takes a product with each in every iteration; the integrator damps the others.
+  // Modal damping costs a product with each mode in every iteration; the integrator damps the other
+  // modes.
   out.model.n_modes = 12;
   for (double& ratio : out.model.damping_ratios) ratio *= world.damping;
   out.wind.air.density *= world.drag;
@@ -27,7 +28,7 @@ fem::SensorParameters parameters_of(const World& world) {
   return out;
 }
 
-/// Speeds whose u|u| holds what the wake adds.
+/// Wind speeds whose u|u| includes the addition of the wake.
 std::vector<double> with_wake(std::vector<double> wind, Wake wake) {
   for (double& u : wind) {
     const double share = 1. + wake.next(u);
@@ -51,7 +52,9 @@ bool is_of_the_solid(const World& world) {
 
 SolidMotion::SolidMotion(const World& world) : shedding_(world.shedding) {
   if (!is_of_the_solid(world))
-    throw signals::UserError("the solid of a trial has neither hinge nor mount nor further mode");
+    throw signals::UserError(
+        "the finite-strain solid of a trial cannot simulate a hinge law, a mount or a further "
+        "mode");
   sensor_ = std::make_unique<fem::Sensor>(parameters_of(world));
 }
 
@@ -64,8 +67,8 @@ std::vector<double> SolidMotion::base_moment(const std::vector<double>& accelera
   const std::vector<double> felt = with_wake(wind, Wake(shedding_, 1. / fine_hz(), seed));
   fem::NonlinearOptions options;
   options.check_balance = false;
-  // The moment is within a hundred-thousandth of its peak of what a tolerance of 1e-10 gives, a
-  // hundredth of the quietest bench's noise; looser ones take as long.
+  // The moment differs by 1e-5 of its peak from that with a tolerance of 1e-10, which is a
+  // hundredth of the lowest bench noise. A larger tolerance is not faster.
   options.newton.tolerance = 1e-6;
   return fem::simulate_nonlinear(*sensor_,
                                  {.sampling_rate_hz = fine_hz(),

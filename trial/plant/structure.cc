@@ -82,8 +82,7 @@ fem::SensorParameters sensor_parameters(const SolidChange& change) {
 }
 
 Eigen::VectorXd Structure::hinge() const {
-  // Share of each mode's energy that the hinge would hold if it carried the whole base moment; it
-  // cannot hold more than all of it.
+  // Share of each mode's energy in the hinge if it carried the whole base moment, at most 1.
   const double root = std::sqrt(joint_stiffness_n_m);
   Eigen::VectorXd amplitude = tilt.cwiseProduct(frequency_rad_s) / root;
   amplitude = amplitude.cwiseMax(-1.).cwiseMin(1.);
@@ -98,7 +97,7 @@ Structure solve_structure(const SolidChange& change) {
   stiffer.silicone_modulus *= 1. + step;
   softer.silicone_modulus *= 1. - step;
   Structure out = reduced(fem::Sensor(sensor_parameters(change)));
-  // Stiffness goes with the square of the frequency; what the silicone adds to it is its share.
+  // Stiffness is proportional to the square of the frequency; the silicone contributes its share.
   out.joint_share = 2. * std::log(first_frequency(stiffer) / first_frequency(softer)) /
                     std::log((1. + step) / (1. - step));
   const double moment = out.tilt(0) * out.frequency_rad_s(0);

@@ -38,7 +38,8 @@ TrialIndex read_trial(const fs::path& folder) {
 nlohmann::json open_labels(const TrialIndex& trial, const fs::path& key_file) {
   std::string key;
   if (!(std::ifstream(key_file) >> key))
-    throw signals::UserError(key_file.string() + ": no key of the labels; name it with --key FILE");
+    throw signals::UserError(key_file.string() +
+                             ": the key of the labels is missing; give it with --key FILE");
   try {
     return nlohmann::json::parse(signals::unseal(
         {.cipher = trial.sealed_labels, .key = key, .commitment = trial.commitment}));

@@ -8,14 +8,14 @@
 
 namespace vibrissa::trial {
 
-/// One sensor of a trial: caseNNNNN/real holds its records, further/EXPERIMENT what the bench can
-/// do besides, answer.json what was said of them.
+/// One sensor of a trial: caseNNNNN/real holds its records, further/EXPERIMENT those of further
+/// experiments, answer.json the diagnosis.
 struct TrialEntry {
   std::string name;
-  std::vector<std::string> left_out;  // effects that the catalogue is to lack
+  std::vector<std::string> left_out;  // effects that are removed from the catalogue
 };
 
-/// trial.json: what may be known before the labels are opened.
+/// trial.json: the information that is public before the labels are opened.
 struct TrialIndex {
   std::filesystem::path folder;
   std::uint64_t seed = 0;
@@ -31,8 +31,8 @@ struct TrialIndex {
 /// Throws UserError with the file and the entry that is missing or of the wrong kind.
 TrialIndex read_trial(const std::filesystem::path& folder);
 
-/// The labels by name of case. key_file is FOLDER.key unless another is given. Throws UserError
-/// when the key is missing, or does not open what the trial was bound to.
+/// The labels by name of case. Throws UserError when the key is missing, or when the labels do not
+/// match the trial's commitment.
 nlohmann::json open_labels(const TrialIndex& trial, const std::filesystem::path& key_file);
 
 }  // namespace vibrissa::trial

@@ -24,29 +24,31 @@ std::string headline(const TrialScore& score) {
       std::count_if(score.cases.begin(), score.cases.end(),
                     [](const ScoredCase& scored) { return scored.right; }));
   return std::to_string(right) + " of " + std::to_string(score.cases.size()) +
-         " sealed sensors were diagnosed rightly";
+         " sensors with sealed labels were diagnosed correctly";
 }
 
 }  // namespace
 
 report::Page trial_page(const TrialScore& score, const std::string& commitment) {
   report::Page page{.title = "Blind trial", .headline = headline(score)};
-  page.verdict = {"The labels are those that were bound to " + commitment +
-                  " before the diagnoses."};
+  page.verdict = {"The labels match the commitment " + commitment +
+                  " (salted SHA-256), which was made before the diagnoses."};
   if (score.unanswered > 0)
-    page.verdict.push_back(std::to_string(score.unanswered) + " cases have no answer yet.");
+    page.verdict.push_back(std::to_string(score.unanswered) + " cases have no diagnosis yet.");
   for (const char* name : {"single at 3 limits, right", "95 % set holds the truth",
                            "wrong name above 0.8", "none, false alarm"})
     if (const auto share = score.shares.find(name); share != score.shares.end())
       page.numbers.push_back(key_number(name, share->second));
   page.sections = {
       {.heading = "Scores",
-       .text = {"Shares with exact binomial 95 % intervals; medians and errors without."},
+       .text = {"Shares have exact binomial 95 % intervals; medians and errors have no interval. "
+                "Sizes are multiples of the detection limit."},
        .tables = {{"summary", "Scores", summary_table(score)}}},
       {.heading = "Accuracy and calibration", .figures = trial_figures(score)},
       {.heading = "Wrong answers",
-       .tables = {{"confusion", "Truth against verdict", confusion_table(score)}}},
-      {.heading = "Cases", .tables = {{"cases", "Each case", case_table(score), true}}}};
+       .tables = {{"confusion", "True cause and verdict of the wrong answers",
+                   confusion_table(score)}}},
+      {.heading = "Cases", .tables = {{"cases", "All cases", case_table(score), true}}}};
   return page;
 }
 

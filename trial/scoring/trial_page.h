@@ -7,7 +7,7 @@
 
 namespace vibrissa::trial {
 
-/// How often diagnoses were right; commitment: what the labels were bound to. Proven by
+/// Report page with the scores of a trial; commitment: hash of the labels. Proven by
 /// tests/apps/trial_test.cc.
 report::Page trial_page(const TrialScore& score, const std::string& commitment);
 

@@ -6,9 +6,9 @@
 
 namespace vibrissa::trial {
 
-/// Numbers 0 .. n-1, each handed to one of the ranks that ask (one counter on rank 0, fetched and
-/// raised in one step). Collective: every rank makes and ends it. MPI must have been started.
-/// Proven by tests/apps/trial_test.cc.
+/// Distributes the numbers 0, 1, 2 ... to the ranks, each number to one rank (a counter on rank 0,
+/// read and incremented atomically). Construction and destruction are collective. MPI must be
+/// initialised. Proven by tests/apps/trial_test.cc.
 class TrialQueue {
  public:
   TrialQueue();
@@ -19,7 +19,7 @@ class TrialQueue {
   std::size_t next();
   int rank() const;
   int n_ranks() const;
-  /// Sum of each number over all ranks, on every one of them.
+  /// Sum of each number over all ranks; every rank gets the result.
   std::vector<unsigned long> total(std::vector<unsigned long> numbers) const;
 
  private:

@@ -23,7 +23,7 @@ namespace exit_status = signals::exit_status;
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// What is said once the records of a further experiment are there, too.
+/// The diagnosis with the records of a further experiment added.
 json answer_after(const std::string& experiment, const fs::path& folder, signals::Dataset real,
                   const diagnosis::NominalModel& nominal,
                   const diagnosis::DiagnoseOptions& settings) {
@@ -37,7 +37,8 @@ json answer_after(const std::string& experiment, const fs::path& folder, signals
           {"confidence_set", said.confidence_set}};
 }
 
-/// Another one than the recommended; the same for the same name, on all machines.
+/// A random experiment other than the recommended one; the same for the same case name on all
+/// machines.
 std::string by_chance(std::vector<std::string> experiments, const std::string& recommended,
                       const std::string& name) {
   std::erase(experiments, recommended);
@@ -46,7 +47,7 @@ std::string by_chance(std::vector<std::string> experiments, const std::string& r
   return experiments.empty() ? "" : experiments[random() % experiments.size()];
 }
 
-/// After the recommended experiment and after another one.
+/// The diagnoses after the recommended experiment and after a random other one.
 json answers_after(const TrialIndex& trial, const TrialEntry& entry, const signals::Dataset& real,
                    const diagnosis::NominalModel& nominal,
                    const diagnosis::DiagnoseOptions& settings, const std::string& recommended) {
@@ -105,8 +106,8 @@ TrialRunSummary run_trial(const fs::path& folder, const TrialRunOptions& options
   const TrialIndex trial = read_trial(folder);
   if (options.further && trial.further_experiments.empty())
     throw signals::UserError(folder.string() +
-                             " holds no further experiments, as none is made at finite strain: "
-                             "run it without --further");
+                             ": the trial contains no further experiments (finite-strain trials "
+                             "have none); run it without --further");
   const diagnosis::NominalModel nominal =
       diagnosis::identify_nominal(signals::read_dataset(folder / "sim"));
   std::vector<const TrialEntry*> open;
@@ -114,7 +115,7 @@ TrialRunSummary run_trial(const fs::path& folder, const TrialRunOptions& options
     if (!fs::exists(trial.answer_file(entry))) open.push_back(&entry);
   TrialRunSummary summary;
   summary.there_before = trial.cases.size() - open.size();
-  // Every rank has made the same list before the first answer is written.
+  // All ranks have the same list, because it is made before the first answer is written.
   TrialQueue queue;
   signals::Progress progress("sensors", open.size(), options.show_progress && queue.rank() == 0);
   std::exception_ptr failure;
@@ -130,7 +131,7 @@ TrialRunSummary run_trial(const fs::path& folder, const TrialRunOptions& options
       progress.advance(static_cast<std::size_t>(queue.n_ranks()));
     }
   } catch (...) {
-    // The other ranks wait for this one at the end, disk or no disk.
+    // The other ranks wait for this one at the end, even if a file cannot be written.
     failure = std::current_exception();
   }
   const std::vector<unsigned long> all =

@@ -59,7 +59,7 @@ bool links_are_right(const std::string& truth, const json& links) {
   return said == expected;
 }
 
-/// The value that a parameter of ours has when the generator's size means the same quantity.
+/// The true value of a diagnosed parameter, where the generator's size is the same quantity.
 std::optional<double> true_value(const std::string& id, const std::string& parameter, double size) {
   static const std::map<std::pair<std::string, std::string>, double> offsets{
       {{"delay", "tau"}, 0.},
@@ -98,8 +98,8 @@ bool is_transfer(const std::string& record) {
   return record.starts_with("other_");
 }
 
-/// Share of the gap closed over the records of one kind, each error weighted alike; nothing where
-/// the gap of these records does not stand out of their noise.
+/// Share of the gap closed over the records of one kind, with equal weights; nothing where the gap
+/// of these records is not larger than their noise.
 std::optional<double> gap_closed(const json& held_out, bool transfer) {
   constexpr double stands_out = 1.2;  // times the floor
   double before = 0., after = 0., floor = 0.;
@@ -138,7 +138,7 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
   out.links_right = out.truth == diagnosis::outside_catalogue ||
                     links_are_right(out.truth, diagnosis.at("location").at("links"));
   const json& held_out = ranking[0].at("held_out");
-  // Noise of its own no answer closes, and without a name nothing is added to the model.
+  // No answer closes the gap of a random effect, and outside_catalogue adds nothing to the model.
   if (out.right && out.verdict != diagnosis::outside_catalogue && !held_out.is_null() &&
       held_out.at("not_predictable").empty()) {
     out.gap_closed = gap_closed(held_out, false);
@@ -150,7 +150,7 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
 std::optional<bool> resolved(const ScoredCase& c, const json& answer, const char* which) {
   if (!answer.contains(which)) return std::nullopt;
   const json& after = answer.at(which);
-  // What no answer came of has resolved nothing.
+  // An experiment without an answer has resolved nothing.
   if (!after.contains("verdict")) return false;
   return diagnosis::n_known(after.at("confidence_set").get<std::vector<std::string>>()) == 1 &&
          is_right(c.kind, c.truth, after.at("verdict"));
@@ -219,7 +219,7 @@ void count(TrialScore& out, const ScoredCase& c) {
     out.shares["undecided, another one resolves"].add(*c.resolved_by_chance);
 }
 
-/// Is there an answer that odds can be right about?
+/// Does the case have an answer whose probability can be calibrated?
 bool counts_for_odds(const ScoredCase& c) {
   return c.exit_status == 0 && c.kind != "wrong_metadata" && c.kind != "below_limit";
 }
@@ -319,7 +319,7 @@ json to_json(const TrialScore& score) {
 report::Table case_table(const TrialScore& score) {
   report::Table table({{"case", ""},
                        {"class", ""},
-                       {"size", "limits", 3},
+                       {"size", "detection limits", 3},
                        {"effects", ""},
                        {"truth", ""},
                        {"verdict", ""},
@@ -367,11 +367,11 @@ report::Table confusion_table(const TrialScore& score) {
 
 std::vector<report::Figure> trial_figures(const TrialScore& score) {
   report::Panel sizes{.title = "Single effects",
-                      .x_label = "Size [detection limits]",
-                      .y_label = "Share named rightly",
+                      .x_label = "Effect size [multiples of the detection limit]",
+                      .y_label = "Share of correct answers [1]",
                       .log_x = true,
                       .y_range = report::Range{0., 1.}};
-  report::Curve accuracy{.label = "right", .x = {}, .y = {}},
+  report::Curve accuracy{.label = "correct", .x = {}, .y = {}},
       band{.label = "95 % interval", .style = report::CurveStyle::band};
   for (const auto& [low, high] : {std::pair{1., 2.}, {2., 4.}, {4., 8.}, {8., 16.}, {16., 31.}}) {
     Share share;
@@ -388,8 +388,8 @@ std::vector<report::Figure> trial_figures(const TrialScore& score) {
   }
   sizes.curves = {band, accuracy};
   report::Panel said{.title = "Probabilities",
-                     .x_label = "Probability said",
-                     .y_label = "Share right",
+                     .x_label = "Stated probability [1]",
+                     .y_label = "Share of correct answers [1]",
                      .x_range = report::Range{0., 1.},
                      .y_range = report::Range{0., 1.}};
   report::Curve right{.label = "answers", .x = {}, .y = {}},
@@ -401,18 +401,21 @@ std::vector<report::Figure> trial_figures(const TrialScore& score) {
     scatter.y_low.push_back(bin.right.ci95()[0]);
     scatter.y_high.push_back(bin.right.ci95()[1]);
   }
-  said.curves = {
-      scatter,
-      right,
-      {.label = "as said", .style = report::CurveStyle::dashed, .x = {0., 1.}, .y = {0., 1.}}};
-  return {{.name = "accuracy",
-           .title = "Accuracy against size",
-           .caption = "Exact binomial intervals.",
-           .panels = {sizes}},
-          {.name = "reliability",
-           .title = "Reliability",
-           .caption = "Below the dashed line answers are surer than right.",
-           .panels = {said}}};
+  said.curves = {scatter,
+                 right,
+                 {.label = "perfect calibration",
+                  .style = report::CurveStyle::dashed,
+                  .x = {0., 1.},
+                  .y = {0., 1.}}};
+  return {
+      {.name = "accuracy",
+       .title = "Accuracy against effect size",
+       .caption = "The 95 % intervals are exact binomial intervals.",
+       .panels = {sizes}},
+      {.name = "reliability",
+       .title = "Reliability diagram",
+       .caption = "Below the dashed line the stated probabilities are too high (overconfident).",
+       .panels = {said}}};
 }
 
 }  // namespace vibrissa::trial

@@ -70,7 +70,7 @@ LogisticLine logistic_line(const std::span<const std::pair<double, bool>> answer
   };
   constexpr int n_steps = 50, n_halvings = 30;
   Eigen::Vector2d line = centre;
-  // Newton's steps, halved where they overshoot; the priors keep the matrix regular.
+  // Newton steps, halved where they overshoot; the priors keep the matrix regular.
   for (int i = 0; i < n_steps; ++i) {
     Eigen::Vector2d gradient = centre - line;
     Eigen::Matrix2d information = Eigen::Matrix2d::Identity();

@@ -13,7 +13,7 @@ using testing::Not;
 
 using Change = std::function<void(signals::DatasetRecord&)>;
 
-/// Kinds of what is found in a healthy dataset after a change of each record.
+/// Kinds of findings in a correct dataset after a change of each record.
 std::vector<std::string> kinds(const Change& change, const test::RigDatasetOptions& options = {},
                                double simulated_rate_hz = 0.) {
   signals::Dataset dataset = test::rig_dataset(test::noisy_rig(), options);
@@ -146,7 +146,8 @@ TEST(DataChecks, TakesAMuchSofterOrLaterSensorForNoOppositeSign) {
 
 TEST(DataChecks, TakesNoiseBelowANarrowBandForNoWrongUnit) {
   test::OneModeRig rig = test::noisy_rig();
-  rig.moment_noise = 1e-8;  // a hundredth of what the accelerometer's noise would be as motion
+  rig.moment_noise =
+      1e-8;  // a hundredth of the moment that the accelerometer's noise would cause as motion
   signals::Dataset dataset = test::rig_dataset(rig);
   dataset.records.push_back(
       {"narrow",

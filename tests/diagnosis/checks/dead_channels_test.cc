@@ -61,7 +61,8 @@ TEST(DeadChannels, NamesWindThatNeverBlowsAndWindThatNeverChanges) {
   change(entry, channel::wind_speed, all(0.));
   EXPECT_THAT(findings(entry), ElementsAre(is(FindingKind::constant_channel, "wind_speed_m_s")));
   change(entry, channel::wind_speed, all(2.));
-  EXPECT_THAT(findings(entry), ElementsAre(is(FindingKind::steady_wind, "wind_speed_m_s is 2")));
+  EXPECT_THAT(findings(entry),
+              ElementsAre(is(FindingKind::steady_wind, "wind_speed_m_s is constant at 2")));
   EXPECT_FALSE(spoils_everything(FindingKind::steady_wind));
 }
 
@@ -71,7 +72,8 @@ TEST(DeadChannels, AsksWhetherWindAndAccelerationAreExchanged) {
   Samples moving(a.begin(), a.end());
   entry.record.set_channel(channel::wind_speed, std::move(moving));
   change(entry, channel::base_acceleration, all(0.));
-  EXPECT_THAT(findings(entry), ElementsAre(is(FindingKind::constant_channel, "exchanged?")));
+  EXPECT_THAT(findings(entry),
+              ElementsAre(is(FindingKind::constant_channel, "columns are exchanged")));
 }
 
 TEST(DeadChannels, NamesWhereAChannelStandsStill) {

@@ -10,7 +10,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// The words that docs/effects.md fixes, but sample_repeat, which is known by its equal neighbours.
+/// The ids of docs/effects.md, without sample_repeat, which is detected by its repeated samples.
 const std::set<std::string> ids_of_effects_md{"stiffness",
                                               "damping",
                                               "mass",
@@ -43,8 +43,8 @@ const std::set<std::string> ids_of_effects_md{"stiffness",
                                               "clock_drift",
                                               "sample_repeat"};
 
-/// A base record, one under wind and one with both, all with a transverse acceleration and an
-/// accelerometer that is polled too fast.
+/// A record with base motion, one with wind and one with both, all with a transverse acceleration
+/// and an accelerometer with sample-and-hold repeats.
 Experiment experiment_of_all_kinds() {
   const test::OneModeRig rig = test::noisy_rig();
   signals::Dataset dataset = test::rig_dataset(rig, {.wind = true});
@@ -52,10 +52,10 @@ Experiment experiment_of_all_kinds() {
   for (signals::DatasetRecord& entry : dataset.records) {
     const auto a = entry.record.channel(signals::channel::base_acceleration);
     std::vector<double> transverse(a.rbegin(), a.rend());
-    std::vector<double> polled(a.begin(), a.end());
-    for (std::size_t i = 5; i < polled.size(); i += 5) polled[i] = polled[i - 1];
+    std::vector<double> repeated(a.begin(), a.end());
+    for (std::size_t i = 5; i < repeated.size(); i += 5) repeated[i] = repeated[i - 1];
     entry.record.set_channel(signals::channel::cross_acceleration, std::move(transverse));
-    entry.record.set_channel(signals::channel::base_acceleration, std::move(polled));
+    entry.record.set_channel(signals::channel::base_acceleration, std::move(repeated));
   }
   NominalModel nominal = test::nominal_of(rig, true);
   nominal.modes.push_back({.frequency_rad_s = 1200.,

@@ -36,7 +36,7 @@ TEST(Stiffness, IsThatOfTheFirstModeWhateverShareOfItTheJointHas) {
     for (const double joint_share : {0.5, 0.7, 1.})
       for (const double modal_share : {0., 0.4, 1.}) {
         const Chain chain = with("stiffness", {ratio, 0.5, modal_share}, joint_share);
-        // Light damping moves the peak by a few ten-thousandths.
+        // Light damping shifts the peak by a few ten-thousandths.
         EXPECT_NEAR(resonance_rad_s(chain) / (220. * std::sqrt(ratio)), 1., 2e-3)
             << ratio << " " << joint_share << " " << modal_share;
       }
@@ -50,8 +50,8 @@ TEST(Stiffness, LeavesTheStaticMomentAlone) {
   }
 }
 
-/// Two modes whose model knows its silicone (0.56 of the first mode's compliance), its wire and the
-/// density of its fin.
+/// A model with two modes and sensitivities to its silicone (0.56 of the first mode's compliance),
+/// its wire and the density of its fin.
 Chain solid_with(const std::string& id, const std::vector<double>& values) {
   Chain chain{.structure = {.modes = {{.frequency_rad_s = 220.,
                                        .damping_ratio = 0.02,
@@ -106,7 +106,8 @@ TEST(Mass, FollowsTheFinsDensityOfAModelThatKnowsIt) {
   const Chain chain = solid_with("mass", {ratio, 1., 0.});
   EXPECT_NEAR(chain.structure.modes[0].frequency_rad_s, 220. / std::sqrt(ratio), 1e-9);
   EXPECT_NEAR(chain.structure.modes[1].frequency_rad_s, 3000. * std::pow(density, -0.21), 1e-8);
-  // Base motion forces the first mode in proportion to its mass, as asked, not to the model's own.
+  // Base motion forces the first mode in proportion to the given mass ratio and not to the model's
+  // own mass.
   EXPECT_NEAR(chain.structure.modes[0].base_gain * chain.mount.front()(0.).real(), -2e-5 * ratio,
               1e-16);
 }
@@ -127,7 +128,7 @@ TEST(SensorLowpass, OfOneLagIsOneLag) {
 }
 
 TEST(SensorLowpass, OfThreeLagsIsAnAverageOverTimeToThirdOrder) {
-  // (1 - exp(-s T)) / (s T), which is (1 + s T / 6)^-3 but for (s T)^3 / 216 and higher powers.
+  // (1 - exp(-s T)) / (s T), which equals (1 + s T / 6)^-3 up to (s T)^3 / 216 and higher powers.
   constexpr double length_s = 2e-3;
   constexpr double w = 3. / (0.5 * length_s);
   const double corner_hz = w * std::sqrt(std::exp2(1. / 3.) - 1.) / (2. * std::numbers::pi);

@@ -15,9 +15,8 @@ using ::testing::Lt;
 
 constexpr std::size_t n_samples = 2048;
 
-/// Records one after the other, each shaken alike. The silicone has warmed for as long as there
-/// have been records, and softens as an exponential that ends: change (1 - exp(-n /
-/// settled_after)).
+/// Consecutive records with the same excitation. The silicone warms from the first record on and
+/// softens exponentially: change (1 - exp(-n / settled_after)).
 signals::Dataset warming_up(double change, double settled_after, unsigned n_records) {
   test::OneModeRig rig = test::noisy_rig();
   const double duration_s = static_cast<double>(n_samples) / rig.rate_hz;

@@ -10,7 +10,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// none, fitted to a rig whose moment sensor reads so much more, in vibration and in wind.
+/// Fit of "none" to a rig whose moment sensor has this gain, with vibration and with wind.
 HypothesisFit fit_of_gain(const double gain) {
   test::OneModeRig rig = test::noisy_rig();
   rig.moment_mass *= gain;
@@ -37,7 +37,7 @@ double ratio(const HypothesisFit& fit, const std::string& name, const std::strin
 TEST(CalibrationChoices, OneGainThatIsFarOffIsNamedAloneThoughThreeCouldShareIt) {
   for (const double gain : {1.25, 1.45}) {
     const HypothesisFit fit = fit_of_gain(gain);
-    // Tolerances alone have shared it.
+    // With tolerances several calibration parameters share the change.
     const auto index = fit.index("sensor_gain", 0);
     ASSERT_TRUE(index.has_value());
     EXPECT_LT(std::exp(fit.x(static_cast<Eigen::Index>(*index))), 1. + 0.8 * (gain - 1.));
@@ -58,7 +58,7 @@ TEST(CalibrationChoices, AGainBeyondItsRangeIsNotNamedAlone) {
 TEST(LogAnyMagnitude, MakesADensityOfADensity) {
   constexpr double top = 0.4, step = 1e-3, least = 1e-9;
   double area = 0.;
-  // Even steps of ln x resolve the peak at nothing.
+  // Equal steps of ln x resolve the peak at zero.
   for (double u = std::log(least * top); u < std::log(top); u += step) {
     const double x = std::exp(u + 0.5 * step);
     area += 2. * x * step * std::exp(log_any_magnitude(top, x, 0.)) / (2. * top);

@@ -28,7 +28,7 @@ double value_of(const HypothesisFit& fit, const std::string& effect) {
 
 const Hypothesis soft_base({&find_effect("base_compliance")});
 
-/// A calibration does the same: with it free the base seems stiff.
+/// A calibration parameter has the same influence: when it is free, the base seems stiff.
 TEST(FitAsSimulated, FindsWhatFreeCalibrationsTakeUp) {
   test::OneModeRig rig = test::noisy_rig();
   rig.stiffness = 0.99;
@@ -42,14 +42,15 @@ TEST(FitAsSimulated, FindsWhatFreeCalibrationsTakeUp) {
   EXPECT_GT(fits.as_simulated.log_evidence, none.log_evidence + 20.);
 }
 
-/// No base makes a whisker stiffer, whatever a parabola around a recalibrated one promises.
+/// A compliant base cannot stiffen a whisker, whatever a quadratic approximation about a
+/// recalibrated one predicts.
 TEST(FitAsSimulated, PromisesNothingThatTheEffectCannotDo) {
   test::OneModeRig rig = test::noisy_rig();
   rig.stiffness = 1.01;
   const Experiment experiment = experiment_of(rig);
   const BothFits none = both_fits(experiment, {}), soft = both_fits(experiment, soft_base);
   EXPECT_LT(soft.as_simulated.log_evidence, none.as_simulated.log_evidence + 2.);
-  // Neither has a calibration that does it in its place.
+  // Neither fit has a calibration parameter that replaces the effect.
   for (const BothFits& fits : {none, soft})
     EXPECT_LT(fits.as_simulated.log_likelihood, fits.free.log_likelihood - 20.)
         << fits.free.hypothesis.name();
@@ -59,7 +60,7 @@ TEST(FitAsSimulated, NamesNoCalibration) {
   const BothFits fits = both_fits(experiment_of(test::noisy_rig()), {});
   ASSERT_EQ(fits.as_simulated.choices.size(), 1u);
   EXPECT_TRUE(fits.as_simulated.choices.front().named.empty());
-  // Half of all sensors are so.
+  // Half of all sensors are as simulated.
   EXPECT_NEAR(fits.as_simulated.choices.front().log_evidence,
               fits.as_simulated.log_evidence - std::numbers::ln2, 1e-9);
 }

@@ -9,7 +9,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Whitened residuals of complex normal bins, their power times a factor of the frequency.
+/// Whitened residuals of complex normal bins with a frequency-dependent power factor.
 std::vector<WhitenedRecord> residuals(const Experiment& experiment, unsigned seed,
                                       const std::function<double(double hz)>& factor,
                                       double own_share = 0.5) {
@@ -54,7 +54,7 @@ TEST_F(GoodnessOfFitTest, SeesTheRightPowerWithTheWrongSpectrum) {
   const auto half = [](double hz) { return hz < 125. ? 1.9 : 0.1; };
   const GoodnessOfFit found = goodness_of_fit(experiment_, residuals(experiment_, 1, half));
   EXPECT_NEAR(found.excess, 0., 0.15);
-  // Each bin of a factor f > 1 gains f - 1 - ln f; the blocks' factors cost some of it.
+  // Each bin with a factor f > 1 gains f - 1 - ln f, minus the cost of the block factors.
   double n_bins = 0.;
   for (const PreparedRecord& record : experiment_.records)
     n_bins += static_cast<double>(record.n_bins());

@@ -12,12 +12,12 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Shares of 200 sensors, softer and late, for which an interval of 95 % holds the truth.
+/// Coverage of 95 % intervals for 200 sensors with lower stiffness and a delay.
 struct Coverage {
   int delay = 0, stiffness = 0, gap_closed = 0;
 };
 
-/// Noise of its own seed; the right hypothesis is fitted.
+/// A sensor with its own noise seed; the correct hypothesis is fitted.
 struct Trial {
   Experiment fit_records, held_out;
   HypothesisFit fit;
@@ -46,13 +46,13 @@ struct Trial {
                            Hypothesis({&find_effect("delay"), &find_effect("stiffness")}))) {}
 };
 
-/// joint_error: of the simulation, in the deviations that it states. What a change of stiffness
-/// does is known no better.
+/// joint_error: error of the simulated joint share in its stated standard deviations, which limits
+/// the accuracy of a stiffness estimate.
 void add_trial(unsigned seed, double joint_error, Coverage& out) {
   const NominalModel right = test::nominal_of(test::OneModeRig{}, false);
   const Trial trial(right, seed);
   out.delay += trial.holds("delay", Trial::rig().delay_s);
-  // The right model closes the gap down to the noise.
+  // The correct model closes the gap down to the noise.
   const ErrorScore score =
       score_held_out(trial.fit_records, trial.held_out, trial.fit, {.seed = seed}).overall;
   if (score.gap_closed_ci95)
@@ -74,7 +74,7 @@ double half_normal_quantile(double p) {
 
 TEST(LongIntervals, HoldTheTruthAsOftenAsTheySay) {
   constexpr unsigned n_trials = 200;
-  // None holds more than all of the compliance: quantiles of the normal distribution's one half.
+  // The share is at most 1, so the quantiles are those of a half-normal distribution.
   std::vector<double> joint_error;
   for (unsigned i = 0; i < n_trials; ++i)
     joint_error.push_back(half_normal_quantile((i + 0.5) / n_trials));

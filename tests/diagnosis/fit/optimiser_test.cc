@@ -12,7 +12,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// A fit to a rig that is a little too stiff, begun at nominal.
+/// A fit to a rig that is slightly too stiff, started at nominal.
 struct Fit {
   Fit() {
     begin.x.resize(static_cast<Eigen::Index>(fit_parameters.size()));
@@ -22,7 +22,7 @@ struct Fit {
     begin.x(index_of_acceleration_noise) = std::log(experiment.acceleration_noise);
     clamp(fit_parameters, begin.x);
     begin.predictions = posterior.predict(begin.x);
-    posterior.renew_slow_variance(begin.x, begin.predictions);
+    posterior.update_slow_variance(begin.x, begin.predictions);
     begin.log_posterior =
         posterior.log_likelihood(begin.x, begin.predictions) + posterior.log_prior(begin.x);
   }
@@ -42,7 +42,7 @@ struct Fit {
   OptimiserState begin;
 };
 
-/// As next to parameters under which a joint runs away.
+/// As near parameters with an unstable joint.
 Derivatives no_numbers(Derivatives derivatives) {
   derivatives.mean.setConstant(std::numeric_limits<double>::quiet_NaN());
   return derivatives;

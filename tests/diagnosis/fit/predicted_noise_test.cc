@@ -24,7 +24,7 @@ class PredictedNoiseTest : public testing::Test {
                                               test::rig_dataset(test::noisy_rig(), {.wind = true}),
                                               signals::Split::fit, InputNoise::reduced);
 
-  /// White noise and the lines of the wind's speed, in a phase of their own.
+  /// White noise and the lines of the wind speed with independent phases.
   std::vector<WhitenedRecord> residuals(const Leftover& leftover) const {
     std::mt19937 random(leftover.seed);
     std::normal_distribution<double> normal(0., std::sqrt(0.5));
@@ -63,7 +63,7 @@ TEST_F(PredictedNoiseTest, FindsNothingInNoise) {
 TEST_F(PredictedNoiseTest, FindsWhatFollowsTheWind) {
   const PredictedNoise noise = found({.of_the_wind = 1.});
   EXPECT_GT(noise.nats, 200.);
-  // Half of the energy, and what the gusts' lines hold is in few blocks.
+  // Half of the energy; the lines of the gusts are in few blocks.
   EXPECT_GT(noise.share, 0.3);
   EXPECT_LT(noise.share, 0.7);
 }

@@ -20,7 +20,7 @@ Location located(const test::OneModeRig& rig, const test::RigDatasetOptions& opt
                                        signals::Split::fit, InputNoise::reduced));
 }
 
-/// Of a sensor whose gain rises by a fifth from the start to the end of every record.
+/// Records of a sensor whose gain rises by a fifth during every record.
 Location drifting_gain() {
   signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
   for (signals::DatasetRecord& entry : dataset.records) {
@@ -43,7 +43,7 @@ TEST(Location, FindsNothingWhereThereIsNothing) {
     EXPECT_FALSE(location.varies_in_time) << seed;
     EXPECT_FALSE(location.present_at_rest) << seed;
     EXPECT_GT(location.p_value, 0.01) << seed;
-    EXPECT_EQ(location_sentence(location), "No gap beyond noise.");
+    EXPECT_EQ(location_sentence(location), "No gap larger than noise.");
   }
 }
 
@@ -86,7 +86,8 @@ double largest_excess(const LevelGap& level) {
   return largest;
 }
 
-// What is linear grows in power as the level squared; a cubic spring's moment as its sixth power.
+// The power of a linear response grows with the level squared, that of a cubic spring's moment with
+// its sixth power.
 TEST(Location, MapsTheGapByLevel) {
   test::OneModeRig softer = test::noisy_rig(), hardening = test::noisy_rig();
   softer.stiffness = 0.9;

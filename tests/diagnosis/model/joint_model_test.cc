@@ -17,8 +17,7 @@ StructuralMode mode() {
 
 constexpr double viscous_ratio = 0.09;
 
-/// What the joint model is under its factors, with a moment T added in the joint: the moment at the
-/// base for one of T.
+/// Base moment per unit of an additional joint moment T, by the joint model with its factors.
 Complex added_moment(const JointModel& model, Complex s) {
   const Complex joint = model.share / model.changed_stiffness_ratio(s);
   const Complex inertia = model.changed_inertia(s) * (joint + 1. - model.share);
@@ -33,7 +32,7 @@ TEST(JointModel, HasThePoleOfItsMode) {
   const JointModel model(given, 0.65, viscous_ratio);
   const double z = given.damping_ratio, w = given.frequency_rad_s;
   const Complex pole = w * Complex(-z, std::sqrt(1. - z * z));
-  // Springs and damper in series damp as the mode does to first order in their loss.
+  // Springs and damper in series have the mode's damping to first order in their loss.
   const Complex compliance = model.share / model.stiffness_ratio(pole) + 1. - model.share;
   EXPECT_LT(std::abs(model.inertia(pole) * compliance + 1.), 0.02);
 }

@@ -141,7 +141,7 @@ TEST_F(UpdatedModelFile, RefusesPathsAndCurvesThatDoNotFit) {
               testing::AllOf(HasSubstr("silicone_modulus/frequency"), HasSubstr("each mode")));
   EXPECT_THAT(message_of(replaced(good, "1.4,", "")), HasSubstr("number for each speed"));
   EXPECT_THAT(message_of(replaced(good, "0.0,\n    2.0", "2.0,\n    2.0")),
-              HasSubstr("must ascend"));
+              HasSubstr("ascending order"));
 }
 
 TEST_F(UpdatedModelFile, IsRefusedWithThePlaceOfWhatIsWrong) {

@@ -33,5 +33,19 @@ TEST(Wrapped, BreaksAWordThatIsLongerThanALine) {
   EXPECT_THAT(wrapped(std::string(250, 'x')), SizeIs(3));
 }
 
+TEST(Percent, HasNoTrailingZeros) {
+  EXPECT_EQ(percent(0.123), "12 %");
+  EXPECT_EQ(percent(0.0123), "1.2 %");
+  EXPECT_EQ(percent(0.03), "3 %");
+  EXPECT_EQ(percent(0.), "0 %");
+  EXPECT_EQ(percent(1.), "100 %");
+}
+
+TEST(OneDecimal, HasNoTrailingZeros) {
+  EXPECT_EQ(one_decimal(-12.34), "-12.3");
+  EXPECT_EQ(one_decimal(5.), "5");
+  EXPECT_EQ(one_decimal(-0.01), "0");
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis

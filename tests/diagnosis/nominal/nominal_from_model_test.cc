@@ -73,7 +73,7 @@ TEST(NominalFromModel, HasTheDragCurveOfAWindLoadThatHasOne) {
   EXPECT_TRUE(nominal_from(model).drag_curve.speed_m_s.empty());
 }
 
-/// The same model with every parameter moved along the path by hand.
+/// The same model with every quantity changed along the path explicitly.
 TEST(NominalFromModel, FollowsTheSensitivitiesOfItsOwnModes) {
   signals::ReducedModel model = two_modes();
   const double x = 0.7;

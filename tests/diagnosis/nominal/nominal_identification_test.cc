@@ -76,7 +76,7 @@ TEST(IdentifyNominal, FindsATwoModeModelFromItsOwnRecords) {
   }
 }
 
-/// Lines that no segment holds whole periods of.
+/// Lines without a whole number of periods in any segment.
 TEST(IdentifyNominal, IsAsExactWithoutPeriods) {
   const NominalModel truth = nominal_of_two_modes();
   constexpr double rate_hz = 1000.;
@@ -113,7 +113,7 @@ TEST(IdentifyNominal, ASimulationWithoutDynamicsIsOneGain) {
   const NominalModel found = identify_nominal(simulation);
   EXPECT_TRUE(found.modes.empty());
   EXPECT_NEAR(found.base_direct, 1e-5, 1e-11);
-  // What acts on a joint alone has nothing to act on.
+  // Effects that act on a joint only have no influence.
   const Experiment experiment =
       prepare_experiment(found, simulation, Split::fit, InputNoise::reduced);
   EXPECT_FALSE(shows(experiment, find_effect("hardening")));

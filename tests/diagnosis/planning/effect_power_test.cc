@@ -38,8 +38,8 @@ const EffectPower& power_of(const std::vector<EffectPower>& powers, const std::s
                        [&](const EffectPower& power) { return power.effect == id; });
 }
 
-/// Nats of a unit of delay by theory: the response of one mode at the lines of the drive, what
-/// gain, frequency and damping can follow taken out.
+/// Theoretical nats per squared unit of delay: response of one mode at the excited lines, minus the
+/// part that gain, frequency and damping can follow.
 double delay_information() {
   double information = 0.;
   Eigen::Matrix3d followers = Eigen::Matrix3d::Zero();
@@ -102,7 +102,7 @@ TEST(EffectPower, WindEffectsAreNotShownWithoutWind) {
        {"drag_error", "flow_lag", "turbulence", "vortex_shedding", "relative_drag"}) {
     EXPECT_FALSE(power_of(powers, id).shown) << id;
     EXPECT_EQ(power_of(powers, id).needs, "wind") << id;
-    EXPECT_FALSE(power_of(powers, id).exact.found) << id;
+    EXPECT_FALSE(power_of(powers, id).exact.detected) << id;
   }
   EXPECT_TRUE(power_of(powers, "delay").shown);
   EXPECT_EQ(power_of(powers, "cross_axis").needs, "transverse acceleration");
@@ -128,13 +128,13 @@ TEST(EffectPower, AsBuiltHidesAtLeastWhatAnExactSensorHides) {
   const auto powers = effect_powers(planned(true, usual_noise()), usual_noise(), {.limits = false});
   for (const EffectPower& power : powers)
     EXPECT_LE(power.as_built.nats, 1.01 * power.exact.nats) << power.effect;
-  // A gain of two percent is no finding on a sensor whose gains are known to two percent.
-  EXPECT_TRUE(power_of(powers, "sensor_gain").exact.found);
-  EXPECT_FALSE(power_of(powers, "sensor_gain").as_built.found);
+  // A gain change of two percent is not detectable when gains have a tolerance of two percent.
+  EXPECT_TRUE(power_of(powers, "sensor_gain").exact.detected);
+  EXPECT_FALSE(power_of(powers, "sensor_gain").as_built.detected);
 }
 
 TEST(EffectPower, FitsGainWhatWasPredicted) {
-  // So much noise that one step of the rig's integration is about the limit.
+  // The noise is so large that one integration step of the rig is about the detection limit.
   const double tau = 1. / (rig.rate_hz * test::OneModeRig::n_steps);
   const ChannelNoise noise{.moment_n_m = 8e-5, .acceleration_m_s2 = 0.05};
   const Experiment clean = planned(false, noise);

@@ -15,8 +15,8 @@ ExperimentPlan example() {
   plan.records = {{"base_low", "base", 8.192}, {"quiet", "none", 60.}};
   EffectPower delay{
       .effect = "delay", .shown = true, .parameter = "tau", .unit = "s", .typical = 2e-4};
-  delay.exact =
-      delay.as_built = {.nats = 900., .found = true, .limit = 1.9e-5, .alike = {"sensor_lowpass"}};
+  delay.exact = delay.as_built = {
+      .nats = 900., .detected = true, .limit = 1.9e-5, .alike = {"sensor_lowpass"}};
   EffectPower gain{.effect = "sensor_gain", .shown = true, .parameter = "ratio", .unit = "1"};
   gain.as_built = {.nats = 1., .limit = 0.947};
   EffectPower drag{.effect = "drag_error", .needs = "wind", .parameter = "ratio", .unit = "1"};
@@ -60,9 +60,9 @@ TEST(PlanText, SaysWhatIsFoundMistakenMissingAndFirst) {
   const std::string text = plan_text(example());
   EXPECT_THAT(text, HasSubstr("1 of 3 effects"));
   EXPECT_THAT(text, HasSubstr("sensor_gain ratio 0.947"));
-  EXPECT_THAT(text, HasSubstr("Not shown without wind: drag_error"));
+  EXPECT_THAT(text, HasSubstr("Not detectable without wind: drag_error"));
   EXPECT_THAT(text, HasSubstr("delay 1.9e-05 s"));
-  EXPECT_THAT(text, HasSubstr("delay could be sensor_lowpass"));
+  EXPECT_THAT(text, HasSubstr("delay may be mistaken for sensor_lowpass"));
   EXPECT_THAT(text, HasSubstr("Measure first: wide_band"));
   EXPECT_THAT(text, HasSubstr("by rule"));
 }

@@ -35,7 +35,7 @@ TEST(ExperimentPlan, WithoutWindItAsksForWind) {
   EXPECT_FALSE(first.by_rule);
   EXPECT_THAT(first.finds, IsSupersetOf({"flow_lag", "turbulence", "relative_drag"}));
   EXPECT_THAT(first.separates, Contains(Pair("reference_gain", "sensor_gain")));
-  // With wind there is less to gain from it.
+  // With planned wind the experiment adds less.
   const ExperimentPlan windy = plan_of(true, true);
   EXPECT_LT(step_of(windy, "wind_ladder").gain, 0.3 * first.gain);
   EXPECT_LT(windy.undecided, plan.undecided - 0.5 * first.gain);
@@ -81,8 +81,8 @@ TEST(ExperimentPlan, RefusesNoiseThatIsNone) {
 }
 
 TEST(UndecidedProbability, CountsEffectsUnfoundAndMistaken) {
-  const auto detectability = [](bool found, std::vector<std::string> alike) {
-    return Detectability{.found = found, .alike = std::move(alike)};
+  const auto detectability = [](bool detected, std::vector<std::string> alike) {
+    return Detectability{.detected = detected, .alike = std::move(alike)};
   };
   const auto effect = [&](const std::string& id, const Detectability& both) {
     return EffectPower{.effect = id, .shown = true, .exact = both, .as_built = both};

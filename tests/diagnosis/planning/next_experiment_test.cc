@@ -21,7 +21,7 @@ TEST(NextExperiment, MenuNamesEffectsOfTheCatalogueOnly) {
   EXPECT_EQ(experiment_menu().size(), 11u);
   for (const MenuEntry& entry : experiment_menu())
     for (const auto& [id, shown] : entry.shows) {
-      // In docs/effects.md, known by the share of equal neighbours.
+      // Detected by the share of repeated samples (docs/effects.md).
       if (id == "sample_repeat") continue;
       EXPECT_NO_THROW(find_effect(id)) << entry.name;
     }

@@ -17,7 +17,7 @@ Experiment experiment_of(const test::OneModeRig& rig) {
                             InputNoise::as_measured);
 }
 
-/// rms of the difference over rms of the second.
+/// rms of the difference divided by the rms of the second.
 double relative_difference(const std::vector<Complex>& a, const std::vector<Complex>& b) {
   double error = 0., power = 0.;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -27,7 +27,7 @@ double relative_difference(const std::vector<Complex>& a, const std::vector<Comp
   return std::sqrt(error / power);
 }
 
-/// Bins of a periodic record that one transfer function gives.
+/// Bins of a periodic record computed from one transfer function.
 std::vector<Complex> filtered(const PreparedRecord& record,
                               const std::function<Complex(Complex)>& response) {
   std::vector<Complex> out;
@@ -263,7 +263,7 @@ TEST(SimulateChain, CarriesTheAccelerometersNoiseIntoTheDragOfAMovingWhisker) {
   constexpr double deviation = 0.05;
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0., deviation);
-  // Bins of 1 to 4 Hz, where velocity is most of what the noise does.
+  // Bins of 1 to 4 Hz, where the velocity part of the noise dominates.
   const auto low = static_cast<std::size_t>(1. / record.bin_hz()),
              high = static_cast<std::size_t>(4. / record.bin_hz());
   double scattered = 0., predicted = 0., linear = 0.;
@@ -287,7 +287,7 @@ TEST(SimulateChain, CarriesTheAccelerometersNoiseIntoTheDragOfAMovingWhisker) {
 }
 
 TEST(SimulateChain, ARigidWhiskerOnAChangedJointIsAChangedOscillator) {
-  // p = 1: (i x'' + z x' + k) with each of its parts changed.
+  // p = 1: (i x'' + z x' + k) with each of its parameters changed.
   const Experiment experiment = experiment_of(test::OneModeRig{});
   const PreparedRecord& record = experiment.records.front();
   Chain chain{.structure = experiment.nominal};

@@ -29,7 +29,8 @@ TEST(NoiseLines, AreAllOfAReadingThatRepeatsNothing) {
   EXPECT_NEAR(mean_power(lines, n), 1., 0.1);
 }
 
-/// The source's power lies below half its own rate: denser by the ratio of the rates.
+/// The source's noise power lies below half the source's rate, so its density is higher by the
+/// ratio of the rates.
 TEST(NoiseLines, OfAPolledChannelAreItsSources) {
   constexpr std::size_t n = 5000;
   const std::vector<double> source = noise(n);

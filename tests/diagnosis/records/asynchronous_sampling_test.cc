@@ -24,7 +24,7 @@ double motion(double t_s) {
   return 0.3 * sum;
 }
 
-/// Read at 500 Hz from a source that renews at the given rate.
+/// Read at 500 Hz from a source with the given update rate.
 std::vector<double> read_from(double source_hz, double phase) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal(0., noise_deviation);
@@ -65,7 +65,7 @@ TEST(EvenedSeries, IsNoneOfSamplesThatAreAsOldAsEachOther) {
 
 TEST(SampleRepeat, IsNamedWhereTheAccelerometersSamplesHaveUnevenAges) {
   test::OneModeRig rig = test::noisy_rig();
-  // Read by the rig at 4000 Hz, of which every eighth sample is evaluated.
+  // The rig reads at 4000 Hz; every eighth sample is evaluated.
   rig.rate_hz = 4000.;
   const auto slower = [&](const signals::Record& fast, bool polled) {
     const auto a = fast.channel(signals::channel::base_acceleration),

@@ -16,7 +16,7 @@ namespace {
 
 using signals::Split;
 
-/// A record without a stated period, driven like this.
+/// A record without a stated period and with this excitation.
 PreparedRecord prepared(const test::OneModeRig::Signal& acceleration) {
   test::OneModeRig rig = test::noisy_rig();
   signals::Dataset dataset;
@@ -41,7 +41,7 @@ PreparedRecord prepared(const std::vector<double>& lines_hz) {
   return prepared(test::sines(lines_hz, 2., 5));
 }
 
-/// Noise of a band, in which a line has the given power over the accelerometer's noise.
+/// Band noise in which a line has the given power relative to the accelerometer's noise.
 test::OneModeRig::Signal band(double low_hz, double high_hz, double power_over_noise) {
   const double amplitude =
       test::noisy_rig().acceleration_noise * std::sqrt(2. * power_over_noise / 5000.);
@@ -75,7 +75,7 @@ TEST(PrepareExperiment, LeavesToNoiseWhatNoDriveStandsBehind) {
   double kept = 0., count = 0.;
   for (std::size_t k = 600; k < record.noise_share.size(); ++k, count += 1.)
     kept += record.noise_share[k];
-  // Ten to either side that are noise alone exceed its mean by chance alone.
+  // Ten noise lines on either side exceed their mean only by chance.
   EXPECT_LT(kept / count, 0.15);
   EXPECT_NEAR(record.noise_share[120], 1., 1e-2);
 }
@@ -126,7 +126,7 @@ TEST(ChannelNoise, IsTakenFromRestWhereThereIsSome) {
   EXPECT_NEAR(found.acceleration_m_s2, 0.05, 0.005);
 }
 
-/// A simulation free of noise is weighed as if it had been written down with 13 bits.
+/// A simulation without noise is weighted as if quantised with 13 bits.
 TEST(ChannelNoise, IsNeverLessThanAConverterLeaves) {
   const signals::Dataset dataset =
       test::rig_dataset(test::OneModeRig{}, {.quiet = false, .held_out = false});
@@ -139,7 +139,7 @@ TEST(ChannelNoise, IsNeverLessThanAConverterLeaves) {
   EXPECT_GT(found.acceleration_m_s2, 0.);
 }
 
-/// Gusts repeat no more than noise does.
+/// Gusts do not repeat, like noise.
 TEST(ChannelNoise, IsNotWhatWindAddsToAPeriodicDrive) {
   signals::Dataset dataset = test::rig_dataset(test::noisy_rig());
   const double before = channel_noise(dataset).moment_n_m;
@@ -171,7 +171,7 @@ TEST(PrepareExperiment, LeavesOutRecordsThatAreTooShort) {
   EXPECT_EQ(n_records(), 3u);
   dataset.records.back().record = dataset.records[3].record.slice(0, fewest);
   EXPECT_EQ(n_records(), 4u);
-  // Whole periods in steady state have no start to forget.
+  // Whole periods in steady state have no transients.
   EXPECT_EQ(fewest_samples(nominal, dataset.records[1]), 0u);
 }
 

@@ -12,7 +12,7 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Powers of a spectrum of the given density: each line's is exponential.
+/// Exponentially distributed line powers of a spectrum with the given density.
 std::vector<NoiseLine> lines(std::size_t n, const std::function<double(double)>& density,
                              unsigned seed) {
   std::mt19937 random(seed);
@@ -76,7 +76,7 @@ signals::Dataset coloured_bench(const NoiseColour& colour) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   const double keep = std::exp(-2. * std::numbers::pi * colour.corner_hz / 500.);
-  // AR(1): its density at rest over the white one's is the excess.
+  // AR(1): its density at zero frequency relative to the white density is the excess.
   const double slow = std::sqrt(colour.excess) * (1. - keep);
   signals::Record record(500., n);
   std::vector<double> moment(n), acceleration(n);
@@ -99,8 +99,8 @@ TEST(ChannelColours, EachChannelHasItsOwn) {
   EXPECT_EQ(colours.acceleration.excess, 0.);
 }
 
-/// One record of noisy motion and of the moment that a mode (30 Hz, zeta 0.05) makes of it, in
-/// noise of ten times the deviation between 60 and 80 Hz.
+/// One record of noisy motion and the moment of a mode (30 Hz, zeta 0.05), with noise of ten times
+/// the standard deviation between 60 and 80 Hz.
 signals::Dataset moving_bench(const std::size_t n) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;

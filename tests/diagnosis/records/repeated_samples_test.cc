@@ -17,8 +17,8 @@ double tone(double t_s) {
          0.4 * std::cos(2. * std::numbers::pi * 88. * t_s);
 }
 
-/// x polled at 500 Hz from a source at 400 Hz whose first sample is age_s old.
-std::vector<double> polled(const std::function<double(double)>& x, std::size_t n, double age_s) {
+/// x read at 500 Hz from a source at 400 Hz whose first sample is age_s old.
+std::vector<double> repeated(const std::function<double(double)>& x, std::size_t n, double age_s) {
   std::vector<double> out;
   for (std::size_t k = 0; k < n; ++k) {
     const double index = std::floor(static_cast<double>(k) * 400. / 500. + 1e-9);
@@ -28,8 +28,8 @@ std::vector<double> polled(const std::function<double(double)>& x, std::size_t n
 }
 
 TEST(RenewedSeries, IsTheSourceAtTheTimesOfThePolls) {
-  const std::vector<double> x = polled(tone, 2500, 0.), renewed = new_sample_series(x);
-  ASSERT_EQ(renewed.size(), x.size());
+  const std::vector<double> x = repeated(tone, 2500, 0.), source = new_sample_series(x);
+  ASSERT_EQ(source.size(), x.size());
   EXPECT_NEAR(repeat_share(x), 0.2, 0.01);
   EXPECT_TRUE(is_held(x));
   // A run begins up to one sample after its value: the fit lies between.
@@ -37,7 +37,7 @@ TEST(RenewedSeries, IsTheSourceAtTheTimesOfThePolls) {
   for (double late_s = 0.; late_s < 2.5e-3; late_s += 5e-5) {
     double error = 0.;
     for (std::size_t i = 200; i + 200 < x.size(); ++i)
-      error += std::pow(renewed[i] - tone(static_cast<double>(i) / 500. - late_s), 2);
+      error += std::pow(source[i] - tone(static_cast<double>(i) / 500. - late_s), 2);
     best = std::min(best, error);
   }
   for (std::size_t i = 200; i + 200 < x.size(); ++i)
@@ -46,9 +46,10 @@ TEST(RenewedSeries, IsTheSourceAtTheTimesOfThePolls) {
 }
 
 TEST(UnknownAge, IsWhatTheRepeatsLeaveOpen) {
-  // Four periods of the source are five samples: which of them repeat tells a fifth of its period.
-  EXPECT_NEAR(unknown_age(polled(tone, 2500, 0.)), 1.25 / 5., 1e-3);
-  // Slowly every place of the period is seen.
+  // Four periods of the source are five samples, so the repeats determine the age to a fifth of its
+  // period.
+  EXPECT_NEAR(unknown_age(repeated(tone, 2500, 0.)), 1.25 / 5., 1e-3);
+  // Over time all positions in the period occur.
   std::vector<double> slipping;
   for (std::size_t k = 0; k < 2500; ++k)
     slipping.push_back(tone(std::floor(0.8037 * static_cast<double>(k)) / 401.85));

@@ -67,11 +67,11 @@ TEST(ResonanceGap, FirstNamesASofterSiliconeAndAnExperiment) {
 TEST(ResonanceGap, NoMountOfAUsualFrequencyReachesTheReferenceStudysGap) {
   const ResonanceDiagnosis gap = paper();
   const ResonanceExplanation& mount = find(gap, "mount_compliance");
-  // b^2 = q (1 + m / (1 - q)) at the heaviest first mode, m = 0.4.
+  // b^2 = q (1 + m / (1 - q)) with the largest mass ratio, m = 0.4.
   const double q = std::pow(31.47 / 37.32, 2);
   EXPECT_NEAR(value(mount, "frequency"), 37.32 * std::sqrt(q * (1. + 0.4 / (1. - q))), 1e-6);
   EXPECT_LT(value(mount, "frequency"), 60.);
-  EXPECT_THAT(mount.note, HasSubstr("frequency outside its usual 60 .. 200"));
+  EXPECT_THAT(mount.note, HasSubstr("frequency outside its usual range 60 .. 200"));
 }
 
 TEST(ResonanceGap, SaysWhichDamperIsLeft) {
@@ -91,7 +91,7 @@ TEST(ResonanceGap, SpringsInSeriesAgreeWithTheFiniteElementModel) {
               std::pow(31.87775167482111 / 37.37132216881865, 2), 1e-3);
   EXPECT_NEAR(squared_frequency_ratio({.joint = 0.358}, share),
               std::pow(26.38419326294731 / 37.37132216881865, 2), 1e-3);
-  // Another measured frequency of that model tells the modulus that was put in.
+  // Another measured frequency of that model recovers the modulus used.
   const ResonanceDiagnosis gap =
       explain_resonance_gap({.frequency_hz = 37.37132216881865},
                             {.frequency_hz = 31.87775167482111}, {.joint_share = share});
@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(Mounts, MountTest,
                          testing::Values(std::array{1.3, 0.4}, std::array{2., 0.1},
                                          std::array{4., 0.3}, std::array{0.8, 0.2}));
 
-/// The mode that an explanation's values make.
+/// The mode changed by an explanation's values.
 std::optional<ModeChange> mode_of(const ResonanceExplanation& explanation,
                                   const std::vector<ResonanceEffect>& known) {
   ModeChange change;

@@ -31,7 +31,7 @@ TEST(ResonanceGapText, SaysWhatEachEffectTakesAndWhatToMeasure) {
   EXPECT_THAT(text, HasSubstr("mass: ratio 1.41, outside 0.7 .. 1.4; damping x 0.64"));
   EXPECT_THAT(text, HasSubstr("base_compliance: stiffness_ratio 2.46"));
   EXPECT_THAT(text, HasSubstr("mount_compliance"));
-  EXPECT_THAT(text, HasSubstr("Cannot bring it there alone: "));
+  EXPECT_THAT(text, HasSubstr("Cannot explain the change alone: "));
   EXPECT_THAT(text, HasSubstr("Measure next: "));
 }
 

@@ -47,7 +47,7 @@ TEST(Calibration, WhatIsLeftBelongsInPartToWhatIsUnknown) {
     EXPECT_GE(unknown_share(kind), 0.);
     EXPECT_LT(unknown_share(kind), 1.);
   }
-  // An answer of no known effect has said so.
+  // outside_catalogue already is such an answer.
   EXPECT_EQ(unknown_share(AnswerKind::outside), 0.);
 }
 

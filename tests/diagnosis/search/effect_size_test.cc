@@ -10,9 +10,9 @@ using testing::ElementsAre;
 TEST(EffectSize, FindsTheParametersThatMakeAnEffectVanish) {
   EXPECT_THAT(size_parameters(find_effect("delay")), ElementsAre(0u));
   EXPECT_THAT(size_parameters(find_effect("joint_friction")), ElementsAre(0u));
-  // Frequency and damping of a mode without residue are nothing.
+  // Frequency and damping of a mode without residue have no influence.
   EXPECT_THAT(size_parameters(find_effect("extra_mode")), ElementsAre(2u));
-  // Either part alone leaves the other.
+  // Each part alone leaves the other one.
   EXPECT_THAT(size_parameters(find_effect("sensor_nonlinearity")), ElementsAre(0u, 1u));
   EXPECT_THAT(size_parameters(find_effect("cross_axis")), ElementsAre(0u, 1u));
 }

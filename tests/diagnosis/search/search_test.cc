@@ -44,8 +44,8 @@ TEST(Search, NamesACalibrationThatIsFarOff) {
 }
 
 TEST(Search, PrefersASmallCalibrationToWhatImitatesIt) {
-  // 0.15 %. On a softer base, a little heavier or with play the sensor does
-  // nearly the same: none of that is to be likelier for the range it has.
+  // 0.15 %. A compliant base, more mass or backlash have nearly the same influence; none of them
+  // may be more probable because of its prior range.
   test::OneModeRig rig = test::noisy_rig();
   rig.moment_noise *= 10.;
   rig.stiffness = 0.9985;
@@ -60,7 +60,7 @@ TEST(Search, PrefersASmallCalibrationToWhatImitatesIt) {
 }
 
 TEST(Search, FindsAWeakNarrowModeWhereverItLies) {
-  // A thirtieth as strong as any start of a fit, at ten times its detection limit all the same.
+  // A thirtieth of the weakest start of a fit, but still ten times its detection limit.
   for (const double hz : {57., 71.5, 96.}) {
     test::OneModeRig rig = test::noisy_rig();
     rig.extra_hz = hz;
@@ -75,7 +75,7 @@ TEST(Search, FindsAWeakNarrowModeWhereverItLies) {
 }
 
 TEST(Search, AnAnswerThatLeavesMoreThanNoiseIsNone) {
-  // Other joints come near a hard spring, but not down to the noise.
+  // Other joint effects approximate a hardening spring, but not down to the noise.
   test::OneModeRig rig = test::noisy_rig();
   rig.cubic = 1e7;
   const SearchResult result = search(experiment_of(rig), {.left_out = {"hardening"}});

@@ -9,7 +9,7 @@ namespace {
 
 using signals::Split;
 
-/// A fit of one rig's records, and what it leaves of another's held-out record.
+/// A fit of one rig's records, and its residual in another rig's held-out record.
 ResidualExcess left_of(const test::OneModeRig& held_out_rig, const test::OneModeRig& rig,
                        const std::vector<const Effect*>& effects) {
   const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
@@ -45,7 +45,7 @@ TEST(ResidualExcess, ContradictsNothingThatIsTooLittleOrMayBeChance) {
   EXPECT_FALSE(contradicted_by({.excess = 2., .n_deviations = 50., .share_of_gap = 0.02}));
 }
 
-/// Two known answers of fits of their own, and outside_catalogue.
+/// Two known answers with separate fits, and outside_catalogue.
 SearchResult result_of(const Experiment& experiment, double behind_nats) {
   SearchResult result;
   result.fits.push_back(fit_hypothesis(experiment, Hypothesis{}));

@@ -44,7 +44,7 @@ TEST(HeldOut, FloorIsTheErrorOfTheTrueModel) {
   // By the noise of the accelerometer, then of the moment.
   for (const test::OneModeRig& rig : {test::noisy_rig(), of_moment}) {
     const ErrorScore score = scored(rig, {}).score.overall;
-    // Each of 1400 samples is a sum of noise that remembers about five samples.
+    // Each of the 1400 samples is filtered noise with a memory of about five samples.
     EXPECT_NEAR(score.nrmse_after / score.noise_floor, 1., 0.1);
     EXPECT_NEAR(score.nrmse_before / score.noise_floor, 1., 0.1);
   }

@@ -9,7 +9,8 @@ namespace {
 
 using Sets = std::vector<std::vector<std::string>>;
 
-/// Sets of the first of the given hypotheses, with some calibrations named, among their fits.
+/// Indistinguishable sets of the first of the given hypotheses, with some calibration effects
+/// named.
 Sets sets_of(const test::OneModeRig& rig, const std::vector<std::string>& calibrations,
              const std::vector<Hypothesis>& hypotheses) {
   const Experiment experiment =

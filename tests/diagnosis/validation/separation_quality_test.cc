@@ -9,8 +9,8 @@ namespace {
 
 using test::OneModeRig;
 
-/// Records of a rig that hold the wind's moment: the rig is linear, so it is what the same wind
-/// does to a base at rest.
+/// Records of a rig with the true wind moment. The rig is linear, so this is its moment under the
+/// same wind with the base at rest.
 signals::Dataset told_truth(const OneModeRig& rig) {
   signals::Dataset out;
   const auto a = test::sines({12., 31.}, 8., 3);

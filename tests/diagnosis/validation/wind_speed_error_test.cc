@@ -18,9 +18,9 @@ TEST(WindSpeedErrorTest, FallsWhenTheDragIsUpdated) {
   const auto error = wind_speed_error(nominal, with({.id = "drag_error", .values = {1.44}}),
                                       test::rig_dataset(rig, {.wind = true}));
   ASSERT_TRUE(error);
-  // The wind of about 2 m/s seems a fifth faster than it is.
+  // The wind of about 2 m/s is overestimated by a fifth.
   EXPECT_NEAR(error->before_m_s, 0.2 * 2., 0.06);
-  // Gusts at the resonance are ten times too strong; the average leaves some of that.
+  // Gusts at the resonance are amplified ten times; the average removes most of that.
   EXPECT_LT(error->after_m_s, 0.25 * error->before_m_s);
 }
 

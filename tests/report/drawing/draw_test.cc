@@ -33,7 +33,7 @@ bool can_draw() {
   return (display && *display) || !find_program("xvfb-run").empty();
 }
 
-/// Draws through a child, as programs do, since VTK aborts where something is wrong.
+/// Draws in a child process, like the program, because VTK aborts on errors.
 class Draw : public ::testing::Test {
  protected:
   void SetUp() override {

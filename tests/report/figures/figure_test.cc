@@ -90,7 +90,7 @@ TEST(Figure, RefusesANameThatIsNoFileName) {
   const TemporaryFolder folder;
   for (const std::string name : {"", "../a", "a b", ".a", "a.scene"})
     EXPECT_THAT([&] { write_figure(folder.path(), with([&](Figure& f) { f.name = name; })); },
-                ThrowsMessage<UserError>(HasSubstr("no plain file name")))
+                ThrowsMessage<UserError>(HasSubstr("not a plain file name")))
         << name;
   EXPECT_EQ(folder.n_entries(), 0u);
 }
@@ -148,7 +148,7 @@ TEST(Figure, NamesFileAndEntryWhenAFileIsWrong) {
   };
   EXPECT_THAT(message_for([&](auto& j) { curve(j)["style"] = "dahsed"; }),
               AllOf(HasSubstr("wrong.json"), HasSubstr("dashed"), HasSubstr("band")));
-  EXPECT_THAT(message_for([&](auto& j) { curve(j)["y"][1] = "2"; }), HasSubstr("no number"));
+  EXPECT_THAT(message_for([&](auto& j) { curve(j)["y"][1] = "2"; }), HasSubstr("not a number"));
   EXPECT_THAT(message_for([&](auto& j) { curve(j)["x"] = 3; }), HasSubstr("'x'"));
   EXPECT_THAT(message_for([&](auto& j) { curve(j)["colour"] = -1; }), HasSubstr("'colour'"));
   EXPECT_THAT(message_for([&](auto& j) { j.erase("panels"); }), HasSubstr("'panels' is missing"));

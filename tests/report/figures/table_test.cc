@@ -35,7 +35,7 @@ TEST(Table, MarkdownRoundsAlignsAndEscapes) {
   EXPECT_EQ(modes().to_markdown(),
             "| mode | frequency [Hz] | kind |\n"
             "|---:|---:|---|\n"
-            "| 1 | 37.30 | bending, x |\n"
+            "| 1 | 37.3 | bending, x |\n"
             "| 2 | 147.1 | torsion |\n"
             "| 3 | - | a\\|b |\n");
 }
@@ -44,7 +44,7 @@ TEST(Table, TextHasAlignedColumnsAndNoTrailingBlanks) {
   EXPECT_EQ(modes().to_text(),
             "mode  frequency [Hz]  kind\n"
             "----  --------------  ----------\n"
-            "   1           37.30  bending, x\n"
+            "   1            37.3  bending, x\n"
             "   2           147.1  torsion\n"
             "   3               -  a|b\n");
 }

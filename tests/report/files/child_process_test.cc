@@ -62,7 +62,7 @@ TEST(RunChild, CollectsMoreThanAPipeHolds) {
 }
 
 TEST(RunChild, GivesTheChildNothingToRead) {
-  // Our own input is, for a moment, one from which nothing ever comes.
+  // The test's standard input is temporarily one that never delivers data.
   int silent[2];
   ASSERT_EQ(::pipe2(silent, O_CLOEXEC), 0);
   const int input = ::dup(STDIN_FILENO);

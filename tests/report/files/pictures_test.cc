@@ -92,7 +92,7 @@ TEST_F(DrawPictures, SurvivesADisplayThatCannotBeOpened) {
   hide_xvfb_run();
   const PictureReport report = draw();
   EXPECT_THAT(report.made, IsEmpty());
-  EXPECT_THAT(report.message, AllOf(HasSubstr("figures are CSV only"), HasSubstr("on the display"),
+  EXPECT_THAT(report.message, AllOf(HasSubstr("available as CSV only"), HasSubstr("on the display"),
                                     HasSubstr("signal 6"), Not(HasSubstr("\n"))));
   EXPECT_THAT(report.chatter, HasSubstr("DISPLAY=:987")) << "what VTK said";
 }
@@ -152,9 +152,9 @@ TEST_F(DrawPicturesByXvfb, DrawsTheRestWhenOneIsBroken) {
   const PictureReport report = draw();
   EXPECT_EQ(report.made.size(), 4u) << report.chatter;
   EXPECT_THAT(report.problems,
-              ElementsAre(HasSubstr("takes the name b.png"),
+              ElementsAre(HasSubstr("the same picture name b.png"),
                           AllOf(HasSubstr("broken.json"), HasSubstr("'panels' is missing")),
-                          HasSubstr("none.vtu: there is no such file")));
+                          HasSubstr("none.vtu: the file does not exist")));
   EXPECT_THAT(report.message, AllOf(HasSubstr("4 pictures drawn"), HasSubstr("broken.json"),
                                     Not(HasSubstr("failure"))));
   EXPECT_FALSE(exists("broken.png"));

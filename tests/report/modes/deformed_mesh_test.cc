@@ -143,9 +143,9 @@ TEST_F(DeformedMeshFile, RefusesValuesThatAreNotFinite) {
 }
 
 TEST_F(DeformedMeshFile, RefusesFilesThatAreNoMesh) {
-  EXPECT_THAT([&] { read_deformed_mesh(file_, picture_); }, refusal("no such file"));
+  EXPECT_THAT([&] { read_deformed_mesh(file_, picture_); }, refusal("does not exist"));
   folder_.file("mesh.vtu", "some text");
-  EXPECT_THAT([&] { read_deformed_mesh(file_, picture_); }, refusal("no VTK file"));
+  EXPECT_THAT([&] { read_deformed_mesh(file_, picture_); }, refusal("not a VTK file"));
   grid_ = testing::column_mesh(0, width, height, bending);
   EXPECT_THAT([&] { read(); }, refusal("no cells"));
 }

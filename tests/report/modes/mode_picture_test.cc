@@ -46,7 +46,7 @@ TEST(ModePicture, RefusesWhatCannotBeDrawn) {
     return [&folder, picture] { write_mode_picture(folder.path(), picture); };
   };
   EXPECT_THAT(write([](auto& p) { p.name = "a/b"; }),
-              ThrowsMessage<UserError>(HasSubstr("no plain file name")));
+              ThrowsMessage<UserError>(HasSubstr("not a plain file name")));
   for (const std::string vtu : {"", "/etc/x.vtu", "../x.vtu", "a/../../x.vtu"})
     EXPECT_THAT(write([&](auto& p) { p.vtu = vtu; }),
                 ThrowsMessage<UserError>(HasSubstr("inside the run folder")))

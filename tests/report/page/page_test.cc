@@ -69,7 +69,7 @@ TEST_F(ReportPage, NoTextOfAFileBecomesMarkup) {
   // Title twice, verdict, headings, table, command line: as text, unchanged otherwise.
   EXPECT_GT(count(markup, "&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;"), 6u);
   EXPECT_GT(count(markup, "{{style}}"), 6u) << "what is filled in is not filled in again";
-  // The page's own: data, dygraphs, three.js with its controls, two of ours.
+  // Scripts of the page: data, dygraphs, three.js with its controls, and two of this project.
   EXPECT_EQ(count(html_, "</script>"), 6u);
 }
 
@@ -101,7 +101,8 @@ TEST_F(ReportPage, EveryFigureHasATitleACaptionNumbersAndItsCsv) {
   const std::string markup = markup_of(html_);
   EXPECT_EQ(count(markup, "<figure"), 5u);
   EXPECT_EQ(count(markup, "<figcaption>"), 5u);
-  EXPECT_EQ(count(markup, "<details><summary>In "), 5u);
+  EXPECT_EQ(count(markup, "<details><summary>Ranges of the curves"), 4u);
+  EXPECT_EQ(count(markup, "<details><summary>List of the shapes"), 1u);
   EXPECT_EQ(count(markup, "data-save=\"figures\""), 4u);
   EXPECT_EQ(count(markup, "data-save=\"views\""), 1u);
   EXPECT_EQ(count(markup, "data-save=\"tables\""), 1u);

@@ -72,7 +72,7 @@ TEST(DrawCase, IsTheSameForTheSameSeed) {
 }
 
 TEST(DrawCase, TakesEachEffectOutOfTheCatalogueInTurn) {
-  // Two questions of twenty; what a bench cannot show gives way to the next.
+  // Two cases of twenty; an effect that is not detectable on a bench is replaced by the next one.
   std::vector<std::string> left_out;
   for (const std::size_t number : {6u, 15u, 26u, 35u, 46u}) {
     const TrialCase drawn = draw_case(3, number);
@@ -81,7 +81,7 @@ TEST(DrawCase, TakesEachEffectOutOfTheCatalogueInTurn) {
     EXPECT_EQ(drawn.left_out.front(), drawn.effects.front().id);
     left_out.push_back(drawn.left_out.front());
   }
-  // In the order of the catalogue, but for those that have an exact alias.
+  // In the order of the catalogue, without effects that have an exact alias.
   EXPECT_THAT(left_out, testing::ElementsAre("hardening", "viscoelastic", "softening_history",
                                              "temperature_drift", "joint_friction"));
 }

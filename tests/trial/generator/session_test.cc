@@ -9,8 +9,8 @@ namespace vibrissa::trial {
 namespace {
 
 TEST(Session, TheAirFeelsHowTheBaseMoves) {
-  // Far below its resonance the whisker moves with the base: in a steady wind u, of which a share
-  // of this velocity v is felt, the moment changes by -2 share u v times that of u^2.
+  // Far below its resonance the whisker moves with the base. In a steady wind u, with a share of
+  // this velocity v in the relative wind, the moment changes by -2 share u v times that of u^2.
   constexpr double u = 3., share = 0.2;
   const Session session{.takes = {{.name = "slow",
                                    .base_rms = 2.,

@@ -11,7 +11,7 @@
 namespace vibrissa::trial {
 namespace {
 
-/// All text of the room that must not know them.
+/// All text of the room that must not contain these ids.
 std::string text_of_diagnosis() {
   std::ostringstream out;
   const std::filesystem::path room = std::filesystem::path(VIBRISSA_SOURCE_DIR) / "diagnosis";

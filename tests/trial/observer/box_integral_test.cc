@@ -52,7 +52,7 @@ TEST(BoxIntegral, OfTwoSidesInOneIsNear) {
 }
 
 TEST(BoxIntegral, StripOfTwoThatAreAlikeIsNotCountedTwice) {
-  // The first changes a tenth of what the second does, in the same direction.
+  // The first has a tenth of the influence of the second, in the same direction.
   const BoxNormal<2> f{.value = -1250.,
                        .slope = {10. * 50., 100. * 50.},
                        .curvature = {{{100., 1000.}, {1000., 10000.}}}};

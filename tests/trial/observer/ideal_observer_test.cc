@@ -44,8 +44,8 @@ double normal_cdf(double x) {
 }
 
 TEST(IdealObserver, ErrsAsOftenAsDetectionTheorySays) {
-  // None or one effect of known size, d deviations away, asked 2 and 9 times: the answer changes
-  // where y = d/2 + ln(2/9)/d (Van Trees 1968, section 2.2).
+  // None or one effect of known size, d standard deviations away, with relative frequencies 2 and
+  // 9: the answer changes at y = d/2 + ln(2/9)/d (Van Trees 1968, section 2.2).
   constexpr double d = 3.;
   const IdealObserver observer(
       {straight("sample_repeat", {static_cast<float>(d / std::numbers::sqrt2)}, {1.})}, unit_noise,
@@ -94,7 +94,7 @@ TEST(IdealObserver, TellsApartWhatIsLargeAndUnlike) {
 }
 
 TEST(IdealObserver, IsRightAsOftenAsItSays) {
-  // As often as each is asked, of effects that look partly alike and go either way.
+  // Calibration with the true relative frequencies, for partly similar effects of either sign.
   const std::vector<double> sizes{0.005, 0.02, 0.1, 0.4};
   const IdealObserver observer(
       {straight("stiffness", {100.f, 30.f}, sizes), straight("mass", {90.f, 60.f, 10.f}, sizes),

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double k = 0.07, step_s = 1. / 8000.;
 
-/// Work over one cycle of the given height, after two cycles of settling.
+/// Work over one cycle of the given amplitude, after two cycles of settling.
 double work_of_a_cycle(const JointWorld& world, double height, double hz) {
   Joint joint(world, k, step_s);
   const double w = 2. * std::numbers::pi * hz;
@@ -42,7 +42,7 @@ TEST(TrialJoint, FrictionLosesFourTimesSlipMomentTimesHeightWhenItSlips) {
   const JointWorld world{.friction_moment = 1e-5, .friction_stiffness = 0.5};
   const double height = 0.05;
   EXPECT_NEAR(work_of_a_cycle(world, height, 5.) / (4. * 1e-5 * height), 1., 0.05);
-  // Far below the slip it hardly loses anything.
+  // Far below the slip moment there is hardly any loss.
   EXPECT_LT(work_of_a_cycle(world, 1e-5, 5.) / (k * 1e-10), 0.02);
 }
 

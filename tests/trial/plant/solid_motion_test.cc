@@ -15,7 +15,7 @@ namespace {
 
 constexpr double duration_s = 0.3, from_s = 0.15;
 
-/// Of a stage that shakes at two frequencies around the resonance, with a rise of its own.
+/// Motion of a stage with two frequencies around the resonance and a smooth start.
 double stage(double t) {
   const double rise = 0.5 * (1. - std::cos(std::numbers::pi * std::min(1., t / 0.1)));
   return rise * (2. * std::sin(2. * std::numbers::pi * 20. * t) +
