@@ -57,7 +57,7 @@ std::string nearest_name(const std::string& given, const std::vector<std::string
 std::string unknown_name(const std::string& kind, const std::string& given,
                          const std::vector<std::string>& known) {
   std::string text = "unknown " + kind + " '" + given + "'";
-  if (known.empty()) return text + "; there is none";
+  if (known.empty()) return text + "; the list of known names is empty";
   const std::string nearest = nearest_name(given, known);
   text += nearest.empty() ? "." : "; did you mean '" + nearest + "'?";
   text += " Known: ";

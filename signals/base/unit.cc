@@ -25,7 +25,9 @@ ut_system* unit_system() {
   static const std::unique_ptr<ut_system, Free> system = [] {
     ut_set_error_message_handler(ut_ignore);
     std::unique_ptr<ut_system, Free> read(ut_read_xml(nullptr));
-    if (!read) throw std::runtime_error("the units of UDUNITS-2 (libudunits2-data) are not there");
+    if (!read)
+      throw std::runtime_error(
+          "the unit tables of UDUNITS-2 are missing; install the package libudunits2-data");
     return read;
   }();
   return system.get();
@@ -95,7 +97,9 @@ UnitConversion convert_unit(const std::string& from, const std::string& to) {
                     "' is not known; write it as in m/s2, g, mN mm, uT, V, km/h or N m/T");
   auto found = converter(plain, target);
   if (!found) found = converter(parse(replaced(from, gravity_words())), target);
-  if (!found) throw UnitError("'" + from + "' does not measure what '" + to + "' measures");
+  if (!found)
+    throw UnitError("'" + from + "' cannot be converted to '" + to +
+                    "': the units measure different quantities");
   const double offset = cv_convert_double(found.get(), 0.);
   return {cv_convert_double(found.get(), 1.) - offset, offset};
 }

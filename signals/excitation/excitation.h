@@ -74,9 +74,9 @@ struct DesignedExcitation {
 };
 
 /// Every realisation of a multisine has the same lines and, peak being given, its own amplitude;
-/// the levels are exact multiples of each other. Throws UserError when the design contradicted_by
-/// itself (which entry and what to do) and what grid_lines and the drives' makers throw.
-/// Proven by tests/signals/excitation/excitation_test.cc.
+/// the levels are exact multiples of each other. Throws UserError when the design contradicts
+/// itself (which entry and what to do) and what grid_lines and the drives' makers throw. Proven by
+/// tests/signals/excitation/excitation_test.cc.
 DesignedExcitation design_excitation(const ExcitationDesign& design);
 
 /// "multisine", "sweep", "noise"; "schroeder", "random", "optimised"; "linear", "logarithmic".

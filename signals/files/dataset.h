@@ -52,9 +52,9 @@ struct Dataset {
 /// each record held out. dataset.json may say, for all records or for one, "columns":
 /// {"base_acceleration": "ax[g]"} and "remove_mean": ["base_acceleration"]; where it does not, the
 /// options given here hold. Throws UserError with file and entry for: nothing there, no records, a
-/// wrong schema or entry (lists the known words), a rate that contradicted_by time_s, a period
-/// longer than its record, a record without a base moment, and whatever read_record refuses. Proven
-/// by tests/signals/files/dataset_test.cc.
+/// wrong schema or entry (lists the known words), a rate that contradicts time_s, a period longer
+/// than its record, a record without a base moment, and whatever read_record refuses. Proven by
+/// tests/signals/files/dataset_test.cc.
 Dataset read_dataset(const std::filesystem::path& source, const ReadOptions& options = {});
 
 }  // namespace vibrissa::signals

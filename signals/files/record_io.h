@@ -21,15 +21,15 @@ struct ReadOptions {
 };
 
 /// Reads a record: CSV, or by the end of its name MATLAB, HDF5, NumPy, Universal File type 58, WAV
-/// (formats/file_format.h). Without a choice of columns it takes all that are known channels or
-/// end in a unit (hall_mT) under their own names and leaves others, such as text, unread. A rate
-/// that is given beside a column of time must agree to 0.1 % and is then the one taken; without
-/// time the first row of the file is at 0 s. Only the chosen rows are checked. Proven by
+/// (formats/file_format.h). Without a choice of columns it takes all that are known channels or end
+/// in a unit (hall_mT) under their own names and leaves others, such as text, unread. A rate that
+/// is given beside a column of time must agree to 0.1 % and is then the one taken; without time the
+/// first row of the file is at 0 s. Only the chosen rows are checked. Proven by
 /// tests/signals/files/record_io_test.cc, csv_file_test.cc and time_axis_test.cc. Throws UserError
 /// with file, line and column for: a missing file or column, text that is no number, NaN or
 /// infinity, a gap in time, time that runs backward, a repeated column name, rows of unequal
-/// length, fewer than 64 samples, a rate that contradicted_by time_s, a channel without mean that
-/// is not there.
+/// length, fewer than 64 samples, a rate that contradicts time_s, a channel without mean that is
+/// not there.
 Record read_record(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Writes the record by the end of the file's name: .mat (MATLAB 5), .h5 or .hdf5, .npy, .uff, .unv

@@ -60,7 +60,7 @@ Handle open_file(const std::string& image) {
   const Handle access = in_memory();
   // The library copies the image, though it asks for one that it could change.
   require(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()),
-          "take over a file");
+          "open a file in memory");
   return {H5Fopen("in memory", H5F_ACC_RDONLY, access), H5Fclose, "read it: the file is damaged"};
 }
 
@@ -125,10 +125,10 @@ void Hdf5Writer::describe(const std::string& attribute, const std::string& text)
 std::string Hdf5Writer::image() {
   require(H5Fflush(file_->handle, H5F_SCOPE_GLOBAL), "finish a file");
   const ssize_t size = H5Fget_file_image(file_->handle, nullptr, 0);
-  if (size <= 0) throw std::runtime_error("HDF5 cannot give a file's image");
+  if (size <= 0) throw std::runtime_error("HDF5 cannot copy the bytes of a file");
   std::string image(static_cast<std::size_t>(size), '\0');
   if (H5Fget_file_image(file_->handle, image.data(), image.size()) != size)
-    throw std::runtime_error("HDF5 cannot give a file's image");
+    throw std::runtime_error("HDF5 cannot copy the bytes of a file");
   return image;
 }
 
@@ -207,7 +207,7 @@ void check_stored(const hid_t set, const std::size_t number_size, const std::siz
                   const std::string& path) {
   constexpr std::size_t most_unwritten = 1u << 20, longest_number = 16;
   if (number_size == 0 || number_size > longest_number)
-    throw std::runtime_error("'" + path + "' claims numbers of " + std::to_string(number_size) +
+    throw std::runtime_error("'" + path + "' declares numbers of " + std::to_string(number_size) +
                              " bytes");
   const std::size_t stored = H5Dget_storage_size(set);
   const Handle list(H5Dget_create_plist(set), H5Pclose, "read the layout of '" + path + "'");
@@ -219,8 +219,8 @@ void check_stored(const hid_t set, const std::size_t number_size, const std::siz
   const bool is_cut = layout != H5D_CHUNKED && is_written && stored / number_size < n;
   const bool is_hollow = claimed > most_unwritten && claimed / most_swollen > stored / number_size;
   if (is_cut || is_hollow)
-    throw std::runtime_error("'" + path + "' claims " + std::to_string(claimed) + " numbers in " +
-                             std::to_string(stored) + " bytes");
+    throw std::runtime_error("'" + path + "' declares " + std::to_string(claimed) +
+                             " numbers, but has only " + std::to_string(stored) + " bytes");
 }
 
 }  // namespace

@@ -122,9 +122,9 @@ void check_claims(mat_t* const file, const std::size_t n_bytes, const std::strin
   while (const Variable variable{Mat_VarReadNextInfo(file)}) {
     const std::size_t n = claimed(*variable);
     if (n > left)
-      throw UserError(name + ": variable '" + (variable->name ? variable->name : "") + "' claims " +
-                      std::to_string(n) + " numbers; at most " + std::to_string(most) +
-                      " are read of a file of this size");
+      throw UserError(name + ": variable '" + (variable->name ? variable->name : "") +
+                      "' declares " + std::to_string(n) + " numbers; at most " +
+                      std::to_string(most) + " are read from a file of this size");
     left -= n;
   }
 }
@@ -135,7 +135,9 @@ class ScratchFile {
   ScratchFile() {
     std::string name = (std::filesystem::temp_directory_path() / "vibrissa-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
-      throw UserError(name + ": no folder for unfinished files can be made");
+      throw UserError(
+          name +
+          ": this temporary folder cannot be created; set TMPDIR to a folder that can be written");
     folder_ = name;
   }
   ~ScratchFile() {
@@ -177,7 +179,7 @@ void check_is_whole(const std::string& bytes, const std::string& name) {
   while (at + tag <= bytes.size())
     at += tag + number_at<std::uint32_t>(&bytes[at + 4], header->order);
   if (at != bytes.size())
-    throw UserError(name + ": is damaged: its variables do not end where the file does");
+    throw UserError(name + ": is damaged: its last variable does not end at the end of the file");
 }
 
 // matio asks for what the headers of a version 4 file claim before it sees that the file is
@@ -287,8 +289,8 @@ void write_aside(const std::filesystem::path& file, const bool is_v5,
   // On a full disk matio may also leave out values and close the file as if there were no more.
   if (bytes.size() < least_bytes)
     throw UserError(scratch.name() + ": only " + std::to_string(bytes.size()) +
-                    " bytes of a MATLAB file could be written; make room, or name a roomier folder "
-                    "in TMPDIR");
+                    " bytes of a MATLAB file could be written; free disk space, or set TMPDIR to a "
+                    "folder with more space");
   write_bytes(file, bytes);
 }
 

@@ -69,17 +69,20 @@ using SoundFile = std::unique_ptr<SNDFILE, Closer>;
 
 void check_drive(const std::filesystem::path& file, const WavDrive& drive) {
   const std::string start = file.string() + ": ";
-  if (drive.samples.empty()) throw UserError(start + "a sound file needs a sample at least");
+  if (drive.samples.empty()) throw UserError(start + "a sound file needs at least one sample");
   const double rate = drive.sampling_rate_hz;
   if (!(rate >= 1. && rate <= 1e7) || rate != std::floor(rate))
-    throw UserError(start + "a sound file has a whole number of hertz as sampling rate, not " +
-                    to_text(rate) + "; choose such a rate");
+    throw UserError(start +
+                    "the sampling rate of a sound file must be a whole number of hertz, not " +
+                    to_text(rate));
   if (!(drive.full_scale > 0.) || !std::isfinite(drive.full_scale))
-    throw UserError(start + "full scale " + to_text(drive.full_scale) + " is not positive");
+    throw UserError(start + "full scale " + to_text(drive.full_scale) +
+                    " must be positive and finite");
   for (std::size_t i = 0; i < drive.samples.size(); ++i)
     if (!(std::abs(drive.samples[i]) <= drive.full_scale * (1. + 1e-12)))
-      throw UserError(start + "sample " + std::to_string(i) + ", " + to_text(drive.samples[i]) +
-                      ", is beyond the full scale of " + to_text(drive.full_scale));
+      throw UserError(start + "sample " + std::to_string(i) + " (" + to_text(drive.samples[i]) +
+                      ") exceeds the full scale of " + to_text(drive.full_scale) +
+                      "; raise the full scale");
 }
 
 std::string scale_text(const WavDrive& drive) {
@@ -154,8 +157,8 @@ void check_chunks(const std::string& bytes, std::size_t position, std::size_t en
     if (size > end - first) {
       if (kind == "data") return;
       throw UserError(name + ": is damaged: the chunk at byte " + std::to_string(position) +
-                      " states " + std::to_string(size) + " bytes, " + std::to_string(end - first) +
-                      " are left");
+                      " declares " + std::to_string(size) + " bytes, but only " +
+                      std::to_string(end - first) + " are left");
     }
     if (kind == "LIST" && size >= list_type)
       check_chunks(bytes, first + list_type, first + size, name);
@@ -173,7 +176,7 @@ void write_wav(const std::filesystem::path& file, const WavDrive& drive) {
 WavContent parse_wav(std::string bytes, const std::string& name) {
   // libsndfile knows many containers; only this one is promised and tested.
   if (bytes.size() < 12 || bytes.compare(0, 4, "RIFF") != 0 || bytes.compare(8, 4, "WAVE") != 0)
-    throw UserError(name + ": is no WAV file (does not begin with RIFF .. WAVE)");
+    throw UserError(name + ": is not a WAV file (it does not begin with RIFF .. WAVE)");
   check_chunks(bytes, 12, bytes.size(), name);
   // libsndfile 1.2 can search for ever in lists of a kind that it does not know, too.
   rehearse(name, bytes.size(), [&] {
@@ -188,12 +191,13 @@ WavContent parse_wav(std::string bytes, const std::string& name) {
   constexpr int most_channels = 64;
   if (info.channels < 1 || info.channels > most_channels || info.samplerate < 1)
     throw UserError(name + ": has " + std::to_string(info.channels) + " channels at " +
-                    std::to_string(info.samplerate) + " Hz; needs 1 to 64 and a positive rate");
+                    std::to_string(info.samplerate) +
+                    " Hz; 1 to 64 channels and a positive sampling rate are needed");
   WavContent content{
       .sampling_rate_hz = static_cast<double>(info.samplerate),
       .channels = read_channels(sound.get(), static_cast<std::size_t>(info.channels), name),
       .comment = {}};
-  if (content.channels.front().empty()) throw UserError(name + ": holds no sample");
+  if (content.channels.front().empty()) throw UserError(name + ": contains no samples");
   if (const char* comment = sf_get_string(sound.get(), SF_STR_COMMENT)) content.comment = comment;
   return content;
 }

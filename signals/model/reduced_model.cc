@@ -179,7 +179,8 @@ std::vector<WindSample> wind_samples(const ReducedModel& model, std::span<const 
   if (std::ranges::all_of(speed_m_s, [](double u) { return u == 0.; })) return {};
   if (model.wind.speed_m_s.empty())
     refuse(model,
-           "the wind blows, but the model has no wind load; compute one or leave the wind out");
+           "the input has wind, but the model has no wind load; compute the model with a wind "
+           "load, or leave the wind out");
   std::vector<WindSample> samples;
   samples.reserve(speed_m_s.size());
   for (const double u : speed_m_s) samples.push_back(locate(model.wind, u));
@@ -240,7 +241,8 @@ std::vector<std::complex<double>> base_response(const ReducedModel& model,
 
 double steady_wind_moment(const ReducedModel& model, double speed_m_s) {
   check(model);
-  if (model.wind.speed_m_s.empty()) refuse(model, "has no wind load, so no steady wind moment");
+  if (model.wind.speed_m_s.empty())
+    refuse(model, "has no wind load, so it has no steady wind moment");
   return wind_moment(model.wind, locate(model.wind, speed_m_s), model.moment_axis());
 }
 

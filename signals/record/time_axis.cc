@@ -34,14 +34,15 @@ std::string between(const PrintedTimes& times, const std::size_t i) {
 // Of lost or doubled samples: what stands in their place is for the user to say.
 std::string never_filled(const PrintedTimes& times) {
   return "; column '" + times.column +
-         "': samples are never filled in or left out, use the rows before or those after";
+         "': samples are never added or removed; use only the rows before this place or only the "
+         "rows after it";
 }
 
 void check_runs_forward(const PrintedTimes& times) {
   for (std::size_t i = 1; i < times.times_s.size(); ++i) {
     const double step = times.times_s[i] - times.times_s[i - 1];
     if (step > 0.) continue;
-    throw UserError(times.file + ": time " + (step < 0. ? "runs backward" : "stands still") +
+    throw UserError(times.file + ": time " + (step < 0. ? "decreases" : "does not increase") +
                     between(times, i) + never_filled(times));
   }
 }
@@ -93,8 +94,8 @@ std::string digits_advice(const PrintedTimes& times, const std::size_t i, const 
   const double last_digit_s = 2. * rounding_s(times, i);
   const double most_by_rounding_s = 1.01 * last_digit_s;
   if (std::abs(error_s) > most_by_rounding_s) return {};
-  return "; its last digit stands for " + difference_text(last_digit_s) +
-         " s, too coarse to tell: print time with more digits";
+  return "; its last digit is " + difference_text(last_digit_s) +
+         " s, which is too coarse: write the time with more digits";
 }
 
 void refuse_gap(const PrintedTimes& times, const double usual_step) {
@@ -105,9 +106,10 @@ void refuse_gap(const PrintedTimes& times, const double usual_step) {
   if (n_gaps == 0) return;
   const double step = t[first] - t[first - 1];
   const std::string more =
-      n_gaps == 1 ? "" : " (" + std::to_string(n_gaps - 1) + " more further on)";
+      n_gaps == 1 ? "" : " (" + std::to_string(n_gaps - 1) + " more gaps follow)";
   throw UserError(times.file + ": gap in time" + between(times, first) + ": " +
-                  to_text(std::round(step / usual_step)) + " samples where 1 was expected" + more +
+                  to_text(std::round(step / usual_step)) +
+                  " sampling intervals where 1 was expected" + more +
                   digits_advice(times, first, step - usual_step) + never_filled(times));
 }
 
@@ -117,7 +119,7 @@ void refuse_crowding(const PrintedTimes& times, const double usual_step) {
     const double step = t[i] - t[i - 1];
     if (step < 0.5 * usual_step)
       throw UserError(times.file + ": only " + difference_text(step) + " s" + between(times, i) +
-                      " where " + difference_text(usual_step) + " s were expected" +
+                      ", but " + difference_text(usual_step) + " s were expected" +
                       digits_advice(times, i, step - usual_step));
   }
 }
@@ -128,10 +130,11 @@ void refuse_crowding(const PrintedTimes& times, const double usual_step) {
       times.times_s[worst] - times.times_s[0] - static_cast<double>(worst) * period;
   const double percent = with_significant_digits(100. * std::abs(offset) / period, 2);
   throw UserError(times.file + ": time is not uniform: " + moment(times, worst) + " lies " +
-                  to_text(percent) + " % of a period off the even grid from first to last line" +
+                  to_text(percent) +
+                  " % of a period away from the uniform grid between the first and the last time" +
                   digits_advice(times, worst, offset) +
-                  "; if the samples were taken evenly and only their stamps are not, take the time "
-                  "column out and give --rate; else resample the recording");
+                  "; if the sampling is uniform and only the time stamps are not, remove the time "
+                  "column and give --rate; otherwise resample the recording");
 }
 
 double simplest_rate(const double period, const double relative_uncertainty) {

@@ -124,10 +124,10 @@ class Segments {
       : length_(checked_length(options)), hop_(length_ / 2), window_(hann(length_)), fft_(length_) {
     n_segments_ = n_samples < length_ ? 0 : 1 + (n_samples - length_) / hop_;
     if (n_segments_ < n_needed)
-      throw UserError("Welch: " + std::to_string(n_samples) + " samples hold " +
+      throw UserError("Welch: " + std::to_string(n_samples) + " samples contain " +
                       std::to_string(n_segments_) + " segments of " + std::to_string(length_) +
-                      ", at least " + std::to_string(n_needed) +
-                      " needed; take shorter segments or a longer record");
+                      " samples, but at least " + std::to_string(n_needed) +
+                      " segments are needed; take shorter segments or a longer record");
   }
 
   std::size_t n_segments() const { return n_segments_; }
@@ -159,7 +159,7 @@ class Segments {
   static std::size_t checked_length(const WelchOptions& options) {
     if (options.segment_samples < 8)
       throw UserError("Welch: segment_samples = " + std::to_string(options.segment_samples) +
-                      " is less than 8");
+                      " must be at least 8");
     return options.segment_samples;
   }
 
@@ -180,10 +180,10 @@ FrequencyResponse periodic_response(std::span<const double> input, std::span<con
   check_channels("frequency response", input, output, sampling_rate_hz);
   if (period_samples == 0 || input.size() < period_samples)
     throw UserError("frequency response: " + std::to_string(input.size()) +
-                    " samples hold no whole period of " + std::to_string(period_samples));
+                    " samples contain no whole period of " + std::to_string(period_samples));
   if (!(excitation_threshold > 0. && excitation_threshold <= 1.))
     throw UserError("frequency response: excitation threshold " + to_text(excitation_threshold) +
-                    " is not above 0 and up to 1");
+                    " must be above 0 and at most 1");
 
   const PeriodSpectra spectra = spectra_of_periods(input, output, period_samples);
   SpectralSums sums(spectra.input.front().size());

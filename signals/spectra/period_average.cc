@@ -20,8 +20,8 @@ using Spectra = std::vector<std::vector<std::complex<double>>>;  // [period][lin
 void check_periods(std::size_t n_samples, std::size_t period_samples) {
   if (period_samples < 4 || n_samples < period_samples)
     throw UserError("period average: " + std::to_string(n_samples) +
-                    " samples hold no whole period of " + std::to_string(period_samples) +
-                    " (4 at least)");
+                    " samples contain no whole period of " + std::to_string(period_samples) +
+                    " samples (a period has at least 4)");
 }
 
 Spectra amplitudes_of_periods(std::span<const double> x, std::size_t period_samples) {
@@ -108,7 +108,7 @@ PeriodAverage average_periods(std::span<const double> input, std::span<const dou
 std::vector<std::size_t> excited_orders(const PeriodAverage& average, double threshold) {
   if (!(threshold > 0. && threshold <= 1.))
     throw UserError("excited lines: threshold " + to_text(threshold) +
-                    " is not above 0 and up to 1");
+                    " must be above 0 and at most 1");
   double largest = 0.;
   for (const auto& value : average.input) largest = std::max(largest, std::norm(value));
   if (!(largest > 0.))

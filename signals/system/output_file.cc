@@ -126,7 +126,7 @@ void fill(FileBuffer& buffer, const fs::path& file,
   buffer.flush_to_disk();
   buffer.close();
   if (buffer.error() != 0) refuse(file, reason_of(buffer.error()));
-  if (!out) refuse(file, "its writer failed");
+  if (!out) refuse(file, "the function that writes it failed");
 }
 
 // Where a file system has no permissions to copy, the default ones must do.
@@ -147,7 +147,8 @@ void write_in_place(const fs::path& file, const std::function<void(std::ostream&
 void write_file(const fs::path& file, const std::function<void(std::ostream&)>& writer) {
   std::error_code no_file;
   const fs::file_status status = fs::status(file, no_file);
-  if (!file.has_filename() || fs::is_directory(status)) refuse(file, "this names a folder");
+  if (!file.has_filename() || fs::is_directory(status))
+    refuse(file, "this is a folder; name a file");
   // A name such as /dev/stdout must not be replaced by a file.
   if (fs::exists(status) && !fs::is_regular_file(status)) return write_in_place(file, writer);
   // A link stays; what it points to is replaced.
@@ -209,7 +210,7 @@ void make_new_folder(const fs::path& folder) {
     throw UserError(folder.string() + ": this is a file, not a folder; name another folder");
   if (fs::is_directory(status)) refuse_what_is_not_empty(folder);
   fs::create_directories(folder, error);
-  if (error) throw UserError(folder.string() + ": cannot be made: " + error.message());
+  if (error) throw UserError(folder.string() + ": cannot be created: " + error.message());
   claim(folder);
   refuse_what_is_not_empty(folder);
 }

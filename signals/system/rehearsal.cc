@@ -83,7 +83,7 @@ void rehearse(const std::string& file, const std::size_t n_bytes,
   if (child < 0) {
     const int reason = errno;
     throw UserError(
-        file + ": no process could be made to read it: " + std::generic_category().message(reason));
+        file + ": cannot start a process to read it: " + std::generic_category().message(reason));
   }
   int status = 0;
   pid_t ended = 0;
@@ -93,12 +93,13 @@ void rehearse(const std::string& file, const std::size_t n_bytes,
   // Where somebody else has waited for all children, or ignores them, nothing is known.
   if (ended != child || status == 0) return;
   if (WIFEXITED(status) && WEXITSTATUS(status) == memory_exceeded)
-    throw UserError(file + ": takes more than " + std::to_string(enough_mb(n_bytes)) +
-                    " MB of memory to read its " + std::to_string(n_bytes) +
-                    " bytes, as damaged files do; write it anew, or give its columns as CSV");
+    throw UserError(
+        file + ": reading its " + std::to_string(n_bytes) + " bytes takes more than " +
+        std::to_string(enough_mb(n_bytes)) +
+        " MB of memory, so it is probably damaged; write it again, or give its columns as CSV");
   const std::string end = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "an early exit";
-  throw UserError(file + ": is damaged: the library that reads such files breaks down on it (" +
-                  end + "); write it anew, or give its columns as CSV");
+  throw UserError(file + ": is damaged: the library that reads such files crashes on it (" + end +
+                  "); write it again, or give its columns as CSV");
 }
 
 }  // namespace vibrissa::signals
