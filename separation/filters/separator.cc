@@ -17,7 +17,7 @@ std::vector<double> checked_channel(const signals::Record& record, const std::st
     if (!std::isfinite(x[i]))
       throw signals::UserError("separation: " + name + " is not finite at sample " +
                                std::to_string(i) + " (" + signals::to_text(record.time_s(i)) +
-                               " s); cut it out or fill it");
+                               " s); remove or replace this sample");
   std::vector<double> values(x.begin(), x.end());
   values.resize(x.size() + n_tail, x.back());
   return values;

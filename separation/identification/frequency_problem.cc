@@ -24,7 +24,8 @@ void check_lengths(const signals::FrequencyResponse& response) {
       (!response.standard_deviation.empty() && response.standard_deviation.size() != n))
     throw UserError("frequency fit: " + std::to_string(n) + " frequencies, " +
                     std::to_string(response.value.size()) + " values and " +
-                    std::to_string(response.standard_deviation.size()) + " standard deviations");
+                    std::to_string(response.standard_deviation.size()) +
+                    " standard deviations; all need the same length");
 }
 
 std::vector<double> averaged_variance(const std::vector<double>& standard_deviation) {
@@ -86,7 +87,7 @@ void FrequencyProblem::take_lines(const signals::FrequencyResponse& response) {
     const double f = response.frequency_hz[k], w = 2. * std::numbers::pi * f;
     if (!std::isfinite(f) || f < 0. || (!omega.empty() && !(w > omega.back())))
       throw UserError("frequency fit: frequency " + std::to_string(k + 1) + ", " +
-                      signals::to_text(f) + " Hz, is not above the one before it");
+                      signals::to_text(f) + " Hz, is not above the frequency before it");
     omega.push_back(w);
     value.push_back(response.value[k]);
     deviation.push_back(response.standard_deviation.empty()

@@ -57,7 +57,7 @@ std::vector<std::complex<double>> response(const Bvrm& model, std::span<const do
 nlohmann::json to_json(const Bvrm& model);
 /// Throws UserError with the place (where, e.g. a file name, and the entry) for an entry that is
 /// missing, unknown, of the wrong kind, not finite, unstable, or for a frequency_hz or
-/// damping_ratio that contradicted_by a0 and a1.
+/// damping_ratio that contradicts a0 and a1.
 Bvrm bvrm_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace vibrissa::separation
