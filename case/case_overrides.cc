@@ -26,9 +26,9 @@ std::string section_of(const std::string& channel, const std::string& option) {
   const auto found = recorded_sections().find(channel);
   if (found == recorded_sections().end()) {
     throw UserError(option + ": '" + channel +
-                    "' is no input of a run; inputs are base_acceleration and wind_speed" +
+                    "' is not an input of a run; the inputs are base_acceleration and wind_speed" +
                     (channel == signals::time_channel
-                         ? "; a file without a column time_s has its clock from --rate HZ"
+                         ? "; for a file without a column time_s give --rate HZ"
                          : ""));
   }
   return found->second;
@@ -95,8 +95,8 @@ void refuse_unread(const CaseFile& file, const std::vector<std::string>& texts,
                             (is_for_all || signals::known_channel(name) == channel));
     if (!is_read)
       throw UserError(option + " " + text +
-                      ": this run reads no such recording; give one by --base-acceleration FILE or "
-                      "--wind FILE, or leave the option out");
+                      ": this run does not read this recording; give it by --base-acceleration "
+                      "FILE or --wind FILE, or leave the option out");
   }
 }
 

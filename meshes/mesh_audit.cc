@@ -76,8 +76,8 @@ CellMeasure measure(const Cell& cell, const dealii::FEValues<3>& values) {
   const double cube = std::pow(cell->diameter() / std::sqrt(3.), 3);
   if (!(smallest > least_jacobian_ratio * largest && smallest > least_cube_ratio * cube))
     throw signals::UserError("mesh: inverted or degenerate cell at " + place_text(cell->center()) +
-                             ": its Jacobian determinant falls to " + signals::to_text(smallest) +
-                             " m^3");
+                             ": its smallest Jacobian determinant is " +
+                             signals::to_text(smallest) + " m^3");
   return result;
 }
 

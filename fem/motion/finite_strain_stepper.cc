@@ -394,13 +394,13 @@ void FiniteStrainStepper::add_to_count(const NewtonReport& report) {
 }
 
 void FiniteStrainStepper::give_up(const NewtonReport& report) const {
-  throw NoBalance(
-      "the solid does not come to balance in step " + std::to_string(count_.n_steps + 1) + ", at " +
-      signals::to_text(changed_at_s_ +
-                       static_cast<double>(n_steps_since_change_ + 1) * options_.time_step_s) +
-      " s (" + report.failure + "; out-of-balance force over force: " + report.history() +
-      "). Take more substeps or weaker inputs, or look for a material that is too soft for them or "
-      "for distorted cells of the mesh");
+  throw NoBalance("the solid finds no equilibrium in step " + std::to_string(count_.n_steps + 1) +
+                  ", at " +
+                  signals::to_text(changed_at_s_ + static_cast<double>(n_steps_since_change_ + 1) *
+                                                       options_.time_step_s) +
+                  " s (" + report.failure + "; relative out-of-balance force: " + report.history() +
+                  "). Take more substeps or weaker inputs, or check the mesh for distorted cells "
+                  "and the materials for a stiffness that is too low");
 }
 
 }  // namespace vibrissa::fem

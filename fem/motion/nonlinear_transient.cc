@@ -109,9 +109,9 @@ class FiniteStrainSensor : public DrivenSensor {
     try {
       cross(options_.substeps);
     } catch (const NoBalance& failure) {
-      throw signals::UserError(std::string(failure.what()) +
-                               "; Transient/Substep choice = adaptive takes more substeps where "
-                               "they are needed");
+      throw signals::UserError(
+          std::string(failure.what()) +
+          ". Set Transient/Substep choice = adaptive to take more substeps where they are needed");
     }
   }
 

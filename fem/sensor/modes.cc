@@ -113,7 +113,7 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
   if (pairs.size() < n_modes) {
     throw signals::UserError("the mesh has only " + std::to_string(pairs.size()) + " of the " +
                              std::to_string(n_modes) +
-                             " modes asked for; ask for fewer or refine the mesh");
+                             " requested modes; request fewer modes or refine the mesh");
   }
   const auto product = [&](const Vector& x, Vector& force) {
     clamped_internal_force(space, operators, x, force);

@@ -109,7 +109,7 @@ NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Ve
   SecantMemory secants(options.n_secants);
   const auto by_factors = [&problem](const Vector& force, Vector& x) { problem.solve(force, x); };
   if (!evaluate(problem, at)) {
-    report.failure = "the state that it begins from is no state of the body";
+    report.failure = "the initial state is not a valid state of the solid";
     return report;
   }
   report.residuals.push_back(at.residual());
@@ -126,7 +126,7 @@ NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Ve
     if (!search(problem, at, step, next, length)) {
       if (step.linfty_norm() <= rounding * at.u.linfty_norm()) break;
       if (fresh) {
-        report.failure = "no step along the tangent brings the forces closer to balance";
+        report.failure = "no step along the tangent reduces the out-of-balance force";
         return report;
       }
       renew = true;
@@ -148,7 +148,7 @@ NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Ve
   report.converged =
       at.residual() <= options.tolerance ||
       (step.linfty_norm() <= rounding * at.u.linfty_norm() && at.residual() <= of_rounding);
-  if (!report.converged) report.failure = "the iteration ran out";
+  if (!report.converged) report.failure = "the largest number of iterations was reached";
   return report;
 }
 
