@@ -67,7 +67,7 @@ TEST(PowerLaw, WhatHasNoExponentIsRefused) {
   };
   refused({1., 2.}, {1., 2.}, "three points");
   refused({0., 1., 2.}, {1., 2., 3.}, "positive, ascending");
-  refused({1., 3., 2.}, {1., 2., 3.}, "number 3 is 2");
+  refused({1., 3., 2.}, {1., 2., 3.}, "value 3 is 2");
   refused({1., 2., 3.}, {1., 0., 3.}, "the response to 2 is 0");
 }
 
