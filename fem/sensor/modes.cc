@@ -42,11 +42,11 @@ void align_pair(Mode& first, Mode& second, const std::array<double, 3>& axis) {
   turned.sadd(cosine, sine, second.shape);
   second.shape.sadd(cosine, -sine, first.shape);
   first.shape = turned;
-  for (auto figures : {&Mode::participation, &Mode::moment_participation}) {
+  for (auto vector : {&Mode::participation, &Mode::moment_participation}) {
     for (unsigned int d = 0; d < 3; ++d) {
-      const double one = (first.*figures)[d], other = (second.*figures)[d];
-      (first.*figures)[d] = cosine * one + sine * other;
-      (second.*figures)[d] = cosine * other - sine * one;
+      const double one = (first.*vector)[d], other = (second.*vector)[d];
+      (first.*vector)[d] = cosine * one + sine * other;
+      (second.*vector)[d] = cosine * other - sine * one;
     }
   }
 }

@@ -217,7 +217,8 @@ void check_stored(const hid_t set, const std::size_t number_size, const std::siz
   // in its own header, is there before anything is written.
   const bool is_written = stored != 0 || layout == H5D_COMPACT;
   const bool is_cut = layout != H5D_CHUNKED && is_written && stored / number_size < n;
-  const bool is_hollow = claimed > most_unwritten && claimed / most_swollen > stored / number_size;
+  const bool is_hollow =
+      claimed > most_unwritten && claimed / largest_expansion > stored / number_size;
   if (is_cut || is_hollow)
     throw std::runtime_error("'" + path + "' declares " + std::to_string(claimed) +
                              " numbers, but has only " + std::to_string(stored) + " bytes");

@@ -117,7 +117,7 @@ std::size_t claimed(const matvar_t& variable) {
 
 void check_claims(mat_t* const file, const std::size_t n_bytes, const std::string& name) {
   // A number has a byte at least.
-  const std::size_t most = std::min(most_numbers, most_swollen * n_bytes);
+  const std::size_t most = std::min(most_numbers, largest_expansion * n_bytes);
   std::size_t left = most;
   while (const Variable variable{Mat_VarReadNextInfo(file)}) {
     const std::size_t n = claimed(*variable);

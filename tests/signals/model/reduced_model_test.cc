@@ -21,7 +21,7 @@ using Signal = std::vector<double>;
 using test::peak;
 
 using std::numbers::pi;
-constexpr double participation = 0.011, moment_participation = 7e-4;  // kg^1/2, kg^1/2 m
+constexpr double participation = 0.011, moment_participation = 7e-4;  // √kg, √kg·m
 constexpr double rigid = 9e-6;                                        // kg m
 
 /// One bending mode in the xz-plane: M about y.
