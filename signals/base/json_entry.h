@@ -11,8 +11,8 @@
 
 namespace vibrissa::signals {
 
-/// One value of a JSON file, which knows where it stands: every reader throws UserError with the
-/// file, the place and what it must be. The document must outlive it. Proven by
+/// One value of a JSON file with its place in the file. Every reader throws UserError with the
+/// file, the place and the expected type. The document must outlive it. Proven by
 /// tests/signals/model/reduced_model_json_test.cc, which reads through it.
 class JsonEntry {
  public:
@@ -38,7 +38,7 @@ class JsonEntry {
     require(value_.is_string(), "must be a string");
     return value_.get<std::string>();
   }
-  /// Each element of an array through a function of its entry.
+  /// Applies `read` to each element of an array.
   template <typename Read>
   auto list(Read read) const {
     require(value_.is_array(), "must be an array");
@@ -63,7 +63,7 @@ class JsonEntry {
   std::array<std::array<double, 3>, 3> matrix() const {
     return triple([](const JsonEntry& entry) { return entry.vector(); });
   }
-  /// Each entry of an object by its name, through a function of it.
+  /// Applies `read` to each entry of an object.
   template <typename Read>
   auto by_name(Read read) const {
     require(value_.is_object(), "must be a JSON object (names with values)");
