@@ -1,7 +1,8 @@
 """Vibrissa finds why a whisker or airflow sensor on the bench differs from its simulation.
 
 Records contain NumPy arrays in SI units; the names end in the unit. Each `report` is the document
-that the program prints with --json. docs/notebook.md is an example, from a recording to a diagnosis.
+that the program prints with --json. docs/notebook.md is an example: from a recording to a
+diagnosis.
 """
 import json as _json
 import os as _os
@@ -55,8 +56,8 @@ class Identification:
 class Diagnosis:
     """Why records differ from a simulation.
 
-    `report` is diagnosis.json as a dict, `words` is the text for people, `updated` is the simulation
-    with the effects that were found.
+    `report` is diagnosis.json as a dict, `words` is the text for people, `updated` is the
+    simulation with the effects that were found.
     """
 
     def __init__(self, answer):
@@ -93,8 +94,9 @@ def separate(record, *, model=None, methods=("fdaf",), block=64, taps=512, step=
              hold=None):
     """Returns the part of the base moment that the wind causes [N m], one array for each method.
 
-    `model` (a Bvrm or an Identification) adds the method "bvrm". `hold` is the assumed course of the
-    base acceleration between its samples; the default is the hold of the fit, else "first_order".
+    `model` (a Bvrm or an Identification) adds the method "bvrm". `hold` is the assumed course of
+    the base acceleration between its samples; the default is the hold of the fit, else
+    "first_order".
     `methods` is one name, or several names, of the methods that `vibrissa separate --help` lists.
     """
     if isinstance(methods, str):

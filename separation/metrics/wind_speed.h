@@ -47,10 +47,11 @@ struct WindSpeed {
 };
 
 /// Wind speed from the separated wind moment by inverting the quasi-steady drag law at each sample:
-/// value = F^-1(M), ends = F^-1(M ∓ s) with s^2 = moment_deviation^2 + (relative_error M)^2. Valid
-/// when the wind changes slowly compared with the resonance of the sensor, and the speed of the
-/// sensor is small compared with the wind speed. Throws UserError for a deviation that is negative
-/// or a moment that is not finite. Proven by tests/separation/metrics/wind_speed_test.cc.
+/// value = F^-1(M), ends = F^-1(M - s) and F^-1(M + s) with s^2 = moment_deviation^2 +
+/// (relative_error M)^2. Valid when the wind changes slowly compared with the resonance of the
+/// sensor, and the speed of the sensor is small compared with the wind speed. Throws UserError for
+/// a deviation that is negative or a moment that is not finite. Proven by
+/// tests/separation/metrics/wind_speed_test.cc.
 std::vector<WindSpeed> wind_speed(const DragCalibration& calibration,
                                   std::span<const double> wind_moment_n_m,
                                   double moment_deviation_n_m);
