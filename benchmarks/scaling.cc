@@ -34,8 +34,9 @@ namespace {
 using namespace vibrissa;
 
 struct Times {
-  /// From when all have come to when the last is done, and the most that one's processor worked:
-  /// on a busy machine the second says what the first would be on an idle one, but for waiting.
+  /// Wall time from the common start to the end of the last process, and the largest processor time
+  /// of a process. On a busy machine the processor time estimates the wall time of an idle machine,
+  /// without waiting.
   double wall_s = std::numeric_limits<double>::infinity(), processor_s = wall_s;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 using signals::UserError;
 
-// Which part of the case file takes a recorded channel.
+// Section of the case file for each recorded channel.
 const std::map<std::string, std::string>& recorded_sections() {
   static const std::map<std::string, std::string> sections{
       {signals::channel::base_acceleration, "Base motion/Recorded"},
@@ -83,7 +83,7 @@ bool is_recorded(const CaseFile& file, const std::string& channel) {
   return file.get(section.substr(0, section.find('/')), "Kind") == "recorded";
 }
 
-// What is said of a recording's file must not be lost because the run takes no recording.
+// An option for a recording is an error when the run reads no recording.
 void refuse_unread(const CaseFile& file, const std::vector<std::string>& texts,
                    const std::string& option) {
   for (const std::string& text : texts) {

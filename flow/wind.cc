@@ -36,7 +36,7 @@ std::string selection(const Names& names) {
   return all;
 }
 
-/// The enumerator at the name's place; the declared selection has refused any other name.
+/// The enumerator with this name; the declared selection refuses other names.
 template <typename Enum, typename Names>
 Enum enumerator(const Names& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
@@ -139,7 +139,7 @@ std::vector<double> turbulence(const WindParameters& wind, const double sampling
                                               wind.mean_speed, deviation, wind.length_scale);
     spectrum[k] = 0.5 * n * std::sqrt(density * resolution_hz) * complex_gaussian(random);
   }
-  // The line at half the rate is real and stands for half a line's width.
+  // The line at half the rate is real and has half the width of a line.
   if (n_samples % 2 == 0)
     spectrum[n_samples / 2] = std::numbers::sqrt2 * spectrum[n_samples / 2].real();
   fft.inverse();

@@ -31,7 +31,7 @@ constexpr double coordinate_step_m = 1e-12;
 /// diameter.
 constexpr double least_jacobian_ratio = 1e-6, least_cube_ratio = 1e-12;
 
-/// Runs a look-up of a name and adds the place to its complaint.
+/// Looks up a name and adds the place to its error message.
 template <class Lookup>
 std::string name_at(const dealii::Point<3>& place, const std::string& what, const Lookup& lookup) {
   try {

@@ -26,7 +26,7 @@ MPI_Comm communicator_of(const TransientRun& run) {
   return run.sensor().state().displacement.get_mpi_communicator();
 }
 
-/// Stands before the HDF5 file: what it is, and by which the rest is known to be whole.
+/// Text before the HDF5 file: its type, and the checksum of the rest.
 constexpr std::size_t seal_size = 512;
 std::string seal_of(const std::string_view image) {
   std::ostringstream text;
@@ -115,7 +115,7 @@ TransientMemory read_memory(const signals::Hdf5Reader& file, const Vector& like)
   return memory;
 }
 
-/// The first line in which two texts differ, in words; nothing when they do not.
+/// Text of the first line in which two texts differ; empty when they are equal.
 std::string first_difference(const std::string& there, const std::string& here) {
   std::istringstream in_there(there), in_here(here);
   std::string a, b, section;
@@ -131,7 +131,7 @@ std::string first_difference(const std::string& there, const std::string& here) 
   }
 }
 
-/// What each process has, on the first one.
+/// The data of each process, on the first process.
 std::vector<std::vector<double>> gather(const std::vector<double>& own, MPI_Comm communicator) {
   const auto n_processes = dealii::Utilities::MPI::n_mpi_processes(communicator);
   const int n_own = static_cast<int>(own.size());

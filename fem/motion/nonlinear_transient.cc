@@ -30,7 +30,7 @@ void check(const TransientInput& input, const NonlinearOptions& options) {
     throw signals::UserError("the number of substeps is 0; give 1 or more");
 }
 
-/// With its constant weight.
+/// Includes the constant weight of the sensor.
 class FiniteStrainSensor : public DrivenSensor {
  public:
   FiniteStrainSensor(const Sensor& sensor, const TransientInput& input,

@@ -76,7 +76,7 @@ std::vector<SteadyMoment> steady_wind_moments(const Sensor& sensor,
                                               const std::function<void()>& after_each) {
   check_all_finite(speeds_m_s, "wind speed");
   StaticPath path(sensor.space(), sensor.operators(), options);
-  std::list<WindStateLoad> winds;  // the path needs the one before, too
+  std::list<WindStateLoad> winds;  // the path also needs the previous load
   std::vector<SteadyMoment> moments;
   double before = 0.;
   for (const double speed : speeds_m_s) {

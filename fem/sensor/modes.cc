@@ -51,8 +51,8 @@ void align_pair(Mode& first, Mode& second, const std::array<double, 3>& axis) {
   }
 }
 
-/// Momenta, each of unit field, that a mode's sign is told by: of translations; of rotations; of
-/// shears, which modes of the blades against each other have where they have none of the others.
+/// Momenta, each of a unit field, that determine the sign of a mode: translations, rotations, and
+/// shears. Modes in which the blades move against each other have only the shears.
 using Momenta = std::array<std::array<Vector, 3>, 3>;
 
 Vector unit_momentum(const SolidOperators& operators, const Vector& field) {
@@ -76,8 +76,8 @@ Momenta sign_momenta(const SolidSpace& space, const SolidOperators& operators) {
   return momenta;
 }
 
-// Which of two equal parts is the larger, and which sign a part has that should be zero, is left to
-// rounding: such parts must not decide.
+// Rounding decides which of two equal components is larger, and the sign of a component that should
+// be zero: such components must not determine the sign of the mode.
 void fix_sign(Mode& mode, const Momenta& momenta) {
   constexpr double rounding = 1e-6;
   for (const auto& group : momenta) {
@@ -108,7 +108,7 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
                               const std::array<double, 3>& axial_direction) {
   if (n_modes == 0) throw signals::UserError("the number of modes must be at least 1");
   const CholeskySolver stiffness(*operators.clamped_stiffness);
-  // One more, so that the last one asked for is not torn from its pair.
+  // One mode more, so that the last requested mode is not separated from its pair.
   auto pairs = smallest_eigenpairs(stiffness, *operators.clamped_mass, n_modes, 1);
   if (pairs.size() < n_modes) {
     throw signals::UserError("the mesh has only " + std::to_string(pairs.size()) + " of the " +

@@ -18,7 +18,7 @@ struct PhysicalParameter {
 
 void scale_stiffness(materials::Material& material, const double factor) {
   if (auto* yeoh = std::get_if<materials::Yeoh>(&material.isochoric)) {
-    // Nearly incompressible: the bulk modulus is no part of the softness.
+    // Nearly incompressible: the bulk modulus is not scaled.
     for (double& c : yeoh->c) c *= factor;
     return;
   }

@@ -23,7 +23,7 @@ namespace {
 
 }  // namespace
 
-/// The balance at a share of the way from one load to another.
+/// The equilibrium problem at a fraction of the path from one load to the next.
 class StaticPath::Problem : public BalanceProblem {
  public:
   Problem(const SolidSpace& space, const SolidOperators& operators)

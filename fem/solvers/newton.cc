@@ -70,7 +70,8 @@ bool search(BalanceProblem& problem, const Point& at, const Vector& step, Point&
   return false;
 }
 
-/// At u with the stresses of the state in balance, or where that will not do, wholly there.
+/// Assembles the tangent at u with the stresses of the last equilibrium or, when this is
+/// indefinite, completely at the last equilibrium.
 bool renew_tangent(BalanceProblem& problem, const Vector& in_balance, const Vector& u,
                    NewtonReport& report) {
   for (const Vector* at : {&u, &in_balance}) {
@@ -86,8 +87,8 @@ bool renew_tangent(BalanceProblem& problem, const Vector& in_balance, const Vect
   return false;
 }
 
-/// Iterations that are still to come at the pace of the last ones; none while it is too early to
-/// say: the first ones take stretching out that the guess had brought in, whatever the tangent.
+/// Predicted number of further iterations, from the convergence rate of the last ones; zero after
+/// too few iterations: the first ones remove axial strain of the initial guess, with any tangent.
 double iterations_left(const std::vector<double>& residuals, const double tolerance) {
   constexpr std::size_t looked_at = 3;
   if (residuals.size() <= looked_at) return 0.;
@@ -101,7 +102,7 @@ double iterations_left(const std::vector<double>& residuals, const double tolera
 
 NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Vector& u,
                            const NewtonOptions& options) {
-  // Steps this small next to the displacement are rounding.
+  // Smaller steps, relative to the displacement, are rounding.
   constexpr double rounding = 1e-12;
   NewtonReport report;
   Point at{u, u}, next{u, u};

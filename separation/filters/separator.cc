@@ -27,7 +27,7 @@ std::vector<double> checked_channel(const signals::Record& record, const std::st
 
 std::vector<double> separate_record(Separator& separator, const signals::Record& record) {
   const std::size_t latency = separator.latency_samples();
-  // The record goes on as it ended until its last samples have come out.
+  // The last samples are repeated until the separator has returned all results.
   const auto acceleration = checked_channel(record, signals::channel::base_acceleration, latency);
   std::vector<double> moment = checked_channel(record, signals::channel::base_moment, latency);
   separator.reset();

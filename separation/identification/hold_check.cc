@@ -113,7 +113,8 @@ HoldDiagnosis check_hold(const Bvrm& model, std::span<const Segment> segments,
                          double sampling_rate_hz, const SrivcOptions& told) {
   if (model.modes.empty()) throw signals::UserError("hold check: the model has no mode");
   std::vector<Candidate> candidates{try_hold(model, segments, sampling_rate_hz, told, told.hold)};
-  // A mode that a band-limited input tells from its aliases may be beyond what others do.
+  // A mode that can be distinguished from its aliases under band_limited may not be under the other
+  // holds.
   for (const Hold hold : {Hold::zero_order, Hold::first_order, Hold::band_limited})
     if (hold != told.hold && is_told_from_aliases(model, hold, sampling_rate_hz))
       candidates.push_back(try_hold(model, segments, sampling_rate_hz, told, hold));
@@ -141,7 +142,7 @@ HoldDiagnosis check_hold(const Bvrm& model, std::span<const Segment> segments,
     break;
   }
   if (likely) diagnosis.likely = likely->hold;
-  // Two steps may lead back to what was told.
+  // Two steps may lead back to the given hold.
   if (diagnosis.likely == told.hold) diagnosis.words.clear();
   return diagnosis;
 }

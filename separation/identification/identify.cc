@@ -117,7 +117,7 @@ std::vector<Segment> segments_of(std::span<const Record> records) {
 
 double information_criterion(const FittedBvrm& fit, double n_samples, double n_unknowns,
                              double mean_square_moment) {
-  // An error below what rounding leaves is no better than another.
+  // Errors below the rounding level count as equal.
   const double mean_square = std::max(fit.residual_variance * (n_samples - n_unknowns) / n_samples,
                                       1e-24 * mean_square_moment);
   return n_samples * std::log(mean_square) + n_unknowns * std::log(n_samples);
@@ -225,9 +225,9 @@ class Identifier {
   double mean_square_moment_ = 0.;
 };
 
-// A mode that hardly decays within the records is none that they could show: it sits beside a line
-// of the input and predicts that line through the accelerometer's noise. It would ring for ever in
-// a separator that starts at rest.
+// The records do not determine a mode that hardly decays within them: it is near a line of the
+// input and fits that line through the accelerometer noise. In a separator that starts at rest it
+// would oscillate without end.
 std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
   const auto lasting = std::ranges::find_if(
       model.modes, [&](const ModalTerm& mode) { return 0.5 * mode.a1 * duration_s < 1.; });
@@ -235,7 +235,8 @@ std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
   return lasting->frequency_hz();
 }
 
-// The lowest criterion among the fits that came to an end and decay; among all when none did.
+// The lowest criterion among the converged fits with decaying modes; among all fits when there is
+// none.
 const Trial& choose(const std::vector<Trial>& trials, double duration_s) {
   const auto rank = [&](const Trial& trial) {
     return std::pair(trial.fit.end != FitEnd::converged ||

@@ -21,7 +21,7 @@ using PolesByOrder = std::vector<std::vector<Pole>>;
 
 constexpr std::size_t n_pieces = 20;
 
-// What a straight line does not explain.
+// Residual of a linear fit.
 std::vector<double> without_line(std::span<const double> x) {
   const auto n = static_cast<Eigen::Index>(x.size());
   const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(n, -1., 1.);
@@ -135,7 +135,7 @@ Pole centre(const std::vector<Pole>& poles) {
   return {median(real), median(imaginary)};
 }
 
-// The chains that stand over a third of the orders; of several about the same pole the longest.
+// The chains over at least a third of the orders; the longest of several near the same pole.
 std::vector<Chain> standing_chains(const PolesByOrder& by_order) {
   const std::size_t fewest = std::max<std::size_t>(3, by_order.size() / 3);
   std::vector<Chain> chains = chains_of(by_order), long_chains;
@@ -199,7 +199,8 @@ bool is_determined(const OutputOnlyMode& mode, double longest_lag_s) {
          mode.frequency_hz.standard_deviation < 0.5 * zeta * mode.frequency_hz.value;
 }
 
-// Its frequency is known to a fraction of what the lags resolve, its decay is not told from none.
+// The frequency is known to a fraction of the resolution of the lags; the decay is not
+// significantly different from zero.
 bool is_undamped(const OutputOnlyMode& mode, double longest_lag_s) {
   return mode.frequency_hz.value * longest_lag_s >= 1. &&
          mode.damping_ratio.value < 2. * mode.damping_ratio.standard_deviation + 1e-4 &&

@@ -17,7 +17,8 @@ namespace {
 
 using signals::UserError;
 
-// Signal without its mean and scaled to unit mean square, zeros behind so that no lag wraps round.
+// Signal without its mean and scaled to unit mean square, with zeros appended so that no lag wraps
+// around.
 class Normalised {
  public:
   Normalised(std::span<const double> x, std::size_t length, const std::string& name)

@@ -200,8 +200,8 @@ std::string describe(const Bvrm& model, const CHeaderOptions& options) {
   return text.str();
 }
 
-// A - 1: what a state changes by from sample to sample, which single precision holds far better
-// than a factor near one.
+// A - 1: what a state changes by from sample to sample, which single precision represents much
+// better than a factor near one.
 std::array<double, 4> change(const Section& section) {
   const auto& a = section.a;
   return {a[0] - 1., a[1], a[2], a[3] - 1.};

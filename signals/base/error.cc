@@ -29,7 +29,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return cost.back();
 }
 
-// Longer input is no slip of the finger, and its distance to every name would cost too much.
+// Longer input is not a misspelt name, and the distance to every name would take too long.
 constexpr std::size_t longest_name = 200;
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int deepest = 64;
 
-// Without the library's own name for it: "[json.exception.parse_error.101] ".
+// The message without the prefix of the library: "[json.exception.parse_error.101] ".
 std::string reason_of(const nlohmann::json::exception& error) {
   const std::string what = error.what();
   const auto end = what.find("] ");

@@ -33,7 +33,7 @@ ut_system* unit_system() {
   return system.get();
 }
 
-// What sensor people write that UDUNITS reads otherwise or not at all.
+// Usual spellings that UDUNITS reads with another meaning or not at all.
 const Words& usual_words() {
   static const Words words{{"Nm", "(N.m)"},     {"mNm", "(mN.m)"},     {"uNm", "(uN.m)"},
                            {"Nmm", "(N.mm)"},   {"mNmm", "(mN.mm)"},   {"uNmm", "(uN.mm)"},
@@ -86,7 +86,7 @@ std::unique_ptr<cv_converter, Free> converter(const Unit& from, const Unit& to) 
 }  // namespace
 
 UnitConversion convert_unit(const std::string& from, const std::string& to) {
-  // UDUNITS keeps its state in globals.
+  // UDUNITS has global state.
   static std::mutex alone;
   const std::lock_guard lock(alone);
   const DecimalPoint in_its_tables;

@@ -35,7 +35,7 @@ VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-// The sum over one period on dense time, and its transforms.
+// The oversampled sum over one period, and its transforms.
 class PeriodSum {
  public:
   PeriodSum(const std::vector<std::size_t>& order, const std::vector<double>& amplitude,
@@ -107,7 +107,7 @@ class PeriodSum {
   RealFft fft_;
 };
 
-// Keeps the phases with the lowest peak of all that are shown to it.
+// Keeps the phases with the lowest peak so far.
 struct Best {
   VectorXd phase;
   double peak;

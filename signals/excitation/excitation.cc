@@ -95,7 +95,7 @@ std::vector<double> phases_of(const ExcitationDesign& design, const std::vector<
   return lower_crest_factor(order, std::vector<double>(n, 1.), start);
 }
 
-// One period of the flat sum with the given peak between the samples, too.
+// One period of the flat sum; the peak includes the values between the samples.
 Drive multisine_drive(const ExcitationDesign& design, const std::vector<std::size_t>& order,
                       std::size_t realisation, double& amplitude) {
   Drive drive{.realisation = realisation,

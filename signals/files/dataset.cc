@@ -20,7 +20,7 @@ const std::vector<std::string> record_keys{
     "file",    "excitation",    "period_samples", "split",      "setup", "sampling_rate_hz",
     "readout", "clock_start_s", "columns",        "remove_mean"};
 
-/// Of the whole; those that records share as well.
+/// Entries of the whole dataset, including those that its records may also have.
 const std::vector<std::string> file_keys{
     "schema", "records", "sampling_rate_hz", "columns", "remove_mean", "readout", "setup"};
 
@@ -28,7 +28,7 @@ bool holds(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-/// Where an entry of dataset.json stands, and what is wrong with it.
+/// Throws UserError with the place of an entry of dataset.json and the error.
 [[noreturn]] void refuse_dataset(const std::string& where, const std::string& reason) {
   throw UserError(where + ": " + reason);
 }
@@ -128,8 +128,8 @@ ReadOptions options_of(const json& document, const json& entry, const std::strin
   return options;
 }
 
-/// Entries that mean nothing may stand beside those of the whole, but for those that would have
-/// meant something: of a record alone, or misspelt.
+/// Unknown entries of the whole dataset are allowed, except entries that belong to a record and
+/// misspelt entries.
 void refuse_misplaced(const json& document, const std::string& name) {
   for (const auto& item : document.items()) {
     if (holds(file_keys, item.key())) continue;
@@ -184,8 +184,8 @@ Dataset read_described(const fs::path& folder, const fs::path& file, const ReadO
   return dataset;
 }
 
-/// No larger than the noise of a small accelerometer, and white as noise is: no lag up to ten is
-/// correlated (Box and Pierce, 1970).
+/// Whether the signal is as small as the noise of a small accelerometer, and white: no correlation
+/// up to lag ten (Box and Pierce, 1970).
 bool is_accelerometer_noise(const std::span<const double> values) {
   constexpr double most_m_s2 = 0.1, chance_of_a_thousandth = 29.6;  // chi-squared of 10
   constexpr std::size_t n_lags = 10;
@@ -208,7 +208,7 @@ bool moves(const Record& record, const std::string& channel) {
   return channel != channel::base_acceleration || !is_accelerometer_noise(values);
 }
 
-// Sound files are drives: what a sensor measured is in the other formats.
+// Sound files contain drives; measured records have the other formats.
 bool may_be_a_record(const fs::path& file) {
   const std::string extension = formats::extension_of(file);
   const auto& known = formats::file_formats();

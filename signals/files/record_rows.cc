@@ -27,14 +27,14 @@ void convert(const RecordTable& file, const Source& source, const std::size_t fi
   }
 }
 
-// A column of time in thousandths or millionths of a second, called seconds.
+// Hint for a time column in ms or us that is declared in seconds.
 std::string time_unit_hint(const double ratio) {
   const auto near = [&](const double factor) { return std::abs(ratio / factor - 1.) < 1e-2; };
   if (near(1e3)) return "; the column seems to be in ms";
   return near(1e6) ? "; the column seems to be in us" : "";
 }
 
-// Of the times in a column; a rate that is known beside them must agree and is then the one taken.
+// Time axis of a time column; a rate that is also given must agree and is then used.
 TimeAxis axis_of_column(const RecordTable& file, const std::string& path, const Source& time,
                         const std::vector<double>& times_s, const TimeDigits& digits,
                         const ReadOptions& options) {

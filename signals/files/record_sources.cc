@@ -22,7 +22,7 @@ std::string without_spaces(std::string text) {
   return text;
 }
 
-// By its name or, where a header holds units, by name and unit.
+// Finds a column by its name or, when a header contains units, by name and unit.
 std::size_t column_of(const formats::RecordTable& file, const ColumnChoice& choice) {
   if (const auto column = find_column(file, choice.column)) return *column;
   const std::string with_unit = without_spaces(choice.column_with_unit);
@@ -49,7 +49,8 @@ Sources chosen_sources(const formats::RecordTable& file, const std::vector<Colum
   return sources;
 }
 
-/// Those that were not chosen, of columns that were not; other measured columns where none was.
+/// Adds the channels that were not chosen, from columns that were not chosen; when nothing was
+/// chosen, also other measured columns.
 void add_channels_by_name(const formats::RecordTable& file, Sources& sources) {
   const std::vector<Source> chosen = sources.channels;
   for (std::size_t i = 0; i < file.columns().size(); ++i) {

@@ -33,7 +33,7 @@ Record RecordStream::read(const std::size_t first, const std::size_t count) cons
   return read_rows(*table_, file_.string(), sources_, part, count);
 }
 
-// The rate that the first block tells, unless the last sample says otherwise by a sample or more.
+// The rate of the first block, unless the time of the last sample contradicts it.
 TimeAxis RecordStream::axis_of_all() const {
   const std::size_t few = std::min(block_samples, n_rows_);
   const Record first = read(0, few);
@@ -61,7 +61,7 @@ void RecordStream::check_joins(const Record& block, const std::size_t first) con
 std::optional<Record> RecordStream::next() {
   if (n_read_ == n_rows_) return std::nullopt;
   std::size_t count = std::min(block_samples, n_rows_ - n_read_);
-  // A last block too short to tell its rate goes with the one before.
+  // A last block that is too short to determine its rate is joined to the previous block.
   if (n_rows_ - n_read_ - count < least_samples) count = n_rows_ - n_read_;
   Record block = read(n_read_, count);
   check_joins(block, n_read_);

@@ -159,7 +159,7 @@ std::string numbered_titles(const std::vector<Uff58Function>& functions, const P
   return text;
 }
 
-/// The place of the response of that number, counted among responses, or first line.
+/// Index of the response with this number (counted among responses) or first line.
 std::size_t chosen(const std::vector<Uff58Function>& functions, const std::string& name,
                    const std::string& file) {
   const Places places = responses_in(functions);
@@ -185,7 +185,7 @@ bool is_told(const std::string& unit) {
   return !unit.empty() && unit != "NONE";
 }
 
-/// What the file's own units take to become moments per acceleration.
+/// Factor from the units of the file to moment per acceleration.
 double scale_of(const Uff58Function& function, const std::string& file) {
   const std::string &above = function.ordinate_axis.unit, &below = function.denominator_axis.unit;
   if (!is_told(above) || !is_told(below)) return 1.;
@@ -214,8 +214,8 @@ bool is_beside(const Uff58Function& a, const Uff58Function& b) {
          a.reference_node == b.reference_node && a.reference_direction == b.reference_direction;
 }
 
-/// Values of the first function of that kind between the same degrees of freedom, rather behind the
-/// response than before it.
+/// Values of the first function of that type between the same degrees of freedom, searched first
+/// after the response, then before it.
 std::vector<double> beside(const std::vector<Uff58Function>& functions, const std::size_t response,
                            const std::function<bool(const Uff58Function&)>& is_wanted) {
   for (std::size_t i = 1; i < functions.size(); ++i) {
@@ -254,7 +254,8 @@ void check_frequencies(const Values& frequency_hz, const std::string& file) {
                       " Hz) is negative, not finite or below the frequency before it");
 }
 
-// Two lines may fall together: a Universal File has six digits of uneven frequencies.
+// Two lines may have the same frequency: a Universal File keeps six digits of non-uniform
+// frequencies.
 FrequencyResponse rising_lines(const FrequencyResponse& response) {
   FrequencyResponse lines;
   for (std::size_t i = 0; i < response.value.size(); ++i) {

@@ -21,8 +21,8 @@ FileBytes open_bytes(const std::filesystem::path& file) {
 constexpr std::size_t everything = std::numeric_limits<std::size_t>::max();
 constexpr const char* blanks = " \t\r\n";
 
-// Where the field that starts at `at` ends: its comma, or the end of the line. Quotes hide commas
-// only in a field that starts with one.
+// End of the field that starts at `at`: its comma, or the end of the line. Only a field that starts
+// with a quote may contain commas.
 std::size_t field_end(const std::string_view line, const std::size_t at) {
   const auto start = line.find_first_not_of(" \t", at);
   if (start == std::string_view::npos || line[start] != '"')
@@ -108,7 +108,7 @@ bool CsvFile::is_blank_from(const std::size_t start) const {
   return true;
 }
 
-// Blank lines at the end are none.
+// Ignores blank lines at the end.
 void CsvFile::find_end() {
   LineReader lines(bytes_, first_row_at_, everything);
   std::size_t n_lines = 0;

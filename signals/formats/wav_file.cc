@@ -16,7 +16,7 @@ namespace vibrissa::signals {
 
 namespace {
 
-// A file in memory, so that reading and writing files stays in one place (file_bytes.h).
+// A file in memory; only file_bytes.h reads and writes files.
 struct MemoryFile {
   std::string bytes;
   sf_count_t position = 0;
@@ -101,7 +101,7 @@ std::string wav_bytes(const std::filesystem::path& file, const WavDrive& drive) 
                .seekable = 0};
   SoundFile sound(sf_open_virtual(&io, SFM_WRITE, &info, &target));
   if (!sound) throw UserError(file.string() + ": " + sf_strerror(nullptr));
-  // The peak chunk holds the time of day: equal drives would give unequal files.
+  // The peak chunk contains the time: equal drives would give different files.
   sf_command(sound.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
   sf_command(sound.get(), SFC_SET_CLIPPING, nullptr, SF_TRUE);
   sf_set_string(sound.get(), SF_STR_COMMENT, scale_text(drive).c_str());
@@ -114,7 +114,7 @@ std::string wav_bytes(const std::filesystem::path& file, const WavDrive& drive) 
   return std::move(target.bytes);
 }
 
-// By blocks until nothing comes: the length that a damaged header states may be anything.
+// Reads blocks until the end, because the length in a damaged header may be wrong.
 std::vector<std::vector<double>> read_channels(SNDFILE* sound, std::size_t n_channels,
                                                const std::string& name) {
   constexpr std::size_t frames_a_block = 4096;
@@ -145,8 +145,8 @@ SoundFile open_sound(MemoryFile& source, SF_INFO& info) {
   return SoundFile(sf_open_virtual(&io, SFM_READ, &info, &source));
 }
 
-// libsndfile 1.2 can search for ever behind a chunk that claims to be longer than its surroundings.
-// Only the samples may be cut short, as they are when a recorder loses power.
+// libsndfile 1.2 can search without end after a chunk that declares more bytes than its parent has.
+// Only the samples may be truncated, as when a recorder loses power.
 void check_chunks(const std::string& bytes, std::size_t position, std::size_t end,
                   const std::string& name) {
   constexpr std::size_t header = 8, list_type = 4;
@@ -174,11 +174,11 @@ void write_wav(const std::filesystem::path& file, const WavDrive& drive) {
 }
 
 WavContent parse_wav(std::string bytes, const std::string& name) {
-  // libsndfile knows many containers; only this one is promised and tested.
+  // libsndfile reads many containers; only this one is documented and tested.
   if (bytes.size() < 12 || bytes.compare(0, 4, "RIFF") != 0 || bytes.compare(8, 4, "WAVE") != 0)
     throw UserError(name + ": is not a WAV file (it does not begin with RIFF .. WAVE)");
   check_chunks(bytes, 12, bytes.size(), name);
-  // libsndfile 1.2 can search for ever in lists of a kind that it does not know, too.
+  // libsndfile 1.2 can also search without end in lists of an unknown type.
   rehearse(name, bytes.size(), [&] {
     MemoryFile source{bytes};
     SF_INFO info{};

@@ -15,7 +15,7 @@ namespace {
   throw UserError("reduced model '" + model.name + "': " + what);
 }
 
-/// Checks of one model; the entry's name is only put together when there is something to say.
+/// Checks of one model; the name of an entry is built only for an error.
 class Checker {
  public:
   explicit Checker(const ReducedModel& model) : model_(model) {}

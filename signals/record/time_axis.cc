@@ -15,7 +15,8 @@ namespace vibrissa::signals {
 namespace {
 
 constexpr double jitter_periods = 1e-3;
-// A lost sample puts some time at least half a period off every even grid; less must be allowed.
+// A lost sample moves some time by at least half a period from every uniform grid; less must be
+// allowed.
 constexpr double largest_tolerance_periods = 0.45;
 
 double rounding_s(const PrintedTimes& times, const std::size_t i) {
@@ -31,7 +32,7 @@ std::string between(const PrintedTimes& times, const std::size_t i) {
   return " between " + moment(times, i - 1) + " and " + moment(times, i);
 }
 
-// Of lost or doubled samples: what stands in their place is for the user to say.
+// Advice for lost or doubled samples: only the user can decide what replaces them.
 std::string never_filled(const PrintedTimes& times) {
   return "; column '" + times.column +
          "': samples are never added or removed; use only the rows before this place or only the "
@@ -55,8 +56,8 @@ double median_step(const std::span<const double> times_s) {
   return *middle;
 }
 
-// The sample that lies furthest off the even grid through the first and the last, if any lies
-// further off than jitter and rounding explain; else zero.
+// The sample with the largest distance from the uniform grid through the first and the last sample,
+// if the distance exceeds jitter and rounding; else zero.
 std::size_t worst_off_grid(const PrintedTimes& times, const double period) {
   const auto t = times.times_s;
   const double end_rounding = std::max(rounding_s(times, 0), rounding_s(times, t.size() - 1));
@@ -84,12 +85,12 @@ double with_significant_digits(const double value, const int n_digits) {
   return rounded;
 }
 
-// A difference of times carries rounding that would only confuse in a message.
+// Without the rounding errors of a difference, for messages.
 std::string difference_text(const double difference_s) {
   return to_text(with_significant_digits(difference_s, 6));
 }
 
-// Where a period is about a unit of the last digit, rounding looks like a lost sample.
+// When a period is about one unit of the last digit, rounding looks like a lost sample.
 std::string digits_advice(const PrintedTimes& times, const std::size_t i, const double error_s) {
   const double last_digit_s = 2. * rounding_s(times, i);
   const double most_by_rounding_s = 1.01 * last_digit_s;

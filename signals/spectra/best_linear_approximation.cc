@@ -74,7 +74,7 @@ std::vector<DetectedOutput> detection_lines(const PeriodAverage& average,
   for (std::size_t k = excited.front(); k <= excited.back(); ++k) {
     const auto next = std::ranges::lower_bound(excited, k);
     if (*next == k) continue;
-    // The input leaks through the mean of the responses at the excited neighbours.
+    // The share of the input is computed with the mean response at the excited neighbours.
     const std::size_t below = *(next - 1), above = *next;
     const double share = static_cast<double>(k - below) / static_cast<double>(above - below);
     const auto response = (1. - share) * average.response(below) + share * average.response(above);

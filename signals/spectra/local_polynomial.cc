@@ -22,8 +22,8 @@ using Eigen::VectorXcd;
 
 constexpr double undefined_value = std::numeric_limits<double>::quiet_NaN();
 
-// Lines 1 .. below half the sampling rate, as amplitudes. The offset is taken off first: only
-// rounding of it would be left in these lines.
+// Lines 1 .. below half the sampling rate, as amplitudes. The offset is removed first, because it
+// would add only rounding errors to these lines.
 VectorXcd line_amplitudes(std::span<const double> x) {
   const double n = static_cast<double>(x.size());
   const double mean = std::accumulate(x.begin(), x.end(), 0.) / n;

@@ -47,8 +47,8 @@ std::vector<std::complex<double>> mean_of(const Spectra& spectra) {
   return mean;
 }
 
-// Of the means: the scatter of n periods is n - 1 times the variance of one, n (n - 1) times that
-// of their mean.
+// Variances of the means: the scatter of n periods is n - 1 times the variance of one period, n (n
+// - 1) times the variance of their mean.
 void add_scatter(PeriodAverage& average, const Spectra& input, const Spectra& output) {
   const auto n = static_cast<double>(average.n_periods);
   const double share = n > 1. ? 1. / (n * (n - 1.)) : std::numeric_limits<double>::quiet_NaN();
@@ -79,7 +79,7 @@ double PeriodAverage::residual_variance(std::size_t order, std::complex<double> 
   const std::size_t k = order - 1;
   const double variance = output_variance[k] + std::norm(response) * input_variance[k] -
                           2. * (std::conj(response) * covariance[k]).real();
-  // Rounding may take what is zero below it; std::max would swallow a NaN.
+  // Rounding may make zero negative; std::max would hide a NaN.
   return variance < 0. ? 0. : variance;
 }
 

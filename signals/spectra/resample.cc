@@ -15,7 +15,7 @@ namespace vibrissa::signals {
 namespace {
 
 constexpr long largest_term = 1000;
-// Rates that come from printed times carry rounding; this much drifts by a sample in 1e9.
+// Rates from printed times have rounding errors; this tolerance is a drift of one sample in 1e9.
 constexpr double ratio_tolerance = 1e-9;
 
 // up / down of the rates, in lowest terms.
@@ -143,7 +143,8 @@ std::vector<double> resample(const std::span<const double> x, const double from_
 std::vector<double> remove_mean(const std::span<const double> x) {
   std::vector<double> result(x.begin(), x.end());
   if (x.empty()) return result;
-  // The mean of what is left removes the rounding of the first mean, large beside a large offset.
+  // The second mean removes the rounding error of the first mean, which is large for a large
+  // offset.
   for (int pass = 0; pass < 2; ++pass) {
     const double mean = mean_of(result);
     for (double& value : result) value -= mean;

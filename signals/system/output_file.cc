@@ -31,7 +31,7 @@ std::string reason_of(const int error) {
   return std::generic_category().message(error);
 }
 
-// Keeps the system's reason when a write fails, which std::ofstream does not.
+// Keeps the reason of the system when a write fails; std::ofstream does not.
 class FileBuffer : public std::streambuf {
  public:
   explicit FileBuffer(const int descriptor) : descriptor_(descriptor) {
@@ -82,7 +82,7 @@ class FileBuffer : public std::streambuf {
 
 const std::string unfinished = ".unfinished-";  // then the process and a number
 
-// A new file beside another, removed unless it has got its final name.
+// A new file in the folder of another one, removed unless it was renamed to its final name.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& beside) {
@@ -119,7 +119,7 @@ void fill(FileBuffer& buffer, const fs::path& file,
   try {
     writer(out);
   } catch (...) {
-    // Libraries that notice a bad stream know no reason.
+    // Libraries that detect a bad stream do not know the reason.
     if (buffer.error() != 0) refuse(file, reason_of(buffer.error()));
     throw;
   }
@@ -129,7 +129,7 @@ void fill(FileBuffer& buffer, const fs::path& file,
   if (!out) refuse(file, "the function that writes it failed");
 }
 
-// Where a file system has no permissions to copy, the default ones must do.
+// On a file system without permissions the default ones are used.
 void copy_permissions(const fs::path& from, const int to_descriptor) {
   struct ::stat old;
   if (::stat(from.c_str(), &old) == 0) ::fchmod(to_descriptor, old.st_mode & 07777);
@@ -183,8 +183,8 @@ void refuse_what_is_not_empty(const fs::path& folder) {
                     "overwritten: name another folder, or remove this one");
 }
 
-/// Two runs that see the same empty folder must not both write into it: a lock on it is kept until
-/// this process ends. Where a file system has no locks the folder is taken without one.
+/// Two runs that see the same empty folder must not both write into it: this process locks the
+/// folder until it ends. On a file system without locks the folder is used without a lock.
 void claim(const fs::path& folder) {
   static std::set<std::pair<::dev_t, ::ino_t>> ours;
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view delimiter = "    -1";
 
-/// Walks over the lines of a file that may hold stretches of raw bytes.
+/// Reads the lines of a file that may contain blocks of raw bytes.
 class Lines {
  public:
   Lines(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -47,7 +47,7 @@ class Lines {
   std::size_t at_ = 0, line_ = 0;
 };
 
-/// One line's fields at their places.
+/// Fixed-width fields of a line.
 class Fields {
  public:
   Fields(const std::string_view line, const Lines& lines) : line_(line), lines_(lines) {}
@@ -104,7 +104,7 @@ Uff58Axis read_axis(Lines& lines) {
   return axis;
 }
 
-/// How the values of a function lie in the file.
+/// Storage of the values of a function in the file.
 struct Layout {
   int type = real_double;
   std::size_t n_points = 0;
@@ -169,7 +169,8 @@ std::vector<double> read_text_values(Lines& lines, const Layout& layout) {
   return values;
 }
 
-// The format has an abscissa of single precision; some programs write it as they write values.
+// The format defines an abscissa of single precision; some programs write it with the precision of
+// the values.
 std::vector<double> read_binary_values(Lines& lines, const Layout& layout, const std::endian order,
                                        const std::size_t n_bytes) {
   const std::size_t size = layout.is_single() ? sizeof(float) : sizeof(double);
