@@ -36,7 +36,7 @@ TEST(PowerLaw, LocalExponentsSpanTheBendOfASumOfTwoLaws) {
   EXPECT_LT(law.highest_local_exponent, 23. / 12.);
 }
 
-// 2000 fits: 95 % +- 1.5 %, four standard deviations and the quantile's own error.
+// 2000 fits: 95 % ± 1.5 %: four standard deviations and the error of the quantile.
 TEST(PowerLaw, TheIntervalHoldsTheExponentInNineteenOfTwentyNoisyFits) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0., 0.1);

@@ -77,7 +77,7 @@ double crest(MultisinePhase phase) {
   return crest_factor(make_multisine(experiment_tones_hz, 1., phase).sample(14848., 14848));
 }
 
-// Published figures of the reference study's six tones.
+// Published values of the six tones of the reference paper.
 TEST(Multisine, ExperimentTonesHaveTheKnownCrestFactors) {
   EXPECT_NEAR(crest(MultisinePhase::ascending), 3.45, 0.005);
   EXPECT_NEAR(crest(MultisinePhase::zero), 3.15, 0.005);

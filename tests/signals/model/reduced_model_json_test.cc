@@ -21,7 +21,7 @@ using ::testing::ThrowsMessage;
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// Figures that are hard to write down exactly.
+/// Numbers without an exact short decimal text.
 ReducedModel awkward_model() {
   ReducedModel model;
   model.name = "flow sensor, \"level 2\" \\ µ";
