@@ -1,7 +1,6 @@
-// Time of one predicting of an experiment's records by the measuring chain, per sample: linear,
-// and with a joint that is nonlinear. Peers (two modes over 30 000 samples, side by side in SIMD)
-// need 0.67 ns (linear) and 2.85 ns (cubic) a sample and candidate for the state equations alone;
-// the chain adds the spectra that a likelihood in lines needs.
+// Time per sample to predict the records of an experiment by the measuring chain: linear, and with
+// a nonlinear joint. Two modes over 30 000 samples (SIMD) need 0.67 ns (linear) and 2.85 ns (cubic)
+// per sample for the state equations alone; the chain adds the spectra for a likelihood over lines.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -34,8 +34,9 @@ namespace {
 using namespace vibrissa;
 
 struct Times {
-  /// From when all have come to when the last is done, and the most that one's processor worked:
-  /// on a busy machine the second says what the first would be on an idle one, but for waiting.
+  /// Wall time from the common start to the end of the last process, and the largest processor time
+  /// of a process. On a busy machine the processor time estimates the wall time of an idle machine,
+  /// without waiting.
   double wall_s = std::numeric_limits<double>::infinity(), processor_s = wall_s;
 };
 
@@ -163,12 +164,12 @@ double exponent(const std::vector<Row>& rows, const std::function<double(const R
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
-struct Figure {
+struct Quantity {
   const char* name;
   std::function<double(const Row&)> of;
 };
 
-std::vector<Figure> figures() {
+std::vector<Quantity> quantities() {
   return {{"unknowns", [](const Row& r) { return r.unknowns; }},
           {"cells", [](const Row& r) { return r.cells; }},
           {"mesh_s", [](const Row& r) { return r.mesh.wall_s; }},
@@ -193,9 +194,9 @@ std::vector<Figure> figures() {
 void print(const Row& row) {
   std::printf("%zu,%g", fem::n_processes(), row.resolution);
   std::fprintf(stderr, "%2g ", row.resolution);
-  for (const auto& figure : figures()) {
-    std::printf(",%.6g", figure.of(row));
-    std::fprintf(stderr, " %17.4g", figure.of(row));
+  for (const auto& quantity : quantities()) {
+    std::printf(",%.6g", quantity.of(row));
+    std::fprintf(stderr, " %17.4g", quantity.of(row));
   }
   std::printf("\n");
   std::fprintf(stderr, "\n");
@@ -205,9 +206,9 @@ void print(const Row& row) {
 void print_header() {
   std::printf("processes,resolution");
   std::fprintf(stderr, "   ");
-  for (const auto& figure : figures()) {
-    std::printf(",%s", figure.name);
-    std::fprintf(stderr, " %17s", figure.name);
+  for (const auto& quantity : quantities()) {
+    std::printf(",%s", quantity.name);
+    std::fprintf(stderr, " %17s", quantity.name);
   }
   std::printf("\n");
   std::fprintf(stderr, "\n");
@@ -231,8 +232,8 @@ int main(int argc, char** argv) {
     if (prints) print(rows.back());
   }
   if (!prints || rows.size() < 2) return 0;
-  std::fprintf(stderr, "exponents of the unknowns:\n");
-  for (const auto& figure : figures())
-    std::fprintf(stderr, "%20s %.2f\n", figure.name, exponent(rows, figure.of));
+  std::fprintf(stderr, "exponents of the cost over the number of unknowns:\n");
+  for (const auto& quantity : quantities())
+    std::fprintf(stderr, "%20s %.2f\n", quantity.name, exponent(rows, quantity.of));
   return 0;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "signals/base/error.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::sensor_case {
 
@@ -14,22 +15,23 @@ using signals::UserError;
 
 void declare_recorded(ParameterHandler& prm, const std::string& unit) {
   prm.declare_entry("File", "", Patterns::Anything(),
-                    "Recorded channel: CSV, MATLAB, HDF5, NumPy, Universal File 58 or WAV.");
-  prm.declare_entry(
-      "Column", "", Patterns::Anything(),
-      "Its column, with its unit in brackets where that is not SI, as in ax[g]; empty: "
-      "the column named as the channel.");
-  prm.declare_entry("Scale", "1", Patterns::Double(), "Further factor to " + unit + ".");
+                    "File of the recording: CSV, MATLAB, HDF5, NumPy, Universal File 58 or WAV.");
+  prm.declare_entry("Column", "", Patterns::Anything(),
+                    "Name of the column, with its unit in brackets unless the unit is SI, as in "
+                    "ax[g]; empty: the column that has the name of the channel.");
+  prm.declare_entry("Scale", "1", Patterns::Double(),
+                    "Additional factor that gives the channel in " + unit + ".");
   prm.declare_entry("Sampling rate", "", Patterns::List(Patterns::Double(1e-3), 0, 1),
-                    "Of the file [Hz]; empty: from its time_s column.");
-  prm.declare_entry("First row", "1", Patterns::Integer(1), "First data row used, from 1.");
+                    "Sampling rate of the file [Hz]; empty: from its column time_s.");
+  prm.declare_entry("First row", "1", Patterns::Integer(1),
+                    "First data row that is used; the first row of the file has the number 1.");
   prm.declare_entry("Rows", "", Patterns::List(Patterns::Integer(1), 0, 1),
-                    "Number of rows used; empty: to the end.");
+                    "Number of data rows that are used; empty: up to the last row.");
   prm.declare_entry("Remove mean", "false", Patterns::Bool(),
-                    "Whether the mean (gravity, offset) is taken off.");
+                    "Whether the mean (gravity, offset) is removed.");
   prm.declare_entry("Range", "", Patterns::List(Patterns::Double(), 0, 2),
-                    "Lowest and highest value that the record is scaled to, linearly [" + unit +
-                        "]; empty: as it is.");
+                    "Lowest and highest value; the recording is scaled linearly to this range [" +
+                        unit + "]; empty: no scaling.");
 }
 
 std::vector<double> numbers(ParameterHandler& prm, const std::string& entry) {
@@ -41,11 +43,12 @@ RecordedInput parse_recorded(ParameterHandler& prm, const std::string& section, 
   RecordedInput input;
   input.file = prm.get("File");
   if (used && input.file.empty()) {
-    throw UserError(section + "/File is empty though Kind = recorded; name the CSV file");
+    throw UserError(section +
+                    "/File is empty, but Kind = recorded; name the file of the recording");
   }
   input.column = prm.get("Column");
   input.scale = prm.get_double("Scale");
-  if (input.scale == 0.) throw UserError(section + "/Scale is 0; give the factor to SI units");
+  if (input.scale == 0.) throw UserError(section + "/Scale is 0; give a factor other than 0");
   if (const auto rate = numbers(prm, "Sampling rate"); !rate.empty()) {
     input.sampling_rate_hz = rate.front();
   }
@@ -56,7 +59,7 @@ RecordedInput parse_recorded(ParameterHandler& prm, const std::string& section, 
   input.remove_mean = prm.get_bool("Remove mean");
   const auto range = numbers(prm, "Range");
   if (range.size() == 1 || (range.size() == 2 && !(range[0] < range[1]))) {
-    throw UserError(section + "/Range needs the lowest and the highest value, lowest first");
+    throw UserError(section + "/Range needs two values: the lowest, then the highest");
   }
   if (range.size() == 2) input.range = {range[0], range[1]};
   return input;
@@ -65,14 +68,14 @@ RecordedInput parse_recorded(ParameterHandler& prm, const std::string& section, 
 void declare_base_motion(ParameterHandler& prm) {
   prm.enter_subsection("Base motion");
   prm.declare_entry("Kind", "multisine", Patterns::Selection("none|multisine|recorded"),
-                    "Axial acceleration of the base.");
+                    "Acceleration of the base along the axial direction.");
   prm.declare_entry("Lines", "2, 5, 9, 16, 27, 38, 60, 95, 140, 200",
                     Patterns::List(Patterns::Double(1e-3), 1, 10000),
-                    "Frequencies of the multisine [Hz].");
+                    "Frequencies of the multisine lines [Hz].");
   prm.declare_entry("Peak", "3.92", Patterns::Double(0.),
-                    "Largest acceleration of the multisine [m/s^2] (3.92 = 0.4 g).");
+                    "Peak acceleration of the multisine [m/s^2] (3.92 = 0.4 g).");
   prm.declare_entry("Phases", "schroeder", Patterns::Selection("schroeder|random|ascending|zero"),
-                    "Phases of the lines; ascending: steps of 30 degrees.");
+                    "Phases of the multisine lines; ascending: steps of 30 degrees.");
   prm.enter_subsection("Recorded");
   declare_recorded(prm, "m/s^2");
   prm.leave_subsection();
@@ -102,14 +105,17 @@ BaseMotion parse_base_motion(ParameterHandler& prm) {
 
 void declare_records(ParameterHandler& prm) {
   prm.enter_subsection("Records");
-  prm.declare_entry("Sampling rate", "500", Patterns::Double(1., 1e6), "Of all records [Hz].");
-  prm.declare_entry("Duration", "20", Patterns::Double(0.2, 1e5), "Of all records [s].");
-  prm.declare_entry("Seed", "1", Patterns::Integer(0), "Of turbulence and noise.");
-  prm.declare_entry(
-      "Accelerometer noise", "0.0785", Patterns::Double(0., 1e3),
-      "Standard deviation of a sample of the measured base acceleration [m/s^2] (0.008 g).");
+  prm.declare_entry("Sampling rate", "500", Patterns::Double(1., 1e6),
+                    "Sampling rate of all records [Hz].");
+  prm.declare_entry("Duration", "20", Patterns::Double(0.2, 1e5), "Duration of all records [s].");
+  prm.declare_entry("Seed", "1", Patterns::Integer(0),
+                    "Seed of the random numbers for turbulence and noise.");
+  prm.declare_entry("Accelerometer noise", "0.0785", Patterns::Double(0., 1e3),
+                    "Standard deviation of the noise of the measured base acceleration, sample by "
+                    "sample [m/s^2] (0.0785 = 0.008 g).");
   prm.declare_entry("Moment noise", "1e-6", Patterns::Double(0., 1e3),
-                    "Standard deviation of a sample of the measured base moment [N m] (5.43 uT).");
+                    "Standard deviation of the noise of the measured base moment, sample by sample "
+                    "[N m] (1e-6 = 5.43 uT).");
   prm.leave_subsection();
 }
 
@@ -127,16 +133,18 @@ RecordParameters parse_records(ParameterHandler& prm) {
 
 void declare_separation(ParameterHandler& prm) {
   prm.enter_subsection("Separation");
-  prm.declare_entry("Largest order", "6", Patterns::Integer(2, 40),
-                    "Highest number of poles tried for the base vibration response model [1].");
+  prm.declare_entry(
+      "Largest order", "6", Patterns::Integer(2, 40),
+      "Highest number of poles that is tried for the base vibration response model [1].");
   prm.declare_entry("Block length", "64", Patterns::Integer(1, 65536),
-                    "New samples in one block of the adaptive filter [samples].");
+                    "Number of new samples in each block of the adaptive filter [samples].");
   prm.declare_entry("Filter length", "512", Patterns::Integer(1, 1048576),
-                    "Taps of the adaptive filter [samples].");
+                    "Number of taps of the adaptive filter [samples].");
   prm.declare_entry("Step", "0.1", Patterns::Double(1e-9, 2.),
                     "Step size mu of the adaptive filter, normalised by the input's power [1].");
-  prm.declare_entry("Settling time", "2", Patterns::Double(0., 1e4),
-                    "Start of the record that the scores leave out, for every method [s].");
+  prm.declare_entry(
+      "Settling time", "2", Patterns::Double(0., 1e4),
+      "Time at the start of the record that the scores do not use, for every method [s].");
   prm.leave_subsection();
 }
 
@@ -154,13 +162,14 @@ SeparationParameters parse_separation(ParameterHandler& prm) {
 
 void declare_output(ParameterHandler& prm) {
   prm.enter_subsection("Output");
-  prm.declare_entry("Folder", "", Patterns::Anything(),
-                    "Results; must not exist yet. Empty: a free name below results/.");
+  prm.declare_entry(
+      "Folder", "", Patterns::Anything(),
+      "Folder of the results; it must not exist yet. Empty: a free name below results/.");
   prm.declare_entry("VTK", "true", Patterns::Bool(), "Whether .vtu and .pvd files are written.");
-  prm.declare_entry("Pictures", "true", Patterns::Bool(), "Whether figures are drawn.");
+  prm.declare_entry("Pictures", "true", Patterns::Bool(), "Whether plots are drawn.");
   prm.declare_entry("Full-order duration", "0.06", Patterns::Double(0., 1e4),
-                    "How much of the record the full-order solid repeats, to check the reduced "
-                    "model and to give stress fields [s]; 0: none.");
+                    "Duration that the full-order solid simulates, to check the reduced model and "
+                    "to give stress fields [s]; 0: none.");
   prm.leave_subsection();
 }
 
@@ -182,14 +191,17 @@ void check(const Case& all) {
   if (all.base.kind == BaseMotionKind::multisine) {
     for (const double f : all.base.line_frequency_hz) {
       if (f >= nyquist) {
-        throw UserError("Base motion/Lines holds " + std::to_string(f) +
-                        " Hz, not below half of Records/Sampling rate (" + std::to_string(nyquist) +
-                        " Hz); drop the line or raise the rate");
+        throw UserError("Base motion/Lines contains " + signals::to_text(f) +
+                        " Hz, which is not below half of Records/Sampling rate (" +
+                        signals::to_text(nyquist) +
+                        " Hz); remove the line or raise the sampling rate");
       }
     }
   }
   if (all.base.kind == BaseMotionKind::none && all.sensor.wind.kind == flow::WindKind::none) {
-    throw UserError("Base motion/Kind and Wind/Kind are both none: nothing moves the sensor");
+    throw UserError(
+        "Base motion/Kind and Wind/Kind are both none, so nothing moves the sensor; set one of "
+        "them");
   }
 }
 

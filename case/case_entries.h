@@ -8,7 +8,7 @@ namespace vibrissa::sensor_case {
 
 /// Declares every entry of a case file, with units and ranges.
 void declare_case(dealii::ParameterHandler& prm);
-/// The values of the entries; throws UserError when values contradict each other.
+/// Reads the values of the entries; throws UserError for inconsistent values.
 Case parse_case(dealii::ParameterHandler& prm);
 
 }  // namespace vibrissa::sensor_case

@@ -63,8 +63,7 @@ std::string join(const std::vector<std::string>& parts) {
   return text;
 }
 
-/// deal.II's own names of what is declared: JSON with mangled keys would need undoing, the plain
-/// listing does not.
+/// Declared names, from deal.II's plain listing: its JSON has mangled keys.
 class DeclaredNames {
  public:
   explicit DeclaredNames(const dealii::ParameterHandler& prm) {
@@ -128,7 +127,7 @@ std::string plain_text(const dealii::ExceptionBase& error) {
   return dealii::Utilities::replace_in_string(trimmed(text.str()), "\n", " ");
 }
 
-// " (line 12: Wire diameter)" for every entry of the file that a message speaks of.
+// " (line 12: Wire diameter)" for every entry of the file that a message names.
 std::string lines_of_named_entries(const std::vector<std::string>& lines,
                                    const std::string& message) {
   std::string text;

@@ -21,16 +21,16 @@ namespace vibrissa::sensor_case {
 
 enum class BaseMotionKind { none, multisine, recorded };
 
-/// Subsection "Base motion": the axial acceleration of the base.
+/// Subsection "Base motion": acceleration of the base along the axial direction.
 struct BaseMotion {
   BaseMotionKind kind = BaseMotionKind::multisine;
-  std::vector<double> line_frequency_hz;  // of the multisine
+  std::vector<double> line_frequency_hz;  // lines of the multisine
   double peak_m_s2 = 0.;
   signals::MultisinePhase phase = signals::MultisinePhase::schroeder;
   RecordedInput recorded;
 };
 
-/// Subsection "Records": clock, noise, seed.
+/// Subsection "Records": sampling, noise, seed.
 struct RecordParameters {
   double sampling_rate_hz = 500.;
   double duration_s = 20.;
@@ -54,7 +54,7 @@ struct OutputParameters {
   double full_order_duration_s = 0.06;
 };
 
-/// Everything that a case file says.
+/// All parameters of a case file.
 struct Case {
   fem::SensorParameters sensor;
   BaseMotion base;
@@ -65,25 +65,25 @@ struct Case {
   OutputParameters output;
 };
 
-/// A case file with its entries checked one by one: unknown entries, text that is no number and
-/// values out of range are refused with file, line and the known names or the range.
+/// A case file with checked entries: unknown entries, text that is not a number, and values out of
+/// range give a UserError with file, line and the known names or the range.
 class CaseFile {
  public:
-  /// Throws UserError when the file is missing or has such an entry. cases/flow_sensor.prm and
+  /// Throws UserError when the file is missing or has a wrong entry. cases/flow_sensor.prm and
   /// cases/whisker_sensor.prm are built in for those who have no such file. Proven by
   /// tests/apps/results_test.cc.
   explicit CaseFile(const std::filesystem::path& file);
   ~CaseFile();
   CaseFile(CaseFile&&) noexcept;
 
-  /// Overrides one entry, as a command-line option does; option is named in the error.
+  /// Replaces one entry, as a command-line option does; errors name the option.
   void set(const std::string& section, const std::string& entry, const std::string& value,
            const std::string& option);
   /// The text of a declared entry.
   std::string get(const std::string& section, const std::string& entry) const;
-  /// Throws UserError naming entries and lines when values contradict each other.
+  /// Reads the case. Throws UserError with entries and lines when values are inconsistent.
   Case read();
-  /// The file with every default filled in, as text that reads back to the same case.
+  /// Text of the case file with all defaults; it reads back to the same case.
   std::string resolved() const;
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 using signals::UserError;
 
-// Which part of the case file takes a recorded channel.
+// Section of the case file for each recorded channel.
 const std::map<std::string, std::string>& recorded_sections() {
   static const std::map<std::string, std::string> sections{
       {signals::channel::base_acceleration, "Base motion/Recorded"},
@@ -26,9 +26,9 @@ std::string section_of(const std::string& channel, const std::string& option) {
   const auto found = recorded_sections().find(channel);
   if (found == recorded_sections().end()) {
     throw UserError(option + ": '" + channel +
-                    "' is no input of a run; inputs are base_acceleration and wind_speed" +
+                    "' is not an input of a run; the inputs are base_acceleration and wind_speed" +
                     (channel == signals::time_channel
-                         ? "; a file without a column time_s has its clock from --rate HZ"
+                         ? "; for a file without a column time_s give --rate HZ"
                          : ""));
   }
   return found->second;
@@ -83,7 +83,7 @@ bool is_recorded(const CaseFile& file, const std::string& channel) {
   return file.get(section.substr(0, section.find('/')), "Kind") == "recorded";
 }
 
-// What is said of a recording's file must not be lost because the run takes no recording.
+// An option for a recording is an error when the run reads no recording.
 void refuse_unread(const CaseFile& file, const std::vector<std::string>& texts,
                    const std::string& option) {
   for (const std::string& text : texts) {
@@ -95,8 +95,8 @@ void refuse_unread(const CaseFile& file, const std::vector<std::string>& texts,
                             (is_for_all || signals::known_channel(name) == channel));
     if (!is_read)
       throw UserError(option + " " + text +
-                      ": this run reads no such recording; give one by --base-acceleration FILE or "
-                      "--wind FILE, or leave the option out");
+                      ": this run does not read this recording; give it by --base-acceleration "
+                      "FILE or --wind FILE, or leave the option out");
   }
 }
 

@@ -8,18 +8,18 @@
 
 namespace vibrissa::sensor_case {
 
-/// A case file and what takes the place of its entries: recorded inputs, and any entry by name.
-/// The texts are those of the command line's options of the same names.
+/// A case file and replacements of its entries: recorded inputs, and any entry by name. The texts
+/// are those of the command-line options with the same names.
 struct CaseOverrides {
   std::string case_file;
   std::optional<std::string> base_acceleration_file, wind_file, output_folder;
   std::vector<std::string> columns, rates, rows, ranges, remove_means, settings;
   std::optional<std::string> duration_s;
 
-  /// Whether nothing overrides the case file.
+  /// Whether nothing replaces an entry.
   bool is_plain() const;
-  /// The case file with the overrides set. Throws UserError naming the option, also where it is
-  /// about a recording that the run does not read. Proven by tests/apps/real_input_test.cc.
+  /// The case file with the replaced entries. Throws UserError with the option, also when it refers
+  /// to a recording that the run does not read. Proven by tests/apps/real_input_test.cc.
   CaseFile load() const;
 };
 

@@ -4,8 +4,8 @@
 
 namespace vibrissa::sensor_case {
 
-/// The case files of cases/ as they were at the time of the build (made by
-/// cmake/VibrissaEmbed.cmake), for people who have the program alone.
+/// The case files of cases/ at the time of the build (embedded by cmake/VibrissaEmbed.cmake), for
+/// users who have only the program.
 std::string_view flow_sensor_case();
 std::string_view whisker_sensor_case();
 

@@ -8,7 +8,7 @@ namespace vibrissa::sensor_case {
 
 namespace {
 
-// Streams of random numbers that must not repeat each other.
+// Different random streams.
 constexpr std::uint64_t phase_stream = 1, wind_stream = 2;
 
 std::vector<double> base_acceleration(const Case& parameters) {

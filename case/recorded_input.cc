@@ -1,6 +1,7 @@
 #include "case/recorded_input.h"
 
 #include "signals/base/error.h"
+#include "signals/base/number_text.h"
 #include "signals/files/record_io.h"
 #include "signals/spectra/resample.h"
 
@@ -25,8 +26,8 @@ std::vector<double> load_input(const RecordedInput& input, const std::string& ch
   samples = signals::resample(samples, record.sampling_rate_hz(), sampling_rate_hz);
   if (n_samples == 0) return samples;
   if (samples.size() < n_samples) {
-    throw signals::UserError(input.file.string() + ": holds " + std::to_string(samples.size()) +
-                             " samples at " + std::to_string(sampling_rate_hz) + " Hz, but " +
+    throw signals::UserError(input.file.string() + ": contains " + std::to_string(samples.size()) +
+                             " samples at " + signals::to_text(sampling_rate_hz) + " Hz, but " +
                              std::to_string(n_samples) +
                              " are needed; shorten Records/Duration or take more rows");
   }

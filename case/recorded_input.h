@@ -9,11 +9,11 @@
 
 namespace vibrissa::sensor_case {
 
-/// One recorded channel as an input of a run: which column of which file, which rows, and what is
-/// done to it, in this order: scale, mean removed, range, resampled to the run's rate.
+/// One recorded channel as an input of a run: file, column and rows, and the operations in this
+/// order: scale, remove the mean, scale to the range, resample to the rate of the run.
 struct RecordedInput {
   std::filesystem::path file;
-  std::string column;  // with its unit, as in --column; empty: the channel's own name
+  std::string column;  // with its unit, as in --column; empty: the name of the channel
   double scale = 1.;
   std::optional<double> sampling_rate_hz;  // needed when the file has no time_s
   std::size_t first_row = 1;
@@ -22,8 +22,9 @@ struct RecordedInput {
   std::optional<std::pair<double, double>> range;  // smallest and largest value after scaling
 };
 
-/// Samples of the channel at the run's rate. Throws UserError as read_record and resample do, and
-/// when fewer than n_samples come out; longer input is cut. n_samples = 0 takes what there is.
+/// Samples of the channel at the sampling rate of the run. Throws UserError as read_record and
+/// resample do, and when there are fewer than n_samples; a longer input is cut. n_samples = 0
+/// returns all samples.
 std::vector<double> load_input(const RecordedInput& input, const std::string& channel,
                                double sampling_rate_hz, std::size_t n_samples);
 

@@ -44,8 +44,9 @@ std::vector<double> moment_of(const Record& record) {
 void check_reduced_wind(const Case& parameters) {
   if (parameters.sensor.wind.relative_velocity)
     throw signals::UserError(
-        "Wind/Relative velocity is true, but the reduced model's wind does not feel the whisker's "
-        "motion; use the full-order solid (vibrissa transient), or set it to false");
+        "Wind/Relative velocity is true, but the wind load of the reduced model does not depend on "
+        "the motion of the whisker; use the full-order solid (vibrissa transient), or set "
+        "Wind/Relative velocity = false");
 }
 
 RigRecords measure_on_rig(const signals::ReducedModel& model, const Case& parameters,

@@ -10,18 +10,20 @@
 
 namespace vibrissa::sensor_case {
 
-/// The records that a rig with this sensor would write, and the truth behind them.
+/// The records that a rig with this sensor writes, and the true moments.
 struct RigRecords {
-  signals::Record vibration_only, wind_only, both;  // as measured, with noise when asked for
-  std::vector<double> true_vibration_moment_n_m;    // M_b
-  std::vector<double> true_wind_moment_n_m;         // M_s
+  signals::Record vibration_only, wind_only,
+      both;                                       // as measured, with noise when the case has noise
+  std::vector<double> true_vibration_moment_n_m;  // M_b
+  std::vector<double> true_wind_moment_n_m;       // M_s
 };
 
-/// Throws UserError when the case asks for drag of relative velocity, which no reduced model has.
+/// Throws UserError when the case has drag of relative velocity, which a reduced model does not
+/// support.
 void check_reduced_wind(const Case& parameters);
 
-/// Passes base motion, wind and both through the measuring chain of the case (signals/
-/// measuring_chain.h); each record has noise of its own.
+/// Passes base motion, wind and both through the measuring chain of the case
+/// (signals/model/measuring_chain.h); each record has its own noise.
 RigRecords measure_on_rig(const signals::ReducedModel& model, const Case& parameters,
                           const Inputs& inputs);
 

@@ -5,8 +5,9 @@
 
 namespace vibrissa::sensor_case {
 
-/// The reduced model of a solved sensor with its sensitivities when the case asks for them, and its
-/// provenance (program revision, mesh hash). A progress bar shows the further solutions.
+/// The reduced model of a solved sensor, with its provenance (program revision, mesh hash) and,
+/// when the case requests them, its sensitivities. A progress bar shows the solutions for the
+/// sensitivities.
 signals::ReducedModel make_reduced_model(const fem::Sensor& sensor,
                                          const fem::SensorParameters& parameters,
                                          bool show_progress);

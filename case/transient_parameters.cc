@@ -11,39 +11,40 @@ namespace Patterns = dealii::Patterns;
 void TransientParameters::declare(dealii::ParameterHandler& prm) {
   prm.enter_subsection("Transient");
   prm.declare_entry("Strain", "finite", Patterns::Selection("small|finite"),
-                    "Whether 'vibrissa transient' lets the solid turn and stretch at will, or "
-                    "takes its stiffness at rest.");
+                    "Strain of the solid in 'vibrissa transient': finite allows large rotations "
+                    "and stretches, small uses the stiffness at rest.");
   prm.declare_entry("Substeps", "1", Patterns::Integer(1, 100000),
-                    "Steps of the integrator in one sample of the records [1]; the least number "
-                    "where they are chosen.");
-  prm.declare_entry("Substep choice", "fixed", Patterns::Selection("fixed|adaptive"),
-                    "Whether every sample has those substeps, or as many, doubled and doubled "
-                    "again, as the time tolerance and Newton's iteration ask for. Finite strain "
-                    "only.");
+                    "Time steps in one sampling interval of the records [1]; with adaptive "
+                    "substeps, the smallest number.");
+  prm.declare_entry(
+      "Substep choice", "fixed", Patterns::Selection("fixed|adaptive"),
+      "fixed: each sampling interval has this number of substeps. adaptive: the number is doubled "
+      "until the time tolerance is met and Newton's iteration converges; finite strain only.");
   prm.declare_entry("Time tolerance", "1e-3", Patterns::Double(0., 1.),
-                    "Adaptive: estimated error of the steps of one sample over the largest "
-                    "displacement so far [1]; more than 0.");
+                    "Adaptive substeps: largest estimated error of one sampling interval, divided "
+                    "by the largest displacement so far [1]; more than 0.");
   prm.declare_entry("Least displacement", "1e-5", Patterns::Double(0.),
-                    "Adaptive: the time tolerance is a share of at least this [m]; more than 0.");
-  prm.declare_entry("Most substeps", "64", Patterns::Integer(1, 100000),
-                    "Adaptive: in one sample [1]; a power of two times the substeps. Samples that "
-                    "need more for the time tolerance are counted.");
+                    "Adaptive substeps: smallest displacement to which the time tolerance refers "
+                    "[m]; more than 0.");
+  prm.declare_entry(
+      "Most substeps", "64", Patterns::Integer(1, 100000),
+      "Adaptive substeps: largest number in one sampling interval [1]; Substeps times a power of "
+      "two. Sampling intervals that need more for the time tolerance are counted.");
   prm.declare_entry("Spectral radius", "0.9", Patterns::Double(0., 1.),
-                    "What the integrator leaves of infinitely high frequencies a step [1]; 1 keeps "
-                    "all energy.");
+                    "Spectral radius of the integrator at infinite frequency [1]: the factor by "
+                    "which one time step multiplies the amplitude there; 1: no numerical damping.");
   prm.declare_entry("Gravity", "0, 0, 0", Patterns::List(Patterns::Double(), 3, 3),
-                    "Along x, y, z of the base [m/s^2]; the sensor begins at rest in it. Finite "
-                    "strain only.");
+                    "Gravity along x, y and z of the base [m/s^2]; the sensor starts in static "
+                    "equilibrium under it. Finite strain only.");
   prm.declare_entry("Force tolerance", "1e-7", Patterns::Double(1e-13, 1e-3),
-                    "Out-of-balance force, over the forces that balance, at which Newton's "
-                    "iteration ends [1].");
+                    "Newton's iteration ends when the out-of-balance force is at most this share "
+                    "of the forces in equilibrium [1].");
   prm.declare_entry("Checkpoint interval", "0", Patterns::Integer(0),
-                    "Samples from one checkpoint to the next [samples]; 0: by time only.");
+                    "Samples between two checkpoints [samples]; 0: by time only.");
   prm.declare_entry("Checkpoint minutes", "10", Patterns::Double(0.),
-                    "Time from one checkpoint to the next [min]; 0: by samples only.");
+                    "Time between two checkpoints [min]; 0: by samples only.");
   prm.declare_entry("VTK interval", "0", Patterns::Integer(0),
-                    "Samples from one file of displacement and stress to the next [samples]; 0: "
-                    "none.");
+                    "Samples between two files of displacement and stress [samples]; 0: none.");
   prm.leave_subsection();
 }
 
@@ -67,12 +68,12 @@ void TransientParameters::parse(dealii::ParameterHandler& prm) {
       std::all_of(gravity.begin(), gravity.end(), [](const double g) { return g == 0.; });
   if (strain == Strain::small && !is_weightless)
     throw signals::UserError(
-        "Transient/Gravity needs Transient/Strain = finite: at small strain weight changes nothing "
-        "but the moment's mean");
+        "Transient/Gravity needs Transient/Strain = finite: at small strain, gravity changes only "
+        "the mean of the moment");
   if (strain == Strain::small && adaptive)
     throw signals::UserError(
-        "Transient/Substep choice = adaptive needs Transient/Strain = finite: at small strain the "
-        "matrix is factorised once, for steps of one length");
+        "Transient/Substep choice = adaptive needs Transient/Strain = finite: at small strain, the "
+        "matrix is factorised once for one length of the time step");
   if (adaptive) adaptive->check(substeps);
 }
 

@@ -13,11 +13,11 @@ namespace vibrissa::sensor_case {
 
 enum class Strain { small, finite };
 
-/// Subsection "Transient": how the full-order solid goes through the record.
+/// Subsection "Transient": time integration of the full-order solid.
 struct TransientParameters {
   Strain strain = Strain::finite;
   unsigned int substeps = 1;
-  std::optional<fem::SubstepOptions> adaptive;  // nothing: those substeps in every sample
+  std::optional<fem::SubstepOptions> adaptive;  // nothing: `substeps` in every sampling interval
   double spectral_radius = 0.9;
   std::array<double, 3> gravity_m_s2{};
   fem::NewtonOptions newton;
@@ -26,7 +26,7 @@ struct TransientParameters {
   std::size_t vtk_samples = 0;         // 0: no fields
 
   static void declare(dealii::ParameterHandler& prm);
-  /// Throws UserError naming the entry.
+  /// Throws UserError with the entry.
   void parse(dealii::ParameterHandler& prm);
 };
 

@@ -7,7 +7,7 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
-# Lines and names of functions are what a report shows: variables would double the time of the build.
+# A report needs lines and names of functions; debug information on variables would double the build time.
 set(CMAKE_CXX_FLAGS_SANITIZE
     "-O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined")
 set(CMAKE_EXE_LINKER_FLAGS_SANITIZE "-fsanitize=address,undefined")
@@ -19,13 +19,13 @@ if(VIBRISSA_WERROR)
   add_compile_options(-Werror)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC 12 takes "text" + string for an overlap or overflow where it inlines much (GCC bugs 105329,
-  # 105651), which depends on the processor that is optimised for: shown, but no reason to stop.
+  # GCC 12 wrongly warns of an overlap or overflow in "text" + string after much inlining (GCC bugs 105329,
+  # 105651), depending on the target processor: these warnings are not errors.
   foreach(warning restrict stringop-overflow stringop-overread array-bounds)
     add_compile_options(-Wno-error=${warning})
   endforeach()
-  # Under sanitizers it also takes what the library's own <regex> and <functional> build up for
-  # uninitialised (GCC bug 105562); the debug preset keeps that warning.
+  # With sanitizers it also wrongly warns of uninitialised values in <regex> and <functional> of the
+  # standard library (GCC bug 105562); the debug preset keeps this warning.
   add_compile_options($<$<CONFIG:Sanitize,Threads>:-Wno-error=maybe-uninitialized>)
 endif()
 if(VIBRISSA_NATIVE)
@@ -49,7 +49,7 @@ endif()
 
 find_program(VIBRISSA_CCACHE ccache)
 if(VIBRISSA_CCACHE)
-  # ccache takes precompiled headers only when told that their macros and times may be trusted.
+  # ccache uses precompiled headers only with these options.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
       CCACHE_SLOPPINESS=pch_defines,time_macros ${VIBRISSA_CCACHE})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

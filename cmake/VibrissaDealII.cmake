@@ -1,5 +1,5 @@
-# deal.II with PETSc as one target. deal_ii_setup_target would force its own optimisation
-# level and language standard on every user, so its pieces are taken one by one.
+# deal.II with PETSc as one target. deal_ii_setup_target would set its own optimisation
+# level and language standard for every user, so its parts are used separately.
 find_package(deal.II 9.4 REQUIRED)
 foreach(feature MPI PETSC)
   if(NOT DEAL_II_WITH_${feature})

@@ -1,5 +1,5 @@
 # vibrissa_embed(TARGET HEADER NAMESPACE NAME FILE [NAME FILE ...]): adds a generated source to TARGET that defines
-# std::string_view NAME() of HEADER for the content of each FILE, made anew when a file changes.
+# std::string_view NAME() of HEADER for the content of each FILE; the source is made again when a file changes.
 #
 # The file is its own script: cmake -DOUTPUT=... -DHEADER=... -DNAMESPACE=... -DPAIRS="NAME|FILE|..." -P VibrissaEmbed.cmake
 
@@ -10,7 +10,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
     list(POP_FRONT pairs name path)
     file(READ ${path} content)
     if(content MATCHES "\\)vibrissa_file\"")
-      message(FATAL_ERROR "${path} holds what ends the literal that it is embedded in")
+      message(FATAL_ERROR "${path} contains the end mark of the string literal in which it is embedded")
     endif()
     file(APPEND ${OUTPUT} "\nstd::string_view ${name}() {\n  return R\"vibrissa_file(")
     file(APPEND ${OUTPUT} "${content}")

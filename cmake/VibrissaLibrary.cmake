@@ -1,9 +1,9 @@
 get_filename_component(VIBRISSA_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
 
-# Files read more than they compile (deal.II, Eigen, GoogleMock): eight are compiled together, which
-# spares a whole build most of its work, and deal.II's headers are compiled once for the rooms that read
-# them. Who works on one file sets -DVIBRISSA_BATCHES=OFF. With VIBRISSA_PRECOMPILE=OFF, too, the compiler
-# finds what both hide: an include that is missing, a name that two files of a batch share by mistake.
+# Most of the build time is for large headers (deal.II, Eigen, GoogleMock). Therefore eight files are
+# compiled together, and the headers of deal.II are precompiled once. Set -DVIBRISSA_BATCHES=OFF while you
+# work on one file. With VIBRISSA_PRECOMPILE=OFF, too, the compiler finds what both options hide: a missing
+# include, or a name that two files of a batch share by mistake.
 set(VIBRISSA_SOLID_HEADERS <Eigen/Dense> <nlohmann/json.hpp> <deal.II/base/parameter_handler.h>
     <deal.II/fe/fe_values.h> <deal.II/grid/tria.h>)
 
@@ -34,9 +34,9 @@ function(vibrissa_library room)
 endfunction()
 
 # vibrissa_tests(ROOM LINK ... [SOURCES ...]): the GoogleTest program of one room, of every *_test.cc of
-# the folder and SOURCES beside them. One CTest test a case; in rooms that load deal.II one CTest test for
-# the program, whose start takes longer than most cases. Suites whose name begins with Long, and tests named
-# long_, are left to "./check --long".
+# the folder and SOURCES beside them. One CTest test for each test case; in rooms that load deal.II one CTest
+# test for the program, because its start takes longer than most cases. Suites whose name begins with Long, and
+# tests named long_, run in "./check --long" only.
 function(vibrissa_tests room)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   file(GLOB_RECURSE tests CONFIGURE_DEPENDS *_test.cc)
@@ -44,7 +44,7 @@ function(vibrissa_tests room)
   add_executable(test_${room} ${ARG_SOURCES})
   vibrissa_batch(test_${room})
   if(VIBRISSA_PRECOMPILE AND room MATCHES "^(materials|meshes|flow|fem)$")
-    # First, too: deal.II's macro Assert hides a function of GoogleMock.
+    # GoogleMock must come first: the macro Assert of deal.II hides one of its functions.
     target_precompile_headers(test_${room} PRIVATE <gmock/gmock.h>)
   endif()
   target_link_libraries(test_${room} PRIVATE ${ARG_LINK} GTest::gmock_main)

@@ -12,8 +12,8 @@ foreach(room signals separation diagnosis)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} COMPONENT library
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vibrissa FILES_MATCHING PATTERN "*.h")
 endforeach()
-# Eigen aligns its matrices as the processor's vectors want: who links the library must be compiled
-# for the same ones. The preset "package" builds for any processor.
+# The alignment of Eigen matrices depends on the SIMD registers of the processor: programs that link the
+# library must be compiled for the same registers. The preset "package" builds for any processor.
 if(VIBRISSA_NATIVE)
   target_compile_options(vibrissa_signals INTERFACE $<INSTALL_INTERFACE:-march=native>)
 endif()
@@ -27,7 +27,7 @@ install(FILES ${PROJECT_BINARY_DIR}/vibrissaConfig.cmake
               ${PROJECT_BINARY_DIR}/vibrissaConfigVersion.cmake
         COMPONENT library DESTINATION ${VIBRISSA_PACKAGE_DIR})
 
-# Each package brings its licence, and the copyright file that Debian's policy asks for.
+# Each package contains its licence and the copyright file that the Debian policy requires.
 function(vibrissa_install_licence component folder)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE COMPONENT ${component} DESTINATION ${folder})
   install(FILES ${PROJECT_SOURCE_DIR}/cmake/debian_copyright COMPONENT ${component}
@@ -53,7 +53,7 @@ if(VIBRISSA_SOLID)
   install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
                 ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
           COMPONENT program DESTINATION ${CMAKE_INSTALL_DOCDIR})
-  # Manual and completion are what the program says of itself.
+  # The program prints its own manual and completion.
   foreach(text "manual man/man1/vibrissa.1" "completion bash-completion/completions/vibrissa")
     string(REPLACE " " ";" text ${text})
     list(GET text 0 command)
@@ -84,7 +84,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libopenblas0-serial, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "xvfb, xauth, openmpi-bin, python3-numpy")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
-    "Why the whisker sensor on the bench differs from the one in the simulation")
+    "Finds why a whisker sensor on the bench differs from its simulation")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libvibrissa-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS

@@ -1,6 +1,6 @@
 # vibrissa_revision(TARGET): adds a generated source to TARGET that defines program_revision() and
-# program_version() of signals/base/revision.h. Each build asks git anew, which takes a few milliseconds,
-# and the source changes, and is compiled, only when the answer does.
+# program_version() of signals/base/revision.h. Each build asks git again, which takes a few milliseconds;
+# the source changes, and is compiled, only when the answer changes.
 #
 # The file is its own script: cmake -DROOT=... -DVERSION=... -DOUTPUT=... -P VibrissaRevision.cmake
 
@@ -10,7 +10,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
   if(GIT)
     execute_process(COMMAND ${GIT} rev-parse --show-toplevel WORKING_DIRECTORY ${ROOT}
                     OUTPUT_VARIABLE top ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
-    # Sources without a repository of their own, unpacked inside another one, have no revision.
+    # Sources without their own repository, unpacked inside another repository, have no revision.
     if(top STREQUAL ROOT)
       execute_process(COMMAND ${GIT} describe --always --dirty --abbrev=12 WORKING_DIRECTORY ${ROOT}
                       OUTPUT_VARIABLE described RESULT_VARIABLE failed ERROR_QUIET

@@ -36,7 +36,7 @@ std::string selection(const Names& names) {
   return all;
 }
 
-/// The enumerator at the name's place; the declared selection has refused any other name.
+/// The enumerator with this name; the declared selection refuses other names.
 template <typename Enum, typename Names>
 Enum enumerator(const Names& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
@@ -74,9 +74,10 @@ void check_sines(const WindParameters& wind) {
   if (wind.sine_amplitude.size() != n || wind.sine_phase_deg.size() != n)
     refuse("Sine frequencies, Sine amplitudes and Sine phases have " + std::to_string(n) + ", " +
            std::to_string(wind.sine_amplitude.size()) + " and " +
-           std::to_string(wind.sine_phase_deg.size()) + " values; give each sine one of each");
+           std::to_string(wind.sine_phase_deg.size()) +
+           " values; give one frequency, one amplitude and one phase for each sine");
   if (wind.kind == WindKind::sines && n == 0)
-    refuse("Kind is sines, but Sine frequencies is empty; name a frequency or set Kind to steady");
+    refuse("Kind is sines, but Sine frequencies is empty; give a frequency or set Kind = steady");
   for (const double f : wind.sine_frequency_hz)
     require(f > 0., "Sine frequencies", f, " Hz", "above zero");
   for (const double a : wind.sine_amplitude)
@@ -91,11 +92,12 @@ void check_turbulence(const WindParameters& wind) {
   require(wind.length_scale > 0., "Length scale", wind.length_scale, " m", "above zero");
   require(wind.maximum_speed > 0., "Maximum speed", wind.maximum_speed, " m/s", "above zero");
   if (wind.kind != WindKind::turbulent) return;
-  require(wind.mean_speed != 0., "Mean speed", wind.mean_speed, " m/s",
-          "other than zero for turbulent wind, whose strength and time scale follow from it");
+  require(
+      wind.mean_speed != 0., "Mean speed", wind.mean_speed, " m/s",
+      "other than zero for turbulent wind, because its strength and its time scale depend on it");
   require(std::abs(wind.mean_speed) < wind.maximum_speed, "Mean speed", wind.mean_speed, " m/s",
-          "below Maximum speed, " + to_text(wind.maximum_speed) +
-              " m/s, to which turbulent wind is clipped; raise that or lower the mean");
+          "below Maximum speed (" + to_text(wind.maximum_speed) +
+              " m/s), at which turbulent wind is clipped; raise Maximum speed or lower Mean speed");
 }
 
 std::vector<double> sines(const WindParameters& wind, const double sampling_rate_hz,
@@ -104,8 +106,8 @@ std::vector<double> sines(const WindParameters& wind, const double sampling_rate
   for (std::size_t s = 0; s < wind.sine_frequency_hz.size(); ++s) {
     const double frequency_hz = wind.sine_frequency_hz[s];
     if (frequency_hz >= 0.5 * sampling_rate_hz)
-      refuse("Sine frequencies has " + to_text(frequency_hz) +
-             " Hz, at or above half the sampling rate of " + to_text(sampling_rate_hz) +
+      refuse("Sine frequencies contains " + to_text(frequency_hz) +
+             " Hz, which is not below half the sampling rate of " + to_text(sampling_rate_hz) +
              " Hz; lower the frequency or raise the sampling rate");
     const double step = 2. * std::numbers::pi * frequency_hz / sampling_rate_hz;
     const double phase = wind.sine_phase_deg[s] * std::numbers::pi / 180.;
@@ -137,7 +139,7 @@ std::vector<double> turbulence(const WindParameters& wind, const double sampling
                                               wind.mean_speed, deviation, wind.length_scale);
     spectrum[k] = 0.5 * n * std::sqrt(density * resolution_hz) * complex_gaussian(random);
   }
-  // The line at half the rate is real and stands for half a line's width.
+  // The line at half the rate is real and has half the width of a line.
   if (n_samples % 2 == 0)
     spectrum[n_samples / 2] = std::numbers::sqrt2 * spectrum[n_samples / 2].real();
   fft.inverse();
@@ -156,9 +158,8 @@ void WindParameters::declare(ParameterHandler& prm) {
   prm.enter_subsection("Wind");
   prm.declare_entry(
       "Kind", name_of(kind_names, nominal.kind), Selection(selection(kind_names)),
-      "none: still air. steady: Mean speed. sines: Mean speed plus the sines. "
-      "turbulent: von Karman turbulence about Mean speed. recorded: the wind column of "
-      "the excitation record.");
+      "none: still air. steady: Mean speed. sines: Mean speed plus the sines. turbulent: von "
+      "Karman turbulence about Mean speed. recorded: the recording of the subsection Recorded.");
   prm.declare_entry("Mean speed", to_text(nominal.mean_speed), Double(-100., 100.),
                     "Mean wind speed along the axial direction [m/s].");
   prm.declare_entry("Sine frequencies", text(nominal.sine_frequency_hz), List(Double(0., 1e6)),
@@ -168,7 +169,7 @@ void WindParameters::declare(ParameterHandler& prm) {
   prm.declare_entry("Sine phases", text(nominal.sine_phase_deg), List(Double(-1e4, 1e4)),
                     "Phase of each sine at time zero [degrees], of sin(2 pi f t + phase).");
   prm.declare_entry("Turbulence intensity", to_text(nominal.turbulence_intensity), Double(0., 1.),
-                    "Standard deviation of the turbulent speed over the mean speed [1].");
+                    "Standard deviation of the turbulent speed, divided by the mean speed [1].");
   prm.declare_entry("Length scale", to_text(nominal.length_scale), Double(1e-4, 1e4),
                     "Longitudinal integral length scale of the turbulence [m].");
   prm.declare_entry("Maximum speed", to_text(nominal.maximum_speed), Double(1e-3, 200.),
@@ -180,14 +181,12 @@ void WindParameters::declare(ParameterHandler& prm) {
   prm.declare_entry(
       "Pressure acts on", name_of(surface_names, nominal.pressure_surface),
       Selection(selection(surface_names)),
-      "Surface that the pressure acts on in the solid at finite strain: area and normal of the "
-      "reference state or of the deformed one, which they follow. Linear models take the reference "
-      "state whatever is said here.");
+      "Surface on which the pressure acts at finite strain: area and normal are those of the "
+      "reference state or of the deformed state. Linear models always use the reference state.");
   prm.declare_entry("Relative velocity", nominal.relative_velocity ? "true" : "false",
                     Patterns::Bool(),
-                    "Whether the drag is that of the air's speed past the moving whisker, u - v, "
-                    "in place of u: wind and vibration then act on each other. For the full-order "
-                    "solid.");
+                    "Whether the drag depends on the air speed relative to the moving whisker, u - "
+                    "v, instead of u; wind and vibration then interact. Full-order solid only.");
   prm.declare_entry("Air density", to_text(nominal.air.density), Double(1e-3, 100.),
                     "Density of the air [kg/m^3]; 1.204 at 20 C and sea level.");
   prm.declare_entry("Air kinematic viscosity", to_text(nominal.air.kinematic_viscosity),

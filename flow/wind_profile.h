@@ -6,8 +6,8 @@ namespace vibrissa::flow {
 /// s = z/height (0 at the support, 1 at the tip).
 enum class WindProfile { uniform, parabolic };
 
-/// The factor at height z; s is held within [0, 1], so that a point that rounding or deflection
-/// puts outside has the value of the end. Proven by tests/flow/wind_profile_test.cc.
+/// The factor at height z; s is limited to [0, 1], because rounding or deflection can move a point
+/// outside. Proven by tests/flow/wind_profile_test.cc.
 double profile_factor(WindProfile profile, double z, double height);
 
 }  // namespace vibrissa::flow

@@ -22,7 +22,7 @@ void set_cube_root(const Lanes& x, Lanes& root) {
 }
 
 /// The change of shape in C = mean (I + a), tr a = 0. I1bar does not depend on the mean, so that
-/// I1bar = 3 det(I + a)^(-1/3), and nothing of first order in E is left to cancel.
+/// I1bar = 3 det(I + a)^(-1/3), without cancellation of first-order terms in E.
 template <typename Real>
 struct Distortion {
   explicit Distortion(const Real* e);

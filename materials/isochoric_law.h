@@ -13,14 +13,14 @@ using Strain = dealii::SymmetricTensor<2, 3>;   // Green-Lagrange E = (F^T F - I
 using Stress = dealii::SymmetricTensor<2, 3>;   // second Piola-Kirchhoff S = dW/dE [Pa]
 using Tangent = dealii::SymmetricTensor<4, 3>;  // dS/dE [Pa]
 
-// Every function here is total: a strain that belongs to no deformation (C = I + 2E not positive
-// definite, beyond rounding) gives NaN in energy, stress and tangent, for a line search to look
-// for. C = F^T F cannot show that F turned inside out (det F < 0): whoever has F checks that.
+// All functions accept every strain: a strain without a deformation (C = I + 2E not positive
+// definite, beyond rounding) gives NaN in energy, stress and tangent, which a line search can
+// detect. C = F^T F does not show an inverted F (det F < 0): the caller must check F.
 
-/// Isochoric Yeoh law, W = sum_i c_i (I1bar - 3)^i per reference volume [J/m^3],
-/// I1bar = J^(-2/3) tr C, C = I + 2E (Yeoh, Rubber Chem. Technol. 66, 1993, with I1bar for I1).
-/// Shear modulus at rest 2 c_1. Stress and tangent keep their digits down to E = 0.
-/// Proven by tests/materials/isochoric_law_test.cc: StressIsTheDerivativeOfEnergy,
+/// Isochoric Yeoh law, W = sum_i c_i (I1bar - 3)^i per reference volume [J/m^3], I1bar = J^(-2/3)
+/// tr C, C = I + 2E (Yeoh, Rubber Chem. Technol. 66, 1993, with I1bar for I1). Shear modulus at
+/// rest 2 c_1. Stress and tangent are accurate down to E = 0. Proven by
+/// tests/materials/isochoric_law_test.cc: StressIsTheDerivativeOfEnergy,
 /// TangentIsTheDerivativeOfStress, NearRestFollowsTheLinearLaw, and the closed forms there.
 struct Yeoh {
   std::array<double, 3> c{};  // Pa

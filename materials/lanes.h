@@ -4,8 +4,8 @@
 
 namespace vibrissa::materials {
 
-/// Numbers that the processor works on at once; the compiler splits them where it has shorter
-/// registers. Passed by reference only: by value they would change the calling convention.
+/// Numbers for SIMD operations; the compiler splits them on processors with shorter registers. Pass
+/// them only by reference: by value they would change the calling convention.
 inline constexpr int n_lanes = 8;
 using Lanes [[gnu::vector_size(n_lanes * sizeof(double))]] = double;
 

@@ -55,10 +55,9 @@ Material make_elastic(const double youngs_modulus, const double poisson_ratio, c
                       const double loss_factor) {
   require_positive(youngs_modulus, "Young's modulus", " Pa");
   if (!(poisson_ratio > -1. && poisson_ratio < 0.5))
-    throw UserError(
-        "Poisson's ratio is " + text(poisson_ratio, "") +
-        "; it must lie between -1 and 0.5, both excluded (0.5 would be an infinite bulk "
-        "modulus: use a Yeoh rubber with a finite one instead)");
+    throw UserError("Poisson's ratio is " + text(poisson_ratio, "") +
+                    "; it must be above -1 and below 0.5 (0.5 means an infinite bulk modulus: use "
+                    "a Yeoh material with a finite bulk modulus instead)");
   require_body(density, loss_factor);
   return {.isochoric = NeoHookean{youngs_modulus / (2. * (1. + poisson_ratio))},
           .volumetric = {.bulk_modulus = youngs_modulus / (3. * (1. - 2. * poisson_ratio))},
@@ -77,10 +76,11 @@ Material make_yeoh(const std::array<double, 3>& c, const double bulk_modulus, co
   require_body(density, loss_factor);
   const double least = 10. * rest_shear_modulus(Yeoh{c});
   if (bulk_modulus < least)
-    throw UserError("bulk modulus is " + text(bulk_modulus, " Pa") +
-                    ", below ten shear moduli (2 c1 = " + text(2. * c[0], " Pa") +
-                    "), which is no nearly incompressible rubber; raise it to " +
-                    text(least, " Pa") + " or more, or lower c1");
+    throw UserError(
+        "bulk modulus is " + text(bulk_modulus, " Pa") +
+        ", below ten shear moduli (2 c1 = " + text(2. * c[0], " Pa") +
+        "), but the Yeoh law needs a nearly incompressible material; raise the bulk modulus to " +
+        text(least, " Pa") + " or more, or lower c1");
   return {.isochoric = Yeoh{c},
           .volumetric = {bulk_modulus, volumetric},
           .density = density,

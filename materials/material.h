@@ -8,14 +8,15 @@
 
 namespace vibrissa::materials {
 
-/// A body's material: law, density, and loss factor (of the stress, at any frequency; 0 = none).
+/// Material of a body: law, density, and loss factor (the same at all frequencies; 0 = none).
 struct Material {
   IsochoricLaw isochoric;
   VolumetricLaw volumetric;
   double density = 0.;  // kg/m^3, reference configuration
   double loss_factor =
-      0.;  // eta; modal damping follows as sum of eta_i (share of strain energy) / 2
-  PronySeries relaxation{};  // of the isochoric stress at finite strain; the law is what remains
+      0.;  // eta; the modal damping ratio is the sum of eta_i (share of strain energy) / 2
+  PronySeries
+      relaxation{};  // of the isochoric stress at finite strain; the law holds at infinite time
 
   double shear_modulus_at_rest() const;   // Pa
   double youngs_modulus_at_rest() const;  // 9 K mu / (3 K + mu) [Pa]

@@ -27,12 +27,14 @@ void declare_body(ParameterHandler& prm, const Material& nominal) {
   prm.declare_entry("Density", text(nominal.density), Double(1., 1e5),
                     "Mass per undeformed volume [kg/m^3].");
   prm.declare_entry("Loss factor", text(nominal.loss_factor), Double(0., 10.),
-                    "Loss factor of the stress [1], the same at any frequency; 0 means that this "
-                    "material adds no damping of its own.");
-  prm.declare_entry("Prony moduli", "", List(Double(0.), 0, 20),
-                    "Shear moduli of relaxing branches over that at infinite time, which the other "
-                    "entries give [1]; for the transient at finite strain; empty: none.");
-  prm.declare_entry("Prony times", "", List(Double(1e-9), 0, 20), "Their relaxation times [s].");
+                    "Loss factor of the material [1], the same at all frequencies; 0: this "
+                    "material adds no damping.");
+  prm.declare_entry(
+      "Prony moduli", "", List(Double(0.), 0, 20),
+      "Shear moduli of the Prony branches, divided by the shear modulus at infinite time, which "
+      "the other entries give [1]; used by the transient at finite strain; empty: none.");
+  prm.declare_entry("Prony times", "", List(Double(1e-9), 0, 20),
+                    "Relaxation times of the Prony branches [s].");
 }
 
 std::vector<double> numbers(ParameterHandler& prm, const std::string& entry) {
@@ -45,7 +47,7 @@ PronySeries parse_relaxation(ParameterHandler& prm) {
   if (moduli.size() != times.size())
     throw signals::UserError("Prony moduli has " + std::to_string(moduli.size()) +
                              " entries and Prony times " + std::to_string(times.size()) +
-                             "; give as many of each");
+                             "; give the same number of both");
   std::vector<PronyBranch> branches;
   for (std::size_t i = 0; i < moduli.size(); ++i) branches.push_back({moduli[i], times[i]});
   return PronySeries(branches);
@@ -60,11 +62,10 @@ void declare_rubber(ParameterHandler& prm, const Material& nominal) {
   prm.declare_entry("c2", text(c[1]), Double(), "Yeoh coefficient [" + energy + "].");
   prm.declare_entry("c3", text(c[2]), Double(), "Yeoh coefficient [" + energy + "].");
   prm.declare_entry("Bulk modulus", text(nominal.volumetric.bulk_modulus), Double(10., 1e13),
-                    "Bulk modulus [Pa], at least twenty c1 (ten shear moduli).");
-  prm.declare_entry(
-      "Volumetric law", "quadratic", Selection("quadratic|Hartmann-Neff"),
-      "Energy of a change of volume per undeformed volume: quadratic is K/2 (J - 1)^2, "
-      "Hartmann-Neff K/50 (J^5 + J^-5 - 2). They differ at large strain only.");
+                    "Bulk modulus [Pa]; at least 20 c1 (ten shear moduli).");
+  prm.declare_entry("Volumetric law", "quadratic", Selection("quadratic|Hartmann-Neff"),
+                    "Energy of a volume change per undeformed volume: quadratic is K/2 (J - 1)^2, "
+                    "Hartmann-Neff K/50 (J^5 + J^-5 - 2). They differ only at large strain.");
   declare_body(prm, nominal);
 }
 

@@ -9,7 +9,7 @@
 
 namespace vibrissa::materials {
 
-/// The case file's subsection "Materials": silicone (c1, c2, c3, bulk modulus, volumetric law,
+/// Subsection "Materials" of the case file: silicone (c1, c2, c3, bulk modulus, volumetric law,
 /// density, loss factor), wire and fin (Young's modulus, Poisson's ratio, density, loss factor).
 /// Defaults: docs/theory.md (T1). Proven by tests/materials/sensor_materials_test.cc.
 struct SensorMaterials {
@@ -19,7 +19,7 @@ struct SensorMaterials {
 
   /// Names, units and ranges; deal.II refuses a value out of range with its line in the case file.
   static void declare(dealii::ParameterHandler& prm);
-  /// Throws UserError naming the subsection and the entry when entries do not fit each other.
+  /// Throws UserError with the subsection and the entry when entries are inconsistent.
   void parse(dealii::ParameterHandler& prm);
   /// By region name: "silicone", "wire", "fin".
   std::map<std::string, Material> by_region() const;

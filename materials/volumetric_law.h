@@ -4,13 +4,13 @@
 
 namespace vibrissa::materials {
 
-/// Energy of a change of volume per reference volume [J/m^3], with dU/dJ and d2U/dJ2. Both kinds
-/// have the bulk modulus K at rest:
+/// Energy of a volume change per reference volume [J/m^3], with dU/dJ and d2U/dJ2. Both kinds have
+/// the bulk modulus K at rest:
 ///   quadratic      U = K/2 (J - 1)^2, finite at J = 0;
 ///   hartmann_neff  U = K/50 (J^5 + J^-5 - 2), which grows beyond bounds as J -> 0 and is
 ///                  polyconvex (Hartmann and Neff, Int. J. Solids Struct. 40, 2003, eq. 2.37).
-/// The argument is J - 1, so that digits survive near rest; NaN for J <= 0 under hartmann_neff.
-/// Proven by tests/materials/isochoric_law_test.cc, VolumetricLaws.
+/// The argument is J - 1, to keep accuracy near rest; NaN for J <= 0 with hartmann_neff. Proven by
+/// tests/materials/isochoric_law_test.cc, VolumetricLaws.
 struct VolumetricLaw {
   enum class Kind { quadratic, hartmann_neff };
 

@@ -9,11 +9,12 @@
 
 namespace vibrissa::meshes {
 
-/// Parts of the sensor seen along z: the wire's circle, the silicone around it, the blades around
-/// it.
+/// Parts of the sensor in a section normal to z: the circle of the wire, the silicone around it,
+/// the blades around it.
 enum class Part { wire, base, fin };
 
-/// A vertex that moves with the width of the blades: at_zero_width + width * per_width [m].
+/// A vertex whose position depends on the width of the blades: at_zero_width + width * per_width
+/// [m].
 struct SectionVertex {
   dealii::Point<2> at_zero_width;
   dealii::Tensor<1, 2> per_width;
@@ -24,23 +25,24 @@ struct SectionQuad {
   Part part;
 };
 
-/// Quadrilaterals of all parts in one plane. Base and fin overlap: they exist at different heights.
+/// Quadrilaterals of all parts in one plane. Base and fin overlap, because they are at different
+/// heights.
 struct CrossSection {
   std::vector<SectionVertex> vertices;
   std::vector<SectionQuad> quads;
   std::vector<unsigned int> wire_circle;  // vertices, counterclockwise from -45 degrees
 };
 
-/// Butterfly of the wire: a square core of n x n quads with its corners on the diagonals, and a
-/// ring of n x 4n.
+/// Butterfly mesh of the wire: a square core of n x n quads with its corners on the diagonals, and
+/// a ring of n x 4n quads.
 CrossSection make_wire_section(double wire_diameter, unsigned int n);
 
-/// Adds 2n rings of 4n quads each between the wire and the base's edge, radii in geometric
-/// progression.
+/// Adds 2n rings of 4n quads each between the wire and the edge of the base, with radii in
+/// geometric progression.
 void add_base_rings(CrossSection& section, double base_diameter, unsigned int n);
 
-/// Adds n rings from the wire's circle to the square of the blades' thickness, and on each side
-/// with a blade n x n quads of straight wing, whose ends follow the width.
+/// Adds n rings from the circle of the wire to the square with the thickness of the blades, and n x
+/// n quads of a straight wing on each side with a blade; the ends of the wing depend on the width.
 void add_blades(CrossSection& section, double thickness, FinShape shape, unsigned int n);
 
 }  // namespace vibrissa::meshes

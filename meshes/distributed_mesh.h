@@ -7,10 +7,10 @@
 
 namespace vibrissa::meshes {
 
-/// A mesh that every process has made alike, shared out: each process keeps its part (METIS, equal
-/// numbers of cells) and one layer of cells around it, with regions, boundaries and manifolds.
-/// Collective. `whole` gets the parts' numbers as subdomain ids and is not needed afterwards.
-/// Proven by tests/fem/linalg/processes_test.cc.
+/// Distributes a mesh that every process has created equally: each process keeps its part (METIS,
+/// equal numbers of cells) and one layer of cells around it, with regions, boundaries and
+/// manifolds. Collective. `whole` receives the numbers of the parts as subdomain ids and is not
+/// needed afterwards. Proven by tests/fem/linalg/processes_test.cc.
 std::unique_ptr<dealii::Triangulation<3>> share_out(dealii::Triangulation<3>& whole,
                                                     MPI_Comm communicator);
 

@@ -14,7 +14,8 @@ namespace {
 
 constexpr dealii::types::manifold_id cylinder = 1;
 constexpr unsigned int z_axis = 2;
-/// No cylindrical cell touches the axis; deal.II's default takes thin, long cells for such.
+/// No cylindrical cell touches the axis; deal.II's default tolerance would treat thin, long cells
+/// as if they did.
 constexpr double axis_tolerance = 1e-20;
 
 /// Vertices and cells grow together: a section vertex exists only at heights where a cell needs it.

@@ -134,7 +134,7 @@ void GmshMesh::read_names() {
 }
 
 void GmshMesh::check_cells() const {
-  if (msh_.hexahedra.empty()) refuse("the file has no hexahedra (was the mesh saved in 3-D?)");
+  if (msh_.hexahedra.empty()) refuse("the file has no hexahedra; save a 3-D mesh");
   std::set<std::array<unsigned int, 8>> seen;
   for (const Hexahedron& cell : msh_.hexahedra) {
     if (!region_of_tag_.contains(cell.physical_tag))
@@ -169,7 +169,7 @@ void GmshMesh::mark_faces() {
       faces_[face_of(msh_.hexahedra[c], corners)].cells.push_back(c);
   for (const auto& [key, face] : faces_)
     if (face.cells.size() > 2)
-      refuse(msh_.hexahedra[face.cells.back()].line, "a third hexahedron shares one face");
+      refuse(msh_.hexahedra[face.cells.back()].line, "more than two hexahedra share one face");
 
   for (const MshElement<4>& quadrangle : msh_.quadrangles) {
     const auto boundary = boundary_of_tag_.find(quadrangle.physical_tag);
@@ -177,11 +177,12 @@ void GmshMesh::mark_faces() {
       refuse(quadrangle.line, "this quadrangle is in no named physical surface. Known names: " +
                                   listed(boundary_ids()));
     const auto face = faces_.find(sorted(quadrangle.nodes));
-    if (face == faces_.end()) refuse(quadrangle.line, "this quadrangle is no face of a hexahedron");
+    if (face == faces_.end())
+      refuse(quadrangle.line, "this quadrangle is not a face of a hexahedron");
     if (face->second.cells.size() == 2)
       refuse(quadrangle.line,
              "physical surface '" + boundary_name(boundary->second) +
-                 "' holds a face inside the sensor (an interface between bodies?) at " +
+                 "' contains a face inside the sensor (an interface between bodies?) at " +
                  place_text(centre(quadrangle.nodes)) + "; only outer faces may be in a group");
     if (face->second.boundary != dealii::numbers::internal_face_boundary_id)
       refuse(quadrangle.line, "this quadrangle is given twice (a surface in two physical groups?)");
@@ -210,7 +211,7 @@ void GmshMesh::check_clamp() const {
     has_clamp = true;
     for (const unsigned int node : key)
       if (std::abs(msh_.nodes[node][2]) > clamp_tolerance * size_m_)
-        refuse("physical surface 'clamp' leaves the plane z = 0 at " +
+        refuse("physical surface 'clamp' is not in the plane z = 0 at " +
                place_text(msh_.nodes[node]));
   }
   if (!has_clamp) refuse("no outer face is in a physical surface 'clamp' (the plane z = 0)");

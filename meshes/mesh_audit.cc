@@ -31,7 +31,7 @@ constexpr double coordinate_step_m = 1e-12;
 /// diameter.
 constexpr double least_jacobian_ratio = 1e-6, least_cube_ratio = 1e-12;
 
-/// Runs a look-up of a name and adds the place to its complaint.
+/// Looks up a name and adds the place to its error message.
 template <class Lookup>
 std::string name_at(const dealii::Point<3>& place, const std::string& what, const Lookup& lookup) {
   try {
@@ -76,8 +76,8 @@ CellMeasure measure(const Cell& cell, const dealii::FEValues<3>& values) {
   const double cube = std::pow(cell->diameter() / std::sqrt(3.), 3);
   if (!(smallest > least_jacobian_ratio * largest && smallest > least_cube_ratio * cube))
     throw signals::UserError("mesh: inverted or degenerate cell at " + place_text(cell->center()) +
-                             ": its Jacobian determinant falls to " + signals::to_text(smallest) +
-                             " m^3");
+                             ": its smallest Jacobian determinant is " +
+                             signals::to_text(smallest) + " m^3");
   return result;
 }
 

@@ -9,11 +9,11 @@
 
 namespace vibrissa::meshes {
 
-/// What a mesh holds, measured with the mapping that the solver uses.
+/// Measures of a mesh, with the mapping of the solver.
 struct MeshAudit {
   unsigned int n_cells = 0;
   std::map<std::string, double> region_volume_m3;
-  std::map<std::string, double> region_mass_kg;  // where a density was given
+  std::map<std::string, double> region_mass_kg;  // only for regions with a given density
   std::map<std::string, double> boundary_area_m2;
   std::map<std::pair<std::string, std::string>, double> interface_area_m2;  // names in order
   double smallest_jacobian_ratio =
@@ -27,9 +27,9 @@ struct MeshAudit {
 MeshAudit audit_mesh(const dealii::Triangulation<3>& mesh, const dealii::Mapping<3>& mapping,
                      const std::map<std::string, double>& density_kg_m3 = {});
 
-/// Hexadecimal SHA-256 of vertices, cells, regions and boundary marks. Same text for the same mesh
-/// on every run and machine: coordinates are rounded to 1e-12 m, below which libraries' last digits
-/// differ.
+/// Hexadecimal SHA-256 of vertices, cells, regions and boundary marks. Equal meshes give equal
+/// texts on every machine: coordinates are rounded to 1e-12 m, because the last digits differ
+/// between libraries.
 std::string mesh_sha256(const dealii::Triangulation<3>& mesh);
 
 }  // namespace vibrissa::meshes

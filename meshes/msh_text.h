@@ -19,7 +19,7 @@ struct MshElement {
   unsigned int line;
 };
 
-/// What a Gmsh file says, not yet evaluated: points and lines are left out.
+/// Content of a Gmsh file, not yet checked; points and lines are omitted.
 struct MshText {
   std::map<std::pair<int, int>, std::string> physical_names;  // by dimension and tag
   std::vector<dealii::Point<3>> nodes;
@@ -28,9 +28,9 @@ struct MshText {
 };
 
 /// Reads the file format "MSH" of Gmsh's reference manual, versions 2.2 and 4.1, ASCII. Throws
-/// UserError with file, line and reason: file missing, binary or another version, text where a
-/// number belongs, unknown or repeated nodes, elements other than points, lines, first-order
-/// quadrangles and hexahedra, an early end. tests/meshes/gmsh_file_test.cc reads files that Gmsh
+/// UserError with file, line and reason: file missing, binary or another version, text instead of a
+/// number, unknown or repeated nodes, elements other than points, lines, first-order quadrangles
+/// and hexahedra, an early end of the file. tests/meshes/gmsh_file_test.cc reads files that Gmsh
 /// wrote.
 MshText read_msh_text(const std::filesystem::path& file);
 

@@ -7,8 +7,8 @@
 
 namespace vibrissa::meshes {
 
-/// Bodies of the sensor (material ids) and parts of its outer surface (boundary ids). A Gmsh file
-/// must give its physical groups the same names.
+/// Bodies of the sensor (material ids) and parts of its outer surface (boundary ids). The physical
+/// groups of a Gmsh file must have the same names.
 namespace region {
 inline constexpr dealii::types::material_id silicone = 1, wire = 2, fin = 3;
 }
@@ -21,7 +21,7 @@ inline constexpr dealii::types::boundary_id clamp = 1, silicone_surface = 2, wir
 /// {"silicone", 1}, ... and {"clamp", 1}, ...
 const std::map<std::string, dealii::types::material_id>& region_ids();
 const std::map<std::string, dealii::types::boundary_id>& boundary_ids();
-/// Throw UserError for an unknown id, with the known ones.
+/// Throw UserError with the known ids for an unknown id.
 std::string region_name(dealii::types::material_id id);
 std::string boundary_name(dealii::types::boundary_id id);
 

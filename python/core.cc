@@ -1,4 +1,4 @@
-// The signal half as a Python module: needs no deal.II. What people import is vibrissa/__init__.py.
+// The Python module without the solid; it needs no deal.II. Users import vibrissa/__init__.py.
 #include <pybind11/pybind11.h>
 
 #include "diagnosis/diagnosis.h"

@@ -130,18 +130,20 @@ void add_models(py::module_& module) {
             return py::array_t<std::complex<double>>(static_cast<py::ssize_t>(values.size()),
                                                      values.data());
           },
-          py::arg("frequency_hz"), "Base moment over base acceleration [kg m], exp(+j w t).")
+          py::arg("frequency_hz"),
+          "Frequency response, base moment over base acceleration [kg m]; time convention exp(+j w "
+          "t).")
       .def_property_readonly(
           "json", [](const SampledBvrm& model) { return separation::to_json(model).dump(); });
   py::class_<diagnosis::UpdatedModel>(
-      module, "Model", "A simulation: nominal model and the effects known to be there.")
-      .def_static("read", &read_model, py::arg("file"), "model.json or updated_model.json.")
+      module, "Model", "Simulation of the sensor: a nominal model with known effects.")
+      .def_static("read", &read_model, py::arg("file"), "Reads model.json or updated_model.json.")
       .def_static(
           "from_records",
           [](const signals::Dataset& simulated) {
             return diagnosis::UpdatedModel(diagnosis::identify_nominal(simulated));
           },
-          py::arg("simulated"), "The nominal model that simulated records say.")
+          py::arg("simulated"), "Identifies the nominal model from simulated records.")
       .def(
           "write",
           [](const diagnosis::UpdatedModel& model, const std::filesystem::path& file) {
@@ -150,7 +152,8 @@ void add_models(py::module_& module) {
           },
           py::arg("file"))
       .def("simulate", &simulate, py::arg("inputs"), py::kw_only(), py::arg("periodic") = false,
-           "Base moment [N m] under a record's base acceleration and wind speed, without noise.");
+           "Simulates the base moment [N m] for the base acceleration and wind speed of a record, "
+           "without noise.");
 }
 
 }  // namespace

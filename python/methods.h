@@ -4,8 +4,8 @@
 
 namespace vibrissa::python {
 
-/// Identification, separation, diagnosis and simulation by a model. Reports come as JSON texts, the
-/// same that the program prints. Proven by tests/python/module_test.py.
+/// Identification, separation, diagnosis and simulation with a model. Reports are JSON texts, equal
+/// to those of the program. Proven by tests/python/module_test.py.
 void add_methods(pybind11::module_& module);
 
 }  // namespace vibrissa::python

@@ -22,13 +22,13 @@ Array to_array(const std::span<const double> values) {
 }
 
 std::vector<double> to_vector(const Array& array) {
-  if (array.ndim() != 1) throw signals::UserError("a channel is an array of one dimension");
+  if (array.ndim() != 1) throw signals::UserError("a channel must be an array of one dimension");
   return {array.data(), array.data() + array.size()};
 }
 
 Record make_record(const double sampling_rate_hz, const std::map<std::string, Array>& channels,
                    const double start_s) {
-  if (channels.empty()) throw signals::UserError("a record needs a channel at least");
+  if (channels.empty()) throw signals::UserError("a record needs at least one channel");
   Record record(sampling_rate_hz, static_cast<std::size_t>(channels.begin()->second.size()),
                 start_s);
   for (const auto& [name, values] : channels) record.set_channel(name, to_vector(values));
@@ -98,13 +98,14 @@ void add_records(py::module_& module) {
   add_record_class(module);
   add_reader(
       module, "read_record", "file", &signals::read_record,
-      "Reads .csv, .mat, .h5, .npy, .uff or .wav. columns: which column is which channel and "
-      "in\nwhich unit, as {'base_acceleration': 'ax[g]', 'base_moment': 'B[uT]*0.18[N m/T]'}.");
-  module.def("write_record", &signals::write_record, py::call_guard<signals::DecimalPoint>(),
-             py::arg("file"), py::arg("record"),
-             "Writes .csv, .mat, .h5, .npy or .uff, by the end of the file's name.");
+      "Reads .csv, .mat, .h5, .npy, .uff or .wav. `columns` names the column and the unit of each "
+      "channel,\nas in {'base_acceleration': 'ax[g]', 'base_moment': 'B[uT]*0.18[N m/T]'}.");
+  module.def(
+      "write_record", &signals::write_record, py::call_guard<signals::DecimalPoint>(),
+      py::arg("file"), py::arg("record"),
+      "Writes .csv, .mat, .h5, .npy or .uff; the ending of the file name selects the format.");
   py::class_<signals::Dataset>(module, "Dataset",
-                               "Records of one sensor and what moved it in each.")
+                               "Records of one sensor, with the excitation of each record.")
       .def("__len__", [](const signals::Dataset& dataset) { return dataset.records.size(); })
       .def_property_readonly(
           "records",
@@ -114,11 +115,11 @@ void add_records(py::module_& module) {
               records.emplace_back(entry.name, entry.record);
             return records;
           },
-          "Name and record of each.")
+          "Pairs of name and record.")
       .def_readonly("guesses", &signals::Dataset::guesses,
-                    "What had to be guessed because nothing says it.");
+                    "Assumptions that were made because no file states them.");
   add_reader(module, "read_dataset", "source", &signals::read_dataset,
-             "Reads a folder of records with dataset.json, or without it; or one record.");
+             "Reads a folder of records, with or without dataset.json, or one record.");
 }
 
 }  // namespace vibrissa::python

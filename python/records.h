@@ -6,7 +6,7 @@ namespace vibrissa::python {
 
 namespace py = pybind11;
 
-/// Record, Dataset, and how they are read and written.
+/// Record, Dataset, and functions that read and write them.
 void add_records(py::module_& module);
 
 }  // namespace vibrissa::python

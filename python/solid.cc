@@ -1,5 +1,5 @@
-// Case files: what needs the solid. Records pass through files' channels, not through C++ types, so
-// that this module and _core need not share any.
+// Functions on case files, which need the solid. Records are passed as arrays and files, not as C++
+// types, so that this module and _core share no types.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -19,7 +19,7 @@ namespace {
 
 namespace py = pybind11;
 
-// MPI begins and ends once a process, whatever the number of calls.
+// MPI starts and ends once in a process, for any number of calls.
 std::optional<fem::SolverSession>& session() {
   static std::optional<fem::SolverSession> of_process;
   return of_process;

@@ -35,7 +35,7 @@ const std::vector<StreamMethod>& stream_methods() {
       {"nlms", "normalised least mean squares in the time domain", make_nlms},
       {"rls", "recursive least squares, 64 taps",
        [](const FdafOptions&) -> Made { return std::make_unique<Rls>(RlsOptions{}); }},
-      {"line_canceller", "delay-based canceller of lines, without accelerometer",
+      {"line_canceller", "line canceller with a delay; needs no accelerometer",
        [](const FdafOptions&) -> Made {
          return std::make_unique<LineCanceller>(LineCancellerOptions{});
        }}};

@@ -10,15 +10,15 @@
 
 namespace vibrissa::separation {
 
-/// A separator that learns from the record alone, sample by sample.
+/// A separator that adapts to the record sample by sample and needs no model.
 struct StreamMethod {
-  std::string name;   // as a user gives it, and of its column
-  std::string about;  // a line
+  std::string name;   // name for the user, also of the result column
+  std::string about;  // one line of description
   std::function<std::unique_ptr<Separator>(const FdafOptions&)> make;
 };
 
-/// All of them. Lengths and steps of the frequency-domain filters follow the options where they
-/// have such a thing; everything else is the method's default.
+/// All methods. The options set the lengths and steps of the methods that have them; all other
+/// parameters have the defaults of the method.
 const std::vector<StreamMethod>& stream_methods();
 
 /// Throws UserError that lists the known names.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The routines of BLAS and LAPACK that are called here, by their names in Fortran.
+/// The BLAS and LAPACK routines that are used, with their Fortran names.
 extern "C" {
 /// c = beta c + alpha op(a) op(b)
 void dgemm_(const char* op_a, const char* op_b, const int* m, const int* n, const int* k,
@@ -17,6 +17,6 @@ void dtrsm_(const char* side, const char* triangle, const char* op, const char* 
 /// x = op(a)^-1 x, a triangular
 void dtrsv_(const char* triangle, const char* op, const char* diagonal, const int* n,
             const double* a, const int* a_stride, double* x, const int* x_step);
-/// a = its Cholesky factor; status 0: a is positive definite
+/// a = Cholesky factor of a; status 0: a is positive definite
 void dpotrf_(const char* triangle, const int* n, double* a, const int* a_stride, int* status);
 }

@@ -15,8 +15,8 @@ void CholeskySolver::refactor() {
 
 void CholeskySolver::solve(const Vector& right_hand_side, Vector& solution) const {
   solve_once(right_hand_side, solution);
-  // A slender solid has stiffnesses that differ by many orders: one step of refinement takes the
-  // forces that the factors' rounding leaves unbalanced, which have long lever arms, out.
+  // The stiffnesses of a slender solid differ by many orders of magnitude: one step of refinement
+  // removes the unbalanced forces from the rounding of the factors, which have long lever arms.
   Vector residual(right_hand_side), correction(right_hand_side);
   if (product_) {
     product_(solution, residual);

@@ -8,7 +8,7 @@ namespace vibrissa::fem {
 
 namespace {
 
-// Products are tiles of so many rows and columns, which fill the registers.
+// Size of the tiles of a product, in rows and columns; a tile fills the registers.
 constexpr int tile_rows = 24, tile_columns = 8;
 // Columns that are eliminated before the rest of the front is touched, and that a product takes at
 // once: the packed rows of a tile stay in the first cache.

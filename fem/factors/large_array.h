@@ -6,9 +6,8 @@
 
 namespace vibrissa::fem {
 
-/// Numbers that are not set, at the beginning of a cache line, in large pages where the system has
-/// them: a page is asked for at its first touch, which takes longer than the work on a small one.
-/// Throws std::bad_alloc.
+/// Uninitialised numbers, aligned to a cache line, in large pages if the system has them: the first
+/// access to a small page takes longer than the work on it. Throws std::bad_alloc.
 class LargeArray {
  public:
   LargeArray() = default;

@@ -14,7 +14,7 @@ Mat factors_of(KSP solver) {
   return factors;
 }
 
-// PETSc calls every failure of MUMPS one of a library.
+// PETSc reports every failure of MUMPS as a library error.
 void check_mumps(KSP solver, const int error_code, const char* call) {
   constexpr PetscInt status_info = 1, no_memory = -13, no_integer_memory = -7;
   if (error_code == PETSC_ERR_LIB) {
@@ -53,7 +53,7 @@ void check_factors(KSP solver) {
     throw signals::ResourceError(
         "the sparse factorisation ran out of memory; lower the mesh resolution");
   }
-  // MUMPS' number of negative pivots: it goes on through them without a word.
+  // Number of negative pivots in MUMPS, which does not report them as an error.
   constexpr PetscInt negative_pivots_info = 12;
   PetscInt n_negative = 0;
   check_petsc(MatMumpsGetInfog(factors, negative_pivots_info, &n_negative), "MatMumpsGetInfog");
@@ -108,7 +108,7 @@ FactorCost MumpsFactors::cost() const {
   check_petsc(MatMumpsGetInfog(factors, entries_info, &entries), "MatMumpsGetInfog");
   check_petsc(MatMumpsGetInfog(factors, memory_info, &megabytes), "MatMumpsGetInfog");
   check_petsc(MatMumpsGetRinfog(factors, operations_info, &cost.operations), "MatMumpsGetRinfog");
-  // Beyond the range of an integer MUMPS counts in millions, with a minus.
+  // Above the range of an integer, MUMPS gives the number in millions with a negative sign.
   cost.entries = entries < 0 ? -1e6 * entries : entries;
   cost.memory_mib = megabytes * 1e6 / 1048576.;
   return cost;

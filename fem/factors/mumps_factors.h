@@ -6,8 +6,8 @@
 
 namespace vibrissa::fem {
 
-/// Factors that several processes hold a part of each, by MUMPS through PETSc.
-/// Proven by tests/fem/linalg/processes_test.cc.
+/// Factors that are distributed over several processes, by MUMPS through PETSc. Proven by
+/// tests/fem/linalg/processes_test.cc.
 class MumpsFactors : public SparseFactors {
  public:
   explicit MumpsFactors(const Matrix& matrix);

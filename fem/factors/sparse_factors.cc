@@ -7,8 +7,8 @@ namespace vibrissa::fem {
 
 void throw_indefinite() {
   throw IndefiniteMatrix(
-      "the stiffness matrix is not positive definite: a part of the mesh is not held by the "
-      "clamp or a material is unstable; check regions, boundaries and moduli");
+      "the stiffness matrix is not positive definite: a part of the mesh is not connected to the "
+      "clamp, or a material is unstable; check regions, boundaries and moduli");
 }
 
 std::unique_ptr<SparseFactors> make_factors(const Matrix& matrix) {

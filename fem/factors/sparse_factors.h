@@ -7,7 +7,7 @@
 
 namespace vibrissa::fem {
 
-/// A matrix that should have been positive definite is not.
+/// A matrix that must be positive definite is not.
 class IndefiniteMatrix : public signals::InternalError {
  public:
   using signals::InternalError::InternalError;
@@ -15,27 +15,27 @@ class IndefiniteMatrix : public signals::InternalError {
 
 [[noreturn]] void throw_indefinite();
 
-/// What factors cost, over all processes.
+/// Cost of the factors, summed over all processes.
 struct FactorCost {
-  double entries = 0.;     // of the factors
-  double operations = 0.;  // of one factorisation
-  double memory_mib = 0.;  // that the factorisation worked in
+  double entries = 0.;     // number of entries of the factors
+  double operations = 0.;  // number of operations of one factorisation
+  double memory_mib = 0.;  // memory of the factorisation
 };
 
-/// Cholesky factors of a matrix that outlives them, as one library or another makes them.
+/// Cholesky factors of a matrix, by one of several libraries. The matrix must outlive them.
 class SparseFactors {
  public:
   virtual ~SparseFactors() = default;
-  /// Of the matrix's current values, in its first pattern. Throws IndefiniteMatrix,
-  /// std::bad_alloc, signals::UserError where memory runs out.
+  /// Factorises the current values of the matrix; the pattern must not change. Throws
+  /// IndefiniteMatrix, and std::bad_alloc or signals::UserError when there is not enough memory.
   virtual void factorise() = 0;
   virtual void solve(const Vector& right_hand_side, Vector& solution) const = 0;
   virtual Columns solve(const Columns& right_hand_sides) const = 0;
   virtual FactorCost cost() const = 0;
 };
 
-/// Our own (fem/factors/supernodal_factors.h) for one process, those of MUMPS for several; made,
-/// but not factorised.
+/// Creates factors, not yet factorised: fem/factors/supernodal_factors.h for one process, MUMPS for
+/// several.
 std::unique_ptr<SparseFactors> make_factors(const Matrix& matrix);
 
 }  // namespace vibrissa::fem

@@ -11,9 +11,9 @@
 
 namespace vibrissa::fem {
 
-/// Factors of a matrix that one process holds: multifrontal Cholesky factorisation (Duff and Reid,
-/// ACM Trans. Math. Softw. 9, 302 (1983)). What a supernode changes below itself waits as a dense
-/// update until its parent takes it in. Proven by tests/fem/factors/cholesky_solver_test.cc.
+/// Factors of a matrix in one process: multifrontal Cholesky factorisation (Duff and Reid, ACM
+/// Trans. Math. Softw. 9, 302 (1983)). A supernode stores its change of the rows below as a dense
+/// update, which its parent adds later. Proven by tests/fem/factors/cholesky_solver_test.cc.
 class SupernodalFactors : public SparseFactors {
  public:
   explicit SupernodalFactors(const Matrix& matrix);
@@ -23,7 +23,7 @@ class SupernodalFactors : public SparseFactors {
   FactorCost cost() const override;
 
  private:
-  /// A front's update: the lower triangle of the rows below its panel.
+  /// Update of a front: the lower triangle of the rows below its panel.
   struct Update {
     double* values;
     int n;
@@ -41,8 +41,8 @@ class SupernodalFactors : public SparseFactors {
   LargeArray factor_;
   std::array<LargeArray, 2> stacks_;
   FrontElimination elimination_;
-  std::vector<int> position_;  // of a node's first unknown among the rows of the current front
-  std::vector<int> runs_;      // of a child's nodes that follow each other there, too; and the end
+  std::vector<int> position_;  // row of the first unknown of a node in the current front
+  std::vector<int> runs_;      // runs of consecutive nodes of a child, and the end
 };
 
 }  // namespace vibrissa::fem

@@ -11,7 +11,7 @@ namespace vibrissa::fem {
 
 namespace {
 
-/// CHOLMOD's own state.
+/// State of CHOLMOD.
 struct Cholmod {
   Cholmod() {
     cholmod_start(&common);

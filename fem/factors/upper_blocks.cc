@@ -15,7 +15,7 @@ struct CompressedRows {
     PetscBool found = PETSC_FALSE;
     check_petsc(MatGetRowIJ(of, 0, PETSC_FALSE, compressed, &n, &start, &columns, &found),
                 "MatGetRowIJ");
-    if (!found) throw std::runtime_error("MatGetRowIJ knows no rows of this type of matrix");
+    if (!found) throw std::runtime_error("MatGetRowIJ does not support this type of matrix");
   }
   ~CompressedRows() {
     PetscBool found = PETSC_FALSE;

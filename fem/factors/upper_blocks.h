@@ -6,9 +6,9 @@
 
 namespace vibrissa::fem {
 
-/// The upper triangle of a symmetric matrix that one process holds, in square blocks of the three
-/// unknowns of a node (single entries, where they do not come in threes). Reads MATSEQSBAIJ in
-/// place, copies MATSEQAIJ. The matrix must outlive it. Proven by
+/// The upper triangle of a symmetric matrix in one process, in square blocks of the three unknowns
+/// of a node (single entries when the unknowns are not in groups of three). MATSEQSBAIJ is read in
+/// place, MATSEQAIJ is copied. The matrix must outlive it. Proven by
 /// tests/fem/factors/cholesky_solver_test.cc.
 class UpperBlocks {
  public:
@@ -16,12 +16,12 @@ class UpperBlocks {
 
   int block_size() const { return size_; }
   int n_rows() const { return static_cast<int>(start_.size()) - 1; }
-  /// Of each row's blocks, and the end.
+  /// Start of the blocks of each row, and the end.
   const std::vector<int>& start() const { return start_; }
-  /// Of each block, ascending in a row from the diagonal on.
+  /// Column of each block, ascending in a row from the diagonal on.
   const std::vector<int>& columns() const { return columns_; }
 
-  /// Hands the current values over to the reader: [block][column of the block][row of the block].
+  /// Passes the current values to the reader: [block][column of the block][row of the block].
   template <class Reader>
   void read(Reader&& reader) const {
     const double* const values = open();

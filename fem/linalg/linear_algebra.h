@@ -9,14 +9,14 @@
 
 namespace vibrissa::fem {
 
-/// One back-end for one and for many processes. Vectors are not ghosted unless stated.
+/// Types for one and for several processes. Vectors have no ghost entries unless stated.
 using Matrix = dealii::PETScWrappers::MPI::SparseMatrix;
 using Vector = dealii::PETScWrappers::MPI::Vector;
 
 /// Several vectors side by side; each process holds its own rows.
 using Columns = Eigen::MatrixXd;
 
-/// A PETSc dense matrix over the columns' own memory.
+/// A PETSc dense matrix that uses the memory of the columns.
 struct DenseView {
   DenseView(const Columns& columns, MPI_Comm communicator);
   ~DenseView();
@@ -25,12 +25,12 @@ struct DenseView {
   Mat matrix = nullptr;
 };
 
-/// Turns a PETSc error code into an exception that names the call, std::bad_alloc where memory ran
-/// out. Proven by tests/faults/visit_fault_points.py.
+/// Throws an exception with the name of the call for a PETSc error code; std::bad_alloc when there
+/// is not enough memory. Proven by tests/faults/visit_fault_points.py.
 void check_petsc(int error_code, const char* call);
 
-/// Sets the given (owned) rows and columns of a symmetric matrix to zero and their diagonal as
-/// stated.
+/// Sets the given (owned) rows and columns of a symmetric matrix to zero, and their diagonal to the
+/// given value.
 void clamp_rows(Matrix& matrix, const dealii::IndexSet& clamped, double diagonal);
 
 /// A copy with clamped rows.

@@ -7,7 +7,7 @@
 
 namespace vibrissa::fem {
 
-// An allocation of PETSc's own that fails comes back as the line number of the call.
+// A failed allocation in PETSc is returned as the line number of the call.
 bool is_of_memory(const int petsc_error_code) {
   return petsc_error_code == PETSC_ERR_MEM || petsc_error_code >= PETSC_ERR_MAX_VALUE;
 }

@@ -59,8 +59,8 @@ std::string from_first_process(const std::string& text) {
 }
 
 bool all_processes_failed() {
-  // Those that fail alone, several of them at a time, take turns: the first to end the others is
-  // the one whose message is read.
+  // Several processes may fail separately at the same time: the first one ends the others, and its
+  // message is shown.
   const auto patience = std::chrono::milliseconds(2000 + 500 * number_of_process());
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Ibarrier(SolverSession::failure_communicator(), &request);

@@ -5,23 +5,25 @@
 
 namespace vibrissa::fem {
 
-/// The processes that work on one solid (MPI_COMM_WORLD). Before MPI is started, and without
-/// mpirun: one. What is printed or written beside the solid's parts is the first one's affair.
+/// Whether this process is the first one, and the number of processes that work on one solid
+/// (MPI_COMM_WORLD); true and 1 before the start of MPI and without mpirun. The first process
+/// prints and writes everything except the parts of the solid.
 bool is_first_process();
 std::size_t n_processes();
 
-/// Whether a launcher (mpirun, srun) started this program as one of several; tells before MPI is
-/// started.
+/// Whether a launcher (mpirun, srun) started this program as one of several processes; valid before
+/// the start of MPI.
 bool is_launched_as_several();
 
-/// The first process's text, on all. Collective.
+/// The text of the first process, on all processes. Collective.
 std::string from_first_process(const std::string& text);
 
-/// After a failure: waits a moment for the other processes to fail, too. All that went wrong alike
-/// must call it again once the message is out, so that none ends the job before.
+/// Call after a failure: waits a short time for the other processes, and returns whether all
+/// failed. When all processes failed equally, they must call it again after the message was
+/// printed, so that no process ends the job earlier.
 bool all_processes_failed();
 
-/// Ends the other processes as well, wherever they are. For a failure that is this one's alone.
+/// Ends all other processes at once, for a failure of this process alone.
 [[noreturn]] void end_all_processes(int exit_status);
 
 }  // namespace vibrissa::fem

@@ -24,12 +24,12 @@ struct SolverSession::Session {
 
 SolverSession::SolverSession() {
   if (is_running) return;
-  // One process alone needs no daemon of Open MPI beside it.
+  // A single process needs no daemon of Open MPI.
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   session_ = std::make_unique<Session>();
   is_running = true;
   MPI_Comm_dup(MPI_COMM_WORLD, &of_failures);
-  // Errors come back as codes, which we turn into exceptions; signals are the program's affair.
+  // Errors are returned as codes, which become exceptions; the program handles signals.
   check_petsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr), "PetscPushErrorHandler");
   check_petsc(PetscPopSignalHandler(), "PetscPopSignalHandler");
 }

@@ -6,8 +6,8 @@
 
 namespace vibrissa::fem {
 
-/// Starts MPI and PETSc, unless a session has done so already, and stops what it started at the end
-/// of its life. To be made before anything else of this room is used; MPI starts once only.
+/// Starts MPI and PETSc, unless another session has already done so, and stops them at the end of
+/// its lifetime. Create it before any other object of fem/; MPI can be started only once.
 class SolverSession {
  public:
   SolverSession();
@@ -15,7 +15,7 @@ class SolverSession {
   SolverSession(const SolverSession&) = delete;
   SolverSession& operator=(const SolverSession&) = delete;
 
-  /// All processes, kept apart for what they say to each other about failures.
+  /// Communicator of all processes, only for messages about failures.
   static MPI_Comm failure_communicator();
 
  private:

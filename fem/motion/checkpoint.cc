@@ -26,7 +26,7 @@ MPI_Comm communicator_of(const TransientRun& run) {
   return run.sensor().state().displacement.get_mpi_communicator();
 }
 
-/// Stands before the HDF5 file: what it is, and by which the rest is known to be whole.
+/// Text before the HDF5 file: its type, and the checksum of the rest.
 constexpr std::size_t seal_size = 512;
 std::string seal_of(const std::string_view image) {
   std::ostringstream text;
@@ -107,7 +107,7 @@ TransientMemory read_memory(const signals::Hdf5Reader& file, const Vector& like)
   for (const auto& name : file.names("vectors")) {
     const auto values = file.numbers("vectors/" + name);
     if (values.size() != like.size())
-      throw std::runtime_error("'vectors/" + name + "' has another length than the model");
+      throw std::runtime_error("'vectors/" + name + "' and the model have different lengths");
     Vector& vector = memory.vectors.emplace(name, like).first->second;
     for (const auto i : vector.locally_owned_elements()) vector[i] = values[i];
     vector.compress(dealii::VectorOperation::insert);
@@ -115,7 +115,7 @@ TransientMemory read_memory(const signals::Hdf5Reader& file, const Vector& like)
   return memory;
 }
 
-/// The first line in which two texts differ, in words; nothing when they do not.
+/// Text of the first line in which two texts differ; empty when they are equal.
 std::string first_difference(const std::string& there, const std::string& here) {
   std::istringstream in_there(there), in_here(here);
   std::string a, b, section;
@@ -125,13 +125,13 @@ std::string first_difference(const std::string& there, const std::string& here) 
     if (!more_a && !more_b) return "";
     if (!more_a || !more_b || a != b)
       return (section.empty() ? "" : "in '" + section + "' ") + "it has '" +
-             (more_a ? a.substr(a.find_first_not_of(' ')) : "nothing") + "' where this run has '" +
+             (more_a ? a.substr(a.find_first_not_of(' ')) : "nothing") + "', but this run has '" +
              (more_b ? b.substr(b.find_first_not_of(' ')) : "nothing") + "'";
     if (a.rfind("subsection ", 0) == 0) section = a.substr(11);
   }
 }
 
-/// What each process has, on the first one.
+/// The data of each process, on the first process.
 std::vector<std::vector<double>> gather(const std::vector<double>& own, MPI_Comm communicator) {
   const auto n_processes = dealii::Utilities::MPI::n_mpi_processes(communicator);
   const int n_own = static_cast<int>(own.size());
@@ -151,7 +151,7 @@ std::vector<std::vector<double>> gather(const std::vector<double>& own, MPI_Comm
 std::string read_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
-    throw UserError(file.string() + ": there is no checkpoint to go on from");
+    throw UserError(file.string() + ": there is no checkpoint to resume from");
   std::ostringstream content;
   content << in.rdbuf();
   return content.str();
@@ -159,19 +159,19 @@ std::string read_file(const std::filesystem::path& file) {
 
 void check_whole(const std::filesystem::path& file, const std::string& image) {
   if (image.rfind(kind, 0) != 0)
-    throw UserError(file.string() + ": is no checkpoint of a transient (it should begin with '" +
-                    kind + "')");
+    throw UserError(file.string() +
+                    ": is not a checkpoint of a transient (it does not begin with '" + kind + "')");
   if (image.size() <= seal_size ||
       image.rfind(seal_of(std::string_view(image).substr(seal_size)), 0) != 0)
     throw UserError(file.string() +
-                    ": the checkpoint is damaged (its content does not fit its SHA-256); begin the "
-                    "run anew, or take a copy of the file");
+                    ": the checkpoint is damaged (its content does not match its SHA-256); start "
+                    "the run again, or use a copy of the file");
 }
 
 void check_owner(const std::filesystem::path& file, const signals::Hdf5Reader& content,
                  const CheckpointOwner& owner, const double n_processes) {
   const auto refuse = [&](const std::string& reason) {
-    throw UserError(file.string() + ": the checkpoint is another run's: " + reason);
+    throw UserError(file.string() + ": the checkpoint belongs to another run: " + reason);
   };
   const auto difference = first_difference(content.text("owner/case"), owner.case_text);
   if (!difference.empty()) refuse(difference);
@@ -180,7 +180,7 @@ void check_owner(const std::filesystem::path& file, const signals::Hdf5Reader& c
   const double there = content.numbers("owner/n_processes").at(0);
   if (there != n_processes)
     refuse("it was written by " + std::to_string(static_cast<int>(there)) +
-           " processes; take as many");
+           " processes; use the same number of processes");
 }
 
 }  // namespace

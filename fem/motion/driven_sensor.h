@@ -13,39 +13,39 @@
 
 namespace vibrissa::fem {
 
-/// What a transient remembers between two samples: enough to go on from there bit for bit, on the
-/// same number of processes.
+/// State of a transient between two samples. A run with the same number of processes resumes from
+/// it bit for bit.
 struct TransientMemory {
   std::map<std::string, Vector> vectors{};
   std::map<std::string, double> numbers{};
   std::map<std::string, std::vector<double>> own{};  // of this process
 };
 
-/// Work of an integrator since its start.
+/// Numbers of steps, iterations and factorisations since the start.
 struct StepCount {
   std::size_t n_steps = 0, n_iterations = 0, n_factorisations = 0;
 };
 
-/// A sensor driven through a record, linear or at finite strain.
+/// A sensor under the inputs of a record, linear or at finite strain.
 class DrivenSensor {
  public:
   virtual ~DrivenSensor() = default;
 
-  /// Through the interval that begins at a sample.
+  /// Advances through the sampling interval that begins at a sample.
   virtual void advance(std::size_t sample) = 0;
 
   virtual const SolidState& state() const = 0;
-  /// As BaseMoment's two routes.
+  /// The base moment by the two routes of BaseMoment.
   virtual std::array<double, 3> moment_by_reactions() const = 0;
   virtual std::array<double, 3> moment_by_balance() const = 0;
   /// Nothing for the linear model.
   virtual std::optional<EnergyBalance> energy() const = 0;
   virtual StepCount count() const = 0;
-  /// The interval that was gone through last, of a model that chooses its substeps.
+  /// The last sampling interval, for a model with adaptive substeps.
   virtual std::optional<IntervalSteps> interval() const = 0;
 
   virtual TransientMemory memory() const = 0;
-  /// Goes on from a memory at a sample.
+  /// Continues from a saved state at a sample.
   virtual void restore(const TransientMemory& memory, std::size_t sample) = 0;
 };
 

@@ -63,8 +63,8 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
     stressed_at = stressed;
     if (relaxation) relaxing_at = relaxation->memory();
     tangent_.start(mass_factor_);
-    // A state load's stiffness is nothing beside a step's inertia, and a tangent that is kept would
-    // have to remember the instant that it was made at.
+    // The stiffness of a state load is negligible compared with the inertia of a step, and a kept
+    // tangent would depend on the instant at which it was assembled.
     operators_.internal_force->add_tangent(1., u, stressed, tangent_, relaxing());
     tangent_.finish(mass_factor_);
     renew_factors(tangent_, solver_);
@@ -100,7 +100,7 @@ class FiniteStrainStepper::Problem : public BalanceProblem {
     return v;
   }
 
-  /// All at once: about the price of two solutions.
+  /// All at once: costs about as much as two solutions.
   std::vector<Vector> solved_damping_forces() const {
     const std::vector<Vector>& forces = damping_->forces();
     if (forces.empty()) return {};
@@ -302,8 +302,8 @@ void FiniteStrainStepper::go_back(const TransientMemory& memory) {
   if (problem_->relaxation) problem_->relaxation->restore(memory.own.at("relaxing_stress"));
 }
 
-// The tangent that is kept is part of what comes next: Newton's iteration ends elsewhere by another
-// one, though within its tolerance.
+// The kept tangent is part of the state: with another tangent, Newton's iteration ends at a
+// slightly different result, within its tolerance.
 void FiniteStrainStepper::restore(const TransientMemory& memory) {
   const auto count = [&](const char* name) {
     return static_cast<std::size_t>(memory.numbers.at(name));
@@ -343,7 +343,7 @@ void FiniteStrainStepper::step(const Vector& force) {
   NewtonReport report = solve_balance(*problem_, state_.displacement, u, options_.newton);
   add_to_count(report);
   if (!report.converged) {
-    // After a jump of the load the extrapolation may lead out of the body's states.
+    // After a jump of the load the extrapolation may be an invalid state.
     u = state_.displacement;
     report = solve_balance(*problem_, state_.displacement, u, options_.newton);
     add_to_count(report);
@@ -394,13 +394,13 @@ void FiniteStrainStepper::add_to_count(const NewtonReport& report) {
 }
 
 void FiniteStrainStepper::give_up(const NewtonReport& report) const {
-  throw NoBalance(
-      "the solid does not come to balance in step " + std::to_string(count_.n_steps + 1) + ", at " +
-      signals::to_text(changed_at_s_ +
-                       static_cast<double>(n_steps_since_change_ + 1) * options_.time_step_s) +
-      " s (" + report.failure + "; out-of-balance force over force: " + report.history() +
-      "). Take more substeps or weaker inputs, or look for a material that is too soft for them or "
-      "for distorted cells of the mesh");
+  throw NoBalance("the solid finds no equilibrium in step " + std::to_string(count_.n_steps + 1) +
+                  ", at " +
+                  signals::to_text(changed_at_s_ + static_cast<double>(n_steps_since_change_ + 1) *
+                                                       options_.time_step_s) +
+                  " s (" + report.failure + "; relative out-of-balance force: " + report.history() +
+                  "). Take more substeps or weaker inputs, or check the mesh for distorted cells "
+                  "and the materials for a stiffness that is too low");
 }
 
 }  // namespace vibrissa::fem

@@ -13,47 +13,47 @@
 
 namespace vibrissa::fem {
 
-/// The forces of a step do not come to balance.
+/// No equilibrium was found in a step.
 class NoBalance : public signals::UserError {
  public:
   using signals::UserError::UserError;
 };
 
 /// Steps M u'' + C u' + f(u) = F + F(u, u') by generalised-alpha (T14.1) at finite strain. The
-/// equation of motion holds at every step's end. Newton begins from the extrapolated acceleration
-/// and keeps the tangent, over steps too, as long as it converges. Proven by
-/// tests/fem/motion/finite_strain_stepper_test.cc.
+/// equation of motion is satisfied at the end of every step. Newton's iteration starts from the
+/// extrapolated acceleration and keeps the tangent, also over several steps, as long as it
+/// converges. Proven by tests/fem/motion/finite_strain_stepper_test.cc.
 class FiniteStrainStepper {
  public:
   struct Options {
     double spectral_radius = 0.9;
     double time_step_s = 0.;
     NewtonOptions newton;
-    /// Acts beside the given forces; whoever owns it sets it to the instant of the start, and to
-    /// that of each step's end before the step. May be null.
+    /// Acts in addition to the given forces. Its owner sets it to the start, and before each step
+    /// to the end of the step. May be null.
     const StateLoad* load = nullptr;
   };
 
-  /// damping may be null; held: unknowns that do not move. All and the load must outlive the
-  /// stepper.
+  /// damping may be null; held: unknowns that do not move. All arguments and the load must outlive
+  /// the stepper.
   FiniteStrainStepper(const SolidSpace& space, const SolidOperators& operators,
                       const dealii::IndexSet& held, const ModalDamping* damping,
                       const Options& options);
   ~FiniteStrainStepper();
 
-  /// Begins from a state under a force of all rows; finds the acceleration.
+  /// Starts from a state under a force of all rows; computes the acceleration.
   void start(const Vector& displacement, const Vector& velocity, const Vector& force);
-  /// To the end of the next step, where the force is given. Throws NoBalance with the time, the
-  /// residuals and advice, and is then still at the step's start.
+  /// Advances by one step; force is the force at the end of the step. Throws NoBalance with the
+  /// time, the residuals and advice; the stepper is then still at the start of the step.
   void step(const Vector& force);
-  /// Of the steps to come; the tangent, which depends on it, is made anew. The acceleration a goes
-  /// over by (T14.8), which keeps the second order, before the first step by (T14.5).
+  /// Changes the time step of the following steps; the tangent is assembled again. The acceleration
+  /// a is converted by (T14.8), which keeps the second order; before the first step by (T14.5).
   void set_time_step(double time_step_s);
-  /// Estimate of the last step's error in the displacement [m], its largest component (T14.6).
+  /// Estimated error of the displacement of the last step [m], largest component (T14.6).
   double local_error_m() const;
 
   const SolidState& state() const { return state_; }
-  /// With that of relaxing branches, all rows.
+  /// Includes the force of the relaxing branches, all rows.
   const Vector& elastic_force() const { return elastic_force_; }
   const Vector& driving_force() const { return force_; }          // with the state load, all rows
   const Vector& damping_force() const { return damping_force_; }  // all rows
@@ -61,10 +61,10 @@ class FiniteStrainStepper {
   const StepCount& count() const { return count_; }
 
   TransientMemory memory() const;
-  /// In place of start(): goes on bit for bit.
+  /// Instead of start(): continues from a saved state, bit for bit.
   void restore(const TransientMemory& memory);
-  /// The part of the memory that is no tangent and no count of work, and back to it, for steps of
-  /// another length.
+  /// Saves and restores the state without the tangent and the step count, for steps of another
+  /// length.
   TransientMemory motion() const;
   void go_back(const TransientMemory& motion);
 
@@ -75,11 +75,11 @@ class FiniteStrainStepper {
   double time_s() const;
   Vector out_of_balance_at_start() const;
   void find_first_algorithmic(const Vector& out_of_balance);
-  /// The work on the way from a displacement and the mean acceleration there; before the state's
-  /// forces are those of the step's end.
+  /// Adds the energies of the last step, before the forces of the state are updated to the end of
+  /// the step.
   void add_energies(const Vector& before, const Vector& mean_acceleration, const Vector& force);
   void update_forces();
-  /// Of the step whose end the state is at.
+  /// Adds the force of the relaxing branches of the last step.
   void add_relaxing_force();
   Vector with_state_load(const Vector& force) const;
   void add_to_count(const NewtonReport& report);
@@ -94,10 +94,10 @@ class FiniteStrainStepper {
   SolidState state_;
   Vector algorithmic_, algorithmic_before_;  // a of (T14.1), at the last two steps
   Vector force_, elastic_force_, damping_force_;
-  Vector relaxing_force_;  // the share of relaxing branches in the elastic force
+  Vector relaxing_force_;  // part of the elastic force from the relaxing branches
   EnergyBalance energy_;
   StepCount count_;
-  double changed_at_s_ = 0.;  // the time step
+  double changed_at_s_ = 0.;  // time at which the time step was changed
   std::size_t n_steps_since_change_ = 0;
 };
 

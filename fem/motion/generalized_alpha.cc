@@ -3,12 +3,13 @@
 #include <string>
 
 #include "signals/base/error.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::fem {
 
 GeneralizedAlpha::GeneralizedAlpha(const double spectral_radius) {
   if (!(spectral_radius >= 0. && spectral_radius <= 1.)) {
-    throw signals::UserError("spectral radius " + std::to_string(spectral_radius) +
+    throw signals::UserError("spectral radius " + signals::to_text(spectral_radius) +
                              " is outside [0, 1]");
   }
   alpha_m = (2. * spectral_radius - 1.) / (spectral_radius + 1.);

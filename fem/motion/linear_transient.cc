@@ -15,7 +15,8 @@ namespace vibrissa::fem {
 
 namespace {
 
-/// Solves (A + scale C) x = b by the factors of A, without refinement but in balance.
+/// Solves (A + scale C) x = b by the factors of A, without refinement but with the balance
+/// correction.
 class DampedSolver {
  public:
   DampedSolver(const Sensor& sensor, const Matrix& undamped, CholeskySolver::Product product,
@@ -141,8 +142,8 @@ class LinearStepper : public DrivenSensor {
     const double b = alpha_.beta, g = alpha_.gamma, f = alpha_.alpha_f, m = alpha_.alpha_m;
     auto& u = state_.displacement;
     auto& v = state_.velocity;
-    // The step is foreseen as the last two went on; what the foreseen state leaves out of balance
-    // is solved for. It is small, and so is what the factors' rounding leaves of it.
+    // The step is extrapolated from the last two; only the out-of-balance force of the extrapolated
+    // state is solved for. It is small, and so are the rounding errors of the factors.
     Vector next(algorithmic_);
     next.sadd(2., -1., algorithmic_before_);
     Vector level_u(u), level_v(v);
@@ -201,8 +202,8 @@ class LinearStepper : public DrivenSensor {
     algorithmic_before_ = algorithmic_;
   }
 
-  // Drag takes the velocity that is foreseen for the end of a step: second order, and no part of
-  // the matrix.
+  // Drag uses the predicted velocity at the end of a step: second order, and not part of the
+  // matrix.
   void set_load(const double fraction, const double step_s) {
     load_at_.set(fraction, load_, force_after_);
     if (load_at_.state_load() == nullptr) return;

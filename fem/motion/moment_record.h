@@ -7,10 +7,10 @@ namespace vibrissa::fem {
 
 /// Base moment of a transient at every sample.
 struct MomentRecord {
-  std::vector<double> base_moment, cross_moment;  // by the clamp's reactions [N m]
-  double largest_component = 0.;                  // of the moments that were compared [N m]
-  double largest_difference = 0.;                 // between the two routes to them [N m]
-  /// Between the two routes, over the largest moment.
+  std::vector<double> base_moment, cross_moment;  // from the reactions of the clamp [N m]
+  double largest_component = 0.;                  // of the compared moments [N m]
+  double largest_difference = 0.;                 // between the two routes [N m]
+  /// Largest difference between the two routes, divided by the largest moment.
   double largest_route_difference() const {
     return largest_component > 0. ? largest_difference / largest_component : 0.;
   }
@@ -18,10 +18,10 @@ struct MomentRecord {
 
 double largest_component(const std::array<double, 3>& v);
 
-/// Appends a moment along x, y, z.
+/// Appends a moment with the components x, y, z.
 void add_moment(const std::array<double, 3>& moment, const std::array<double, 3>& axial,
                 MomentRecord& record);
-/// Takes account of a moment by both routes.
+/// Compares a moment from both routes.
 void compare_routes(const std::array<double, 3>& moment, const std::array<double, 3>& other,
                     MomentRecord& record);
 

@@ -8,17 +8,17 @@
 
 namespace vibrissa::fem {
 
-/// Balance of an approximate solution of A x = b, A symmetric positive definite, along some motions
-/// r_d: x + sum_e c_e w_e with w_e = A^-1 M r_e leaves nothing of r_d^T (b - A x). The forces that
-/// the rounding of a slender solid's factors leaves unbalanced have long lever arms and bend its
-/// first modes; with the rigid motions and these for r this is the part of a refinement that base
-/// moments ask for, at the price of inner products in place of a second solution. Proven by
-/// tests/fem/motion/linear_transient_test.cc.
+/// Corrects an approximate solution of A x = b, A symmetric positive definite, so that its residual
+/// is zero along some motions r_d: x + sum_e c_e w_e with w_e = A^-1 M r_e gives r_d^T (b - A x) =
+/// 0. Rounding errors in the factors of a slender solid leave unbalanced forces with long lever
+/// arms, which excite the first modes. With rigid motions and first modes for r, this correction
+/// gives accurate base moments; it needs only inner products instead of a second solution. Proven
+/// by tests/fem/motion/linear_transient_test.cc.
 class MotionBalance {
  public:
   using Operator = std::function<void(const Vector& x, Vector& result)>;
-  /// Motions are independent and zero at the clamp. Products with A and M and solutions with A, as
-  /// exact as they can be, are used here alone.
+  /// The motions must be independent and zero at the clamp. The products with A and M and the
+  /// solutions with A must be as exact as possible; they are used only here.
   MotionBalance(std::vector<Vector> motions, const Operator& mass, const Operator& product,
                 const Operator& solve);
   void restore(const Vector& right_hand_side, Vector& solution) const;

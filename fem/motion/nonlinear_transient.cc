@@ -30,7 +30,7 @@ void check(const TransientInput& input, const NonlinearOptions& options) {
     throw signals::UserError("the number of substeps is 0; give 1 or more");
 }
 
-/// With its constant weight.
+/// Includes the constant weight of the sensor.
 class FiniteStrainSensor : public DrivenSensor {
  public:
   FiniteStrainSensor(const Sensor& sensor, const TransientInput& input,
@@ -109,9 +109,9 @@ class FiniteStrainSensor : public DrivenSensor {
     try {
       cross(options_.substeps);
     } catch (const NoBalance& failure) {
-      throw signals::UserError(std::string(failure.what()) +
-                               "; Transient/Substep choice = adaptive takes more substeps where "
-                               "they are needed");
+      throw signals::UserError(
+          std::string(failure.what()) +
+          ". Set Transient/Substep choice = adaptive to take more substeps where they are needed");
     }
   }
 

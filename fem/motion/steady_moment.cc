@@ -76,7 +76,7 @@ std::vector<SteadyMoment> steady_wind_moments(const Sensor& sensor,
                                               const std::function<void()>& after_each) {
   check_all_finite(speeds_m_s, "wind speed");
   StaticPath path(sensor.space(), sensor.operators(), options);
-  std::list<WindStateLoad> winds;  // the path needs the one before, too
+  std::list<WindStateLoad> winds;  // the path also needs the previous load
   std::vector<SteadyMoment> moments;
   double before = 0.;
   for (const double speed : speeds_m_s) {
@@ -91,10 +91,10 @@ std::vector<SteadyMoment> steady_wind_moments(const Sensor& sensor,
       const double square =
           std::lerp(before * std::abs(before), speed * std::abs(speed), error.share_reached);
       throw UserError("the sensor finds no equilibrium in a steady wind of " + to_text(speed) +
-                      " m/s: the last one found is at about " +
+                      " m/s; the last equilibrium is at about " +
                       to_text(std::copysign(std::sqrt(std::abs(square)), square)) +
-                      " m/s. Ask for weaker winds, or look for a part that so strong a wind bends "
-                      "past what the mesh, its material or Newton's iteration can follow (" +
+                      " m/s. Take weaker winds, or check the bent part for distorted cells and for "
+                      "a stiffness that is too low (" +
                       error.what() + ")");
     }
     before = speed;
@@ -118,10 +118,10 @@ std::vector<SteadyMoment> steady_base_moments(const Sensor& sensor,
     try {
       moments.push_back(follow(sensor, path, {load, 0., {a * axial[0], a * axial[1], 0.}}));
     } catch (const NoEquilibrium& error) {
-      throw UserError("the sensor finds no equilibrium on a base that accelerates at " +
-                      to_text(a) + " m/s^2: the last one found is at about " +
+      throw UserError("the sensor finds no equilibrium at a base acceleration of " + to_text(a) +
+                      " m/s^2; the last equilibrium is at about " +
                       to_text(std::lerp(before, a, error.share_reached)) +
-                      " m/s^2. Ask for less (" + error.what() + ")");
+                      " m/s^2. Take lower accelerations (" + error.what() + ")");
     }
     before = a;
     if (after_each) after_each();

@@ -9,11 +9,11 @@ namespace vibrissa::fem {
 
 namespace {
 
-// Twice the substeps, a quarter of the error.
+// Doubling the substeps divides the error by this.
 constexpr double gain = 4.;
-// What a change of substeps is to leave of the tolerance.
+// Target share of the tolerance after a change of substeps.
 constexpr double aim = 0.5;
-// Each change costs a new tangent, so that a lull within a swing should bring about none.
+// Each change needs a new tangent, so a short quiet part of an oscillation should cause no change.
 constexpr unsigned int enough_calm = 8;
 
 void check_positive(const double value, const std::string& entry) {

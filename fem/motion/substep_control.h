@@ -7,55 +7,56 @@
 
 namespace vibrissa::fem {
 
-/// How finely a transient that chooses its own substeps goes through a sample interval: entries of
-/// the case file's section "Transient".
+/// Options of adaptive substeps within a sampling interval: entries of the section "Transient" of
+/// the case file.
 struct SubstepOptions {
-  double tolerance = 1e-3;             // "Time tolerance" [1]: the most of (T14.7)
+  double tolerance = 1e-3;             // "Time tolerance" [1]: upper bound of (T14.7)
   double least_displacement_m = 1e-5;  // "Least displacement": d of (T14.7)
-  unsigned int most = 64;              // "Most substeps", a power of two times the least number
+  unsigned int most = 64;              // "Most substeps", the least number times a power of two
 
-  /// Throws UserError naming the entry for a tolerance or a displacement that is not positive, and
-  /// a most number that doubling the least one does not lead to.
+  /// Throws UserError with the entry when the tolerance or the displacement is not positive, or
+  /// when the largest number is not the least number times a power of two.
   void check(unsigned int least) const;
 };
 
-/// How a sample interval was gone through.
+/// Result of one sampling interval.
 struct IntervalSteps {
   unsigned int substeps = 0;
-  unsigned int n_rejected = 0;  // tries before, with fewer substeps
-  double error = 0.;            // (T14.7) [1]; above the tolerance only at the most substeps
+  unsigned int n_rejected = 0;  // rejected tries with fewer substeps
+  double error = 0.;  // (T14.7) [1]; above the tolerance only at the largest number of substeps
 };
 
-/// Of a record.
+/// Summary over a record.
 struct SubstepSummary {
   unsigned int smallest = 0, largest = 0;
   double mean = 0.;
-  std::size_t n_rejected = 0;        // intervals that were gone through anew
-  std::size_t n_over_tolerance = 0;  // although at the most substeps
+  std::size_t n_rejected = 0;        // intervals that were repeated
+  std::size_t n_over_tolerance = 0;  // although they had the largest number of substeps
 };
 SubstepSummary summarise(const std::vector<IntervalSteps>& intervals, double tolerance);
 
-/// Chooses the substeps of one sample interval after another, in powers of two times the least
-/// number. The error of an interval falls with their square: one that is too large asks for as many
-/// as should halve the tolerance; fewer are taken once several intervals in turn would have borne
-/// them. Proven by tests/fem/motion/substep_control_test.cc and adaptive_transient_test.cc.
+/// Selects the number of substeps of each sampling interval: the least number times a power of two.
+/// The error of an interval is proportional to 1 / substeps^2. When the error is too large, the
+/// number is doubled until the predicted error is half the tolerance; it is halved after several
+/// consecutive intervals whose error allows it. Proven by tests/fem/motion/substep_control_test.cc
+/// and adaptive_transient_test.cc.
 class SubstepControl {
  public:
   /// Throws as SubstepOptions::check.
   SubstepControl(unsigned int least, const SubstepOptions& options);
 
   void begin_interval() { interval_ = {}; }
-  /// Of the next try.
+  /// Number for the next try.
   unsigned int substeps() const { return substeps_; }
-  /// A try came to its end with this sum of its steps' errors (T14.6), this far from the reference:
-  /// whether it stands. Largest components over the whole body.
+  /// Reports the end of a try: the sum of the errors of its steps (T14.6) and the displacement,
+  /// both as largest components over the whole solid. Returns whether the interval is accepted.
   bool accept(double error_m, double displacement_m);
-  /// A try found no balance: whether there is another one.
+  /// Reports a try without equilibrium. Returns whether another try is possible.
   bool refine();
   /// The interval that was accepted last.
   const IntervalSteps& interval() const { return interval_; }
 
-  /// What it remembers between two intervals, and back.
+  /// Saves and restores the state between two intervals.
   void add_to(std::map<std::string, double>& numbers) const;
   void restore(const std::map<std::string, double>& numbers);
 
@@ -66,8 +67,8 @@ class SubstepControl {
   unsigned int least_, substeps_;
   SubstepOptions options_;
   double largest_displacement_m_;
-  unsigned int n_calm_ = 0;  // intervals in turn that half the substeps would have done for
-  double calm_error_ = 0.;   // the largest of theirs
+  unsigned int n_calm_ = 0;  // consecutive intervals for which half the substeps are enough
+  double calm_error_ = 0.;   // the largest error of these intervals
   IntervalSteps interval_;
 };
 

@@ -19,27 +19,28 @@ struct TransientInput {
   std::span<const double> base_acceleration;   // axial [m/s^2]
   std::span<const double> cross_acceleration;  // along e_z x axial [m/s^2]
   std::span<const double> wind_speed;          // along the axial direction [m/s]
-  /// Of the base in the laboratory, axial [m/s]; drag of relative velocity alone asks for it.
+  /// Velocity of the base in the laboratory, axial [m/s]; only the drag of relative velocity needs
+  /// it.
   std::span<const double> base_velocity{};
 };
 
-/// What the wind of these parameters asks of a transient.
+/// Options of the wind load of a transient for these parameters.
 WindStateLoad::Options wind_options(const flow::WindParameters& wind, bool finite_strain);
 
-/// What acts on the sensor at any instant of the record: forces are linear between samples. The
-/// sensor must outlive it, and what the input's spans show.
+/// Loads of the sensor at any instant of the record; forces are linear between samples. The sensor
+/// and the data of the input spans must outlive it.
 class TransientLoad {
  public:
-  /// Wind that depends on the body's state is no part of the nodal forces that set() gives, but a
-  /// load of its own.
+  /// A wind load that depends on the state of the solid is not part of the nodal forces of set();
+  /// it is a separate load.
   TransientLoad(const Sensor& sensor, const TransientInput& input,
                 const WindStateLoad::Options& wind);
 
-  /// Takes up the interval that begins at a sample.
+  /// Enters the sampling interval that begins at a sample.
   void enter_sample(std::size_t i);
-  /// At a fraction of the interval: base acceleration and wind, and all of it as nodal force.
+  /// Sets base acceleration, wind and nodal forces at a fraction of the interval.
   void set(double fraction, SolidLoad& load, Vector& force);
-  /// The wind at the instant that was set last, where it depends on the state; else null.
+  /// The wind load of the last set() when it depends on the state; else null.
   const StateLoad* state_load() const { return state_wind_ ? &*state_wind_ : nullptr; }
 
  private:
@@ -50,7 +51,7 @@ class TransientLoad {
   std::array<double, 3> axis_;
   std::size_t before_ = 0, after_ = 0;
   std::optional<WindStateLoad> state_wind_;
-  Vector wind_before_, wind_after_;  // N, at the samples around
+  Vector wind_before_, wind_after_;  // N, at the samples before and after
   std::vector<Vector> inertia_;      // M r_d
 };
 

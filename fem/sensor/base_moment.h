@@ -10,10 +10,10 @@ namespace vibrissa::fem {
 /// State of the solid at one instant, in the base frame: displacement relative to the base.
 struct SolidState {
   Vector displacement, velocity;
-  Vector acceleration;  // relative; satisfies the equation of motion at this instant
+  Vector acceleration;  // relative to the base; satisfies the equation of motion at this instant
 };
 
-/// Everything that acts on the solid at one instant, besides its own stiffness.
+/// Loads of the solid at one instant, without its elastic forces.
 struct SolidLoad {
   std::array<double, 3> base_acceleration{};  // m/s^2, acts as body force -rho a_b
   Vector external_force;                      // N, all rows
@@ -26,10 +26,11 @@ class BaseMoment {
  public:
   BaseMoment(const SolidSpace& space, const SolidOperators& operators);
 
-  /// By the clamp's reactions: -sum over clamp nodes of X x (K u + C v + M (u'' + r a_b) - f).
+  /// From the reactions of the clamp: -sum over clamp nodes of X x (K u + C v + M (u'' + r a_b) -
+  /// f).
   std::array<double, 3> by_reactions(const SolidState& state, const SolidLoad& load) const;
-  /// At finite strain: with the elastic forces of all rows, and by balance about the base centre in
-  /// the deformed state, X + u for X.
+  /// At finite strain: from the elastic forces of all rows, and by the balance about the base
+  /// centre in the deformed state, with X + u instead of X.
   std::array<double, 3> by_reactions(const SolidState& state, const SolidLoad& load,
                                      const Vector& elastic_force) const;
   std::array<double, 3> by_balance_when_deformed(const SolidState& state,
@@ -44,7 +45,7 @@ class BaseMoment {
 
   const SolidSpace& space_;
   const SolidOperators& operators_;
-  // Rotation of the clamped nodes alone, K and M times it, and M times that of all.
+  // Rotation of only the clamped nodes, K and M times it, and M times the rotation of all nodes.
   std::array<Vector, 3> clamp_rotation_, clamp_stiffness_, clamp_momentum_, momentum_;
 };
 

@@ -62,9 +62,9 @@ void write_material(std::ostream& out, const std::string& name,
 }
 
 // CalculiX takes Abaqus' energies: C10 (I1bar - 3) + C20 (I1bar - 3)^2 + ... + (J - 1)^2 / D1,
-// which are ours with D1 = 2/K. It takes D1 below 1e-10 for none and puts in another: hence
-// millimetres, newtons and tonnes. D2 and D3, which its reader wants above zero, are too large to
-// matter.
+// which are ours with D1 = 2/K. CalculiX replaces a D1 below 1e-10 by another value, so the units
+// are millimetres, newtons and tonnes. D2 and D3 must be above zero; they are so large that they
+// have no effect.
 constexpr double mm_per_m = 1e3, mpa_per_pa = 1e-6, tonne_mm3_per_kg_m3 = 1e-12;
 
 void write_hyperelastic(std::ostream& out, const std::string& name,
@@ -141,8 +141,8 @@ void write_calculix_static(const std::filesystem::path& file, const SolidSpace& 
   const double size = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
   signals::write_file(file, [&](std::ostream& out) {
     const auto regions = write_model(out, space, materials, write_hyperelastic, mm_per_m);
-    // By default it is content with forces half a percent out of balance, which a wire's stretching
-    // forces hide a tenth of its bending in.
+    // Its default tolerance is 0.5 % of the forces. The axial forces of a wire are so large that
+    // this allows an error of a tenth of the bending.
     out << "*STEP, NLGEOM, INC=1000\n*STATIC\n"
         << first_increment << ", 1.\n*CONTROLS, PARAMETERS=FIELD\n1e-7, 1e-4, , , 1e-6\n";
     write_gravity(out, regions, size, {a[0] / size, a[1] / size, a[2] / size}, "");

@@ -18,15 +18,15 @@ void write_calculix(const std::filesystem::path& file, const SolidSpace& space,
                     unsigned int n_modes);
 
 /// The same mesh at finite strain (*HYPERELASTIC, NLGEOM) under a body force: a *STATIC step that
-/// prints the displacements [mm] of all nodes and the clamp's reactions [N]. Quadratic volumetric
-/// laws only.
+/// prints the displacements [mm] of all nodes and the reactions of the clamp [N]. Only for
+/// quadratic volumetric laws.
 void write_calculix_static(const std::filesystem::path& file, const SolidSpace& space,
                            const std::map<std::string, materials::Material>& materials,
                            const std::array<double, 3>& body_acceleration_m_s2,
                            double first_increment);
 
-/// The same from rest under a body force whose size follows samples, linear between them, by the
-/// implicit method with fixed steps of dt and the program's own tolerances: prints the
+/// The same from rest under a body force with the given samples, linear between them, with the
+/// implicit method, fixed steps time_step_s and the default tolerances of CalculiX; prints the
 /// displacements [mm] of all nodes at the end.
 void write_calculix_dynamic(const std::filesystem::path& file, const SolidSpace& space,
                             const std::map<std::string, materials::Material>& materials,

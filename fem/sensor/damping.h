@@ -14,8 +14,8 @@
 namespace vibrissa::fem {
 
 enum class DampingKind {
-  modal,    // a ratio for each mode, the last one holding for the rest
-  material  // zeta_k = 1/2 sum over bodies of loss factor x share of the mode's strain energy
+  modal,    // a ratio for each mode; the last one holds for all further modes
+  material  // zeta_k = 1/2 sum over bodies of loss factor x share of the strain energy of the mode
 };
 
 /// Share of each region in the strain energy of a mode; the shares add up to one.
@@ -29,10 +29,11 @@ std::vector<double> damping_ratios(DampingKind kind, const std::vector<double>& 
                                    const std::map<std::string, materials::Material>& materials,
                                    const std::vector<Mode>& modes);
 
-/// Damping of the full-order solid that gives each mode its ratio and lies wholly inside the body:
+/// Damping of the full-order solid that gives each mode its ratio and acts only between points of
+/// the solid:
 ///   C = sum_k K phi_k (2 zeta_k / w_k^3) phi_k^T K
-/// with all rows, so that a rigid rotation does no work against it and its share of the clamp's
-/// reaction is the viscous part of the base moment.
+/// with all rows, so that a rigid rotation does no work against it and its contribution to the
+/// reaction of the clamp is the viscous part of the base moment.
 class ModalDamping {
  public:
   ModalDamping(const SolidSpace& space, const SolidOperators& operators,

@@ -10,18 +10,18 @@
 
 namespace vibrissa::fem {
 
-/// scale C of the modal damping on the unknowns that are not held, D W D^T, of low rank: it need
-/// not be assembled. Solutions of (A + D W D^T) x = b come from those of A by Woodbury's identity.
+/// scale * C of the modal damping on the free unknowns, D W D^T. It has low rank and is not
+/// assembled: solutions of (A + D W D^T) x = b follow from solutions with A by Woodbury's identity.
 /// Proven by tests/fem/motion/linear_transient_test.cc and finite_strain_stepper_test.cc.
 class LowRankDamping {
  public:
   LowRankDamping(const ModalDamping& damping, const dealii::IndexSet& held, double scale);
 
-  /// Columns of D, those of modes without damping left out.
+  /// Columns of D, without the modes that have no damping.
   const std::vector<Vector>& forces() const { return forces_; }
-  /// Of A: solved holds A^-1 D.
+  /// Updates for a new A; solved contains A^-1 D.
   void renew(std::vector<Vector> solved);
-  /// From A^-1 b to (A + D W D^T)^-1 b.
+  /// Replaces A^-1 b by (A + D W D^T)^-1 b.
   void correct(Vector& solution) const;
   /// force += factor D W D^T u.
   void add(double factor, const Vector& u, Vector& force) const;

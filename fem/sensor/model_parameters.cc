@@ -16,30 +16,31 @@ void ModelParameters::declare(dealii::ParameterHandler& prm) {
   prm.enter_subsection("Model");
   prm.declare_entry(
       "Mesh resolution", "2", Patterns::Integer(1, 16),
-      "Cells of the coarsest mesh are divided by this number in every direction [1]; 2 "
-      "is within about 0.1 % in the first frequency, 6 fills 14 GB, 16 is for a cluster.");
+      "Number by which the cells of the coarsest mesh are divided in every direction [1]. 2: error "
+      "of the first frequency about 0.1 %; 6: needs 14 GB of memory; 16: needs a cluster.");
   prm.declare_entry("Mesh file", "", Patterns::Anything(),
-                    "Gmsh .msh file in metres, with the regions and boundaries named as in the "
-                    "documentation, used in place of the generated mesh; empty: generate.");
+                    "Gmsh .msh file in metres that replaces the generated mesh; its regions and "
+                    "boundaries have the names of the documentation; empty: generate the mesh.");
   prm.declare_entry("Number of modes", "6", Patterns::Integer(1, 200),
-                    "Modes of the reduced model [1].");
-  prm.declare_entry("Damping", "modal", Patterns::Selection("modal|material"),
-                    "modal: the ratios below; material: from the loss factors of the materials.");
-  prm.declare_entry("Damping ratios", "0.05", Patterns::List(Patterns::Double(0., 0.999), 1, 200),
-                    "Damping ratio of each mode [1]; the last holds for the modes that follow.");
+                    "Number of modes of the reduced model [1].");
   prm.declare_entry(
-      "Axial angle", "0", Patterns::Double(-360., 360.),
-      "Direction of base motion, wind and base moment's plane: angle from x towards y "
-      "about the whisker's axis [degrees].");
+      "Damping", "modal", Patterns::Selection("modal|material"),
+      "modal: the damping ratios below; material: the loss factors of the materials.");
+  prm.declare_entry("Damping ratios", "0.05", Patterns::List(Patterns::Double(0., 0.999), 1, 200),
+                    "Damping ratio of each mode [1]; the last value holds for all further modes.");
+  prm.declare_entry("Axial angle", "0", Patterns::Double(-360., 360.),
+                    "Direction of the base motion and the wind, and plane of the base moment: "
+                    "angle about the axis of the whisker, from x towards y [degrees].");
   prm.declare_entry("Wind on wire", "true", Patterns::Bool(),
-                    "Whether the wind reaches the wire's free surface.");
-  prm.declare_entry("Wind on fin", "true", Patterns::Bool(), "Whether the wind reaches the fin.");
+                    "Whether the wind loads the free surface of the wire.");
+  prm.declare_entry("Wind on fin", "true", Patterns::Bool(), "Whether the wind loads the fin.");
   prm.declare_entry("Sensitivities", "true", Patterns::Bool(),
-                    "Whether the reduced model carries the change of its figures with moduli, "
-                    "density and lengths (two more solutions for each).");
-  prm.declare_entry("Calibration note", "", Patterns::Anything(),
-                    "What was set so that a resonance comes out as measured or published; shown "
-                    "wherever a resonance is reported, because a calibration is no prediction.");
+                    "Whether the reduced model contains the sensitivities of its modal properties "
+                    "to moduli, density and lengths (two more solutions for each parameter).");
+  prm.declare_entry(
+      "Calibration note", "", Patterns::Anything(),
+      "Which parameter was set to give a measured or published resonance; the text is shown with "
+      "every resonance, because a calibrated resonance is not a prediction.");
   prm.leave_subsection();
 }
 
@@ -64,9 +65,8 @@ void ModelParameters::parse(dealii::ParameterHandler& prm) {
 void ModelParameters::check() const {
   if (!wind_on_wire && !wind_on_fin) {
     throw signals::UserError(
-        "Model/Wind on wire and Model/Wind on fin are both false: nothing meets the wind; set one "
-        "to "
-        "true, or set Wind/Kind = none for a case without wind");
+        "Model/Wind on wire and Model/Wind on fin are both false, so the wind has no surface to "
+        "act on; set one to true, or set Wind/Kind = none for a case without wind");
   }
 }
 

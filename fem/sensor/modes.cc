@@ -42,17 +42,17 @@ void align_pair(Mode& first, Mode& second, const std::array<double, 3>& axis) {
   turned.sadd(cosine, sine, second.shape);
   second.shape.sadd(cosine, -sine, first.shape);
   first.shape = turned;
-  for (auto figures : {&Mode::participation, &Mode::moment_participation}) {
+  for (auto vector : {&Mode::participation, &Mode::moment_participation}) {
     for (unsigned int d = 0; d < 3; ++d) {
-      const double one = (first.*figures)[d], other = (second.*figures)[d];
-      (first.*figures)[d] = cosine * one + sine * other;
-      (second.*figures)[d] = cosine * other - sine * one;
+      const double one = (first.*vector)[d], other = (second.*vector)[d];
+      (first.*vector)[d] = cosine * one + sine * other;
+      (second.*vector)[d] = cosine * other - sine * one;
     }
   }
 }
 
-/// Momenta, each of unit field, that a mode's sign is told by: of translations; of rotations; of
-/// shears, which modes of the blades against each other have where they have none of the others.
+/// Momenta, each of a unit field, that determine the sign of a mode: translations, rotations, and
+/// shears. Modes in which the blades move against each other have only the shears.
 using Momenta = std::array<std::array<Vector, 3>, 3>;
 
 Vector unit_momentum(const SolidOperators& operators, const Vector& field) {
@@ -76,8 +76,8 @@ Momenta sign_momenta(const SolidSpace& space, const SolidOperators& operators) {
   return momenta;
 }
 
-// Which of two equal parts is the larger, and which sign a part has that should be zero, is left to
-// rounding: such parts must not decide.
+// Rounding decides which of two equal components is larger, and the sign of a component that should
+// be zero: such components must not determine the sign of the mode.
 void fix_sign(Mode& mode, const Momenta& momenta) {
   constexpr double rounding = 1e-6;
   for (const auto& group : momenta) {
@@ -108,12 +108,12 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
                               const std::array<double, 3>& axial_direction) {
   if (n_modes == 0) throw signals::UserError("the number of modes must be at least 1");
   const CholeskySolver stiffness(*operators.clamped_stiffness);
-  // One more, so that the last one asked for is not torn from its pair.
+  // One mode more, so that the last requested mode is not separated from its pair.
   auto pairs = smallest_eigenpairs(stiffness, *operators.clamped_mass, n_modes, 1);
   if (pairs.size() < n_modes) {
     throw signals::UserError("the mesh has only " + std::to_string(pairs.size()) + " of the " +
                              std::to_string(n_modes) +
-                             " modes asked for; ask for fewer or refine the mesh");
+                             " requested modes; request fewer modes or refine the mesh");
   }
   const auto product = [&](const Vector& x, Vector& force) {
     clamped_internal_force(space, operators, x, force);

@@ -18,7 +18,7 @@ struct PhysicalParameter {
 
 void scale_stiffness(materials::Material& material, const double factor) {
   if (auto* yeoh = std::get_if<materials::Yeoh>(&material.isochoric)) {
-    // Nearly incompressible: the bulk modulus is no part of the softness.
+    // Nearly incompressible: the bulk modulus is not scaled.
     for (double& c : yeoh->c) c *= factor;
     return;
   }
@@ -61,21 +61,21 @@ std::vector<PhysicalParameter> physical_parameters(const SensorParameters& param
   return list;
 }
 
-struct Figures {
+struct ModalProperties {
   std::vector<double> frequency, base_gain, wind_gain;
   double static_base_moment, static_wind_moment;
 };
 
-Figures figures_of(const signals::ReducedModel& model) {
+ModalProperties properties_of(const signals::ReducedModel& model) {
   const auto axis = model.moment_axis();
   const auto& e = model.axial_direction;
   const auto dot = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
-  // Gains at 1 m/s, in the middle of what a whisker meets.
+  // Gains at 1 m/s, a typical wind speed for a whisker.
   std::size_t at = 0;
   while (model.wind.speed_m_s[at] < 1.) ++at;
-  Figures f;
+  ModalProperties f;
   for (std::size_t k = 0; k < model.modes.size(); ++k) {
     const auto& mode = model.modes[k];
     f.frequency.push_back(mode.frequency_hz);
@@ -93,7 +93,7 @@ Figures figures_of(const signals::ReducedModel& model) {
   return f;
 }
 
-// Relative to the largest gain of all modes: a mode that hardly takes part has no relative change.
+// Zero for a mode whose gain is negligible next to the largest gain: its relative change is noise.
 std::vector<double> relative_slope(const std::vector<double>& up, const std::vector<double>& down,
                                    const std::vector<double>& nominal, const double step) {
   double largest = 0.;
@@ -106,10 +106,10 @@ std::vector<double> relative_slope(const std::vector<double>& up, const std::vec
   return slope;
 }
 
-Figures solve_scaled(SensorParameters parameters, const PhysicalParameter& what,
-                     const double factor) {
+ModalProperties solve_scaled(SensorParameters parameters, const PhysicalParameter& what,
+                             const double factor) {
   what.scale(parameters, factor);
-  return figures_of(reduce(Sensor(parameters)));
+  return properties_of(reduce(Sensor(parameters)));
 }
 
 }  // namespace
@@ -122,12 +122,12 @@ std::vector<signals::Sensitivity> sensitivities(const SensorParameters& paramete
                                                 const signals::ReducedModel& nominal,
                                                 const std::function<void()>& progress) {
   constexpr double step = 1e-3;
-  const Figures at = figures_of(nominal);
+  const ModalProperties at = properties_of(nominal);
   std::vector<signals::Sensitivity> result;
   for (const auto& what : physical_parameters(parameters)) {
-    const Figures up = solve_scaled(parameters, what, 1. + step);
+    const ModalProperties up = solve_scaled(parameters, what, 1. + step);
     progress();
-    const Figures down = solve_scaled(parameters, what, 1. - step);
+    const ModalProperties down = solve_scaled(parameters, what, 1. - step);
     progress();
     signals::Sensitivity s;
     s.parameter = what.name;

@@ -9,9 +9,9 @@
 
 namespace vibrissa::fem {
 
-/// Relative sensitivities of the reduced model's figures by central differences of whole solutions
-/// (step 0.1 %), for moduli, density and lengths that the sensor has. The k-th
-/// mode is compared with the k-th; progress is called after each solution.
+/// Relative sensitivities of the modal properties of the reduced model to the moduli, densities and
+/// lengths of the sensor, by central differences of complete solutions (step 0.1 %). Mode k is
+/// compared with mode k; progress is called after each solution.
 std::vector<signals::Sensitivity> sensitivities(
     const SensorParameters& parameters, const signals::ReducedModel& nominal,
     const std::function<void()>& progress = [] {});

@@ -26,19 +26,19 @@ struct SensorParameters {
   flow::WindParameters wind;
 };
 
-/// The meshed sensor with its operators at rest and its damped modes: everything that the reduced
-/// and the full-order model are made of.
+/// The meshed sensor with its operators at rest and its damped modes, for the reduced and the
+/// full-order model.
 class Sensor {
  public:
-  /// Meshes (or reads), assembles and solves. Throws UserError for parameters that make no sensor.
-  /// The processes of the communicator share the mesh and all work: its making, and all of this
-  /// room that a Sensor is given to, are collective.
+  /// Meshes (or reads), assembles and solves. Throws UserError for parameters that do not describe
+  /// a sensor. The processes of the communicator share the mesh and all work: the construction, and
+  /// all functions of fem/ that take a Sensor, are collective.
   explicit Sensor(const SensorParameters& parameters, MPI_Comm communicator = MPI_COMM_WORLD);
 
   const SensorParameters& parameters() const { return parameters_; }
-  /// With several processes the part of this one.
+  /// The mesh; with several processes, the part of this process.
   const dealii::Triangulation<3>& mesh() const { return *mesh_; }
-  /// mesh_sha256 of the whole mesh, however many processes share it.
+  /// mesh_sha256 of the whole mesh, for any number of processes.
   std::string mesh_sha256() const;
   const SolidSpace& space() const { return *space_; }
   const SolidOperators& operators() const { return operators_; }
@@ -57,7 +57,7 @@ class Sensor {
   std::unique_ptr<WindSurface> wind_surface_;
 };
 
-/// Throws UserError when geometry, materials, model or wind contradict themselves.
+/// Throws UserError when geometry, materials, model or wind are inconsistent.
 void check(const SensorParameters& parameters);
 
 }  // namespace vibrissa::fem

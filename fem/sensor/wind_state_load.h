@@ -5,15 +5,16 @@
 
 namespace vibrissa::fem {
 
-/// Wind and base at one instant, along the axial direction.
+/// Wind speed and base velocity at one instant, along the axial direction.
 struct WindInstant {
   double speed_m_s = 0.;          // at the reference height, in the laboratory
   double base_velocity_m_s = 0.;  // of the base, in the laboratory
 };
 
-/// Wind that acts on the deformed sensor (T12.6), or feels its motion (T6.2), or both:
-/// p = 0.5 rho Cd(Re) w|w|, w = u - v, v the point's axial velocity in the laboratory, that is
-/// relative to the base plus the base's. Proven by tests/fem/sensor/wind_state_load_test.cc.
+/// Wind load on the deformed sensor (T12.6), or with relative velocity (T6.2), or both: p = 0.5 rho
+/// Cd(Re) w|w|, w = u - v, with v the axial velocity of the point in the laboratory (velocity
+/// relative to the base plus velocity of the base). Proven by
+/// tests/fem/sensor/wind_state_load_test.cc.
 class WindStateLoad : public StateLoad {
  public:
   struct Options {
@@ -25,8 +26,8 @@ class WindStateLoad : public StateLoad {
       : surface_(surface), options_(options) {}
 
   void set(const WindInstant& instant) { set(instant, instant, 0.); }
-  /// At a fraction of the way between two samples: the pressure is that share between theirs, as
-  /// forces and the reduced model's dynamic pressure are.
+  /// Sets a fraction of the interval between two samples: the pressure is interpolated linearly, as
+  /// are the forces and the dynamic pressure of the reduced model.
   void set(const WindInstant& before, const WindInstant& after, double fraction);
 
   void add_force(const Vector& u, const Vector& v, Vector& force) const override;

@@ -74,7 +74,7 @@ std::vector<double> WindSurface::work(const Vector& shape) const {
     std::size_t i = 0;
     for (const auto& face : faces_.faces()) {
       for (const auto& at : face.points) {
-        // What other processes own they count themselves.
+        // Other processes count their own faces.
         if (face.owned) result[i] -= at.area * at.normal[d] * along[i];
         ++i;
       }

@@ -12,10 +12,10 @@
 
 namespace vibrissa::fem {
 
-/// What the wind meets: which bodies, how wide, over what height.
+/// Parts of the sensor that the wind loads, with their width and height.
 struct WindExposure {
   std::array<double, 3> axial_direction{1., 0., 0.};
-  bool wire = true, fin = true;  // the silicone is always sheltered by the support
+  bool wire = true, fin = true;  // the wind never loads the silicone
   double wire_width = 0.;        // m, for the Reynolds number
   double fin_width = 0.;         // m, mean width of the blades
   double height = 0.;            // m, where the profile is 1
@@ -23,20 +23,20 @@ struct WindExposure {
   flow::Air air;
 };
 
-/// Wind as pressure p = 0.5 rho Cd(Re) w|w| on the windward faces (T6.1), w the air's speed past
-/// the point along the axial direction. Windward and height are those of the undeformed sensor. On
-/// the reference area the resultant along the wind is the drag on the frontal area.
+/// Wind as pressure p = 0.5 rho Cd(Re) w|w| on the windward faces (T6.1), w the air speed relative
+/// to the point along the axial direction. Windward faces and heights are those of the undeformed
+/// sensor. On the reference area the resultant along the wind is the drag on the frontal area.
 /// Proven by tests/fem/sensor/wind_surface_test.cc.
 class WindSurface {
  public:
   WindSurface(const SolidSpace& space, const WindExposure& exposure);
 
   const LoadedFaces& faces() const { return faces_; }
-  /// Pressure at the faces' points in a wind of reference speed u along the axial direction [Pa],
-  /// which the points run before at their own axial velocities [m/s]; empty: they are at rest.
+  /// Pressure at the points of the faces [Pa] for a wind with the reference speed u along the axial
+  /// direction; axial_velocity_m_s: velocities of the points [m/s], empty when they are at rest.
   std::vector<double> pressures(double speed_m_s,
                                 std::span<const double> axial_velocity_m_s = {}) const;
-  /// Of the points, relative to the base.
+  /// Axial velocities of the points, relative to the base.
   std::vector<double> axial_velocity(const Vector& velocity) const;
 
   /// Nodal forces on the sensor at rest and undeformed [N].
@@ -51,7 +51,7 @@ class WindSurface {
   struct Point {
     flow::DragBody body;
     double width, height_factor;
-    double windward;  // sign of n . e, zero where the face lies along the wind
+    double windward;  // sign of n . e, zero when the face is parallel to the wind
   };
   double pressure(const Point& point, double relative_speed_m_s) const;
   /// Work of a unit pressure at each point on a shape [m^3].

@@ -10,7 +10,7 @@ namespace vibrissa::fem {
 /// Elastic energy, forces and stiffness of one cell at finite strain, total Lagrangian (T12):
 ///   W = int W_iso(E) + U(theta),  theta - 1 = J - 1 projected to the linear functions psi,
 /// the three-field form Q2/DGP1 with pressure and theta condensed. The stiffness is the exact
-/// second derivative of W; at rest it is that of the linear model. Proven by
+/// second derivative of W; at rest it equals the stiffness of the linear model. Proven by
 /// tests/fem/solid/cell_elasticity_test.cc.
 class CellElasticity {
  public:
@@ -26,15 +26,15 @@ class CellElasticity {
     const double* block(const int pair) const { return values.data() + n_nodes * pair; }
   };
 
-  /// Energy [J] of the cell displaced by u [m]; NaN where a point is turned inside out (det F <= 0)
-  /// or the law has no value. force() and tangent() then refer to this state.
+  /// Energy [J] of the cell with the displacement u [m]; NaN when a point is inverted (det F <= 0)
+  /// or the law is not defined. force() and tangent() then refer to this state.
   double deform(const CellIntegrals& cell, const materials::Material& material, const Nodal& u);
   /// Isochoric stress of the law at the points, [11, 22, 33, 12, 13, 23][point].
   using Stress = std::array<double, 6 * CellIntegrals::row>;
   const Stress& stress() const { return stress_; }
-  /// The stress becomes factor times the law's plus a constant, and the moduli with it.
+  /// Sets the stress to factor times the stress of the law plus a constant, and scales the moduli.
   void relax(double factor, const Stress& constant);
-  /// Takes the stress and the pressure of another state of the same cell for those of this one.
+  /// Uses the stress and the pressure of another state of the same cell.
   void set_stress_of(const CellElasticity& other);
   /// dW/du [N].
   void force(Nodal& f) const;

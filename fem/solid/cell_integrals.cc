@@ -38,10 +38,10 @@ void CellIntegrals::fill(const dealii::FEValues<3>& values) {
   for (const unsigned int q : values.quadrature_point_indices()) {
     if (values.JxW(q) > 0.) continue;
     const auto& x = values.quadrature_point(q);
-    throw signals::UserError("the mesh has a cell that is turned inside out or flat, near x = " +
-                             signals::to_text(x[0]) + ", y = " + signals::to_text(x[1]) +
-                             ", z = " + signals::to_text(x[2]) +
-                             " m; mend the mesh (check the order of its vertices)");
+    throw signals::UserError(
+        "the mesh has an inverted or degenerate cell near x = " + signals::to_text(x[0]) +
+        ", y = " + signals::to_text(x[1]) + ", z = " + signals::to_text(x[2]) +
+        " m; correct the mesh (check the order of the vertices of this cell)");
   }
   gradient.fill(0.);
   weight.fill(0.);

@@ -9,9 +9,9 @@
 
 namespace vibrissa::fem {
 
-/// What every elastic force and stiffness of a cell is made of: gradients of the 27 shape functions
-/// at the 27 points of Gauss, weights, and four linear functions psi of the cell with int psi_m
-/// psi_n = volume (m = n) or 0. Rows are padded with zeros to whole registers.
+/// Data for the elastic forces and the stiffness of a cell: gradients of the 27 shape functions at
+/// the 27 Gauss points, weights, and four linear functions psi of the cell with int psi_m psi_n =
+/// volume (m = n) or 0. Rows are padded with zeros to whole SIMD registers.
 struct CellIntegrals {
   static constexpr int n_nodes = SolidSpace::nodes_per_cell;
   static constexpr int n_points = 27;
@@ -23,8 +23,8 @@ struct CellIntegrals {
   alignas(64) std::array<double, n_linear * row> psi;           // [m][point]
   double volume;                                                // m^3
 
-  /// values: of the cell, with gradients, points and weights at QGauss(3). Throws UserError for a
-  /// cell that is turned inside out, with its place.
+  /// values: gradients, points and weights of the cell at QGauss(3). Throws UserError with the
+  /// place of an inverted cell.
   void fill(const dealii::FEValues<3>& values);
 };
 

@@ -26,9 +26,9 @@ class ElementMatrices {
   explicit ElementMatrices(const SolidSpace& space);
   void reinit(const dealii::Triangulation<3>::cell_iterator& cell);
   void stiffness(const materials::Material& material, CellMatrix& matrix);
-  /// One component's block; components do not couple.
+  /// Block of one component; components are not coupled.
   void mass(double density, NodeMatrix& matrix);
-  /// Of the cell of the last reinit().
+  /// Matrices of the cell of the last reinit().
   const CellIntegrals& integrals() const { return integrals_; }
 
  private:

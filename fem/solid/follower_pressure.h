@@ -9,8 +9,8 @@ namespace vibrissa::fem {
 
 /// Uniform pressure on parts of the surface that follows the body (T12.6): traction -p n on the
 /// current area, n da = cof(F) N dA, per current normal. Its derivative is symmetric when the
-/// loaded surface is closed or held at its edge; otherwise the symmetric part, given here, leaves
-/// Newton's iteration a little more to do but not another solution. Proven by
+/// loaded surface is closed or held at its edge; otherwise this class gives the symmetric part,
+/// which needs a few more Newton iterations but leads to the same solution. Proven by
 /// tests/fem/solid/follower_pressure_test.cc.
 class FollowerPressure : public StateLoad {
  public:

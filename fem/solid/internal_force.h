@@ -16,44 +16,46 @@
 
 namespace vibrissa::fem {
 
-/// The elastic body, cell by cell (cell_elasticity.h): nodal forces, energy and tangent at finite
-/// strain, and its linearisation at rest. The forces of a cell balance each other to the rounding
-/// of its stress; an assembled matrix loses that where a stiff, slender body turns almost rigidly
-/// (its rounding is that of |K| |u|, and long lever arms add it up to a millionth of the base
-/// moment). Proven by tests/fem/sensor/base_moment_test.cc and
+/// The elastic solid, cell by cell (cell_elasticity.h): nodal forces, energy and tangent at finite
+/// strain, and its linearisation at rest. The forces of a cell are in equilibrium to the rounding
+/// of its stress. With an assembled matrix this is not so for a stiff, slender solid that rotates
+/// almost rigidly: its rounding is that of |K| |u|, and long lever arms increase it to a millionth
+/// of the base moment. Proven by tests/fem/sensor/base_moment_test.cc and
 /// tests/fem/solid/internal_force_test.cc.
 class InternalForce {
  public:
-  /// Without cells yet.
+  /// Starts without cells.
   InternalForce(const SolidSpace& space,
                 const std::map<std::string, materials::Material>& materials);
 
-  /// Takes over a cell that this process knows, to which the integrals belong.
+  /// Adds a cell that this process knows, with its integrals.
   void append(const CellNodes& nodes, const std::string& region, const CellIntegrals& integrals,
               bool owned);
 
   /// force += factor * K u, all rows; K the tangent at rest.
   void add(double factor, const Vector& u, Vector& force) const;
-  /// force += factor * dW/du, all rows; returns the energy W [J] of the whole body. Where a cell is
-  /// turned inside out or strained beyond its law both are NaN. With relaxing branches the forces
-  /// are those at their step's end; W is the law's.
+  /// force += factor * dW/du, all rows; returns the energy W [J] of the whole body. Both are NaN
+  /// when a cell is inverted or its law is not defined. With relaxing branches the forces are those
+  /// at the end of the step; W is the energy of the law.
   double add_finite(double factor, const Vector& u, Vector& force,
                     const RelaxingStress* relaxation = nullptr) const;
-  /// tangent += factor * d2W/du2, its geometric part with the stresses of the state `stressed`
-  /// (T13.2); both must be states of finite energy.
+  /// tangent += factor * d2W/du2, with the geometric part from the stresses of the state `stressed`
+  /// (T13.2); both states must have finite energy.
   void add_tangent(double factor, const Vector& u, const Vector& stressed, TangentMatrix& tangent,
                    const RelaxingStress* relaxation = nullptr) const;
 
   /// Whether a material has relaxing branches.
   bool relaxes() const;
   RelaxingStress make_relaxing_stress(double step_s) const;
-  /// Branches at rest for ever in a state, and at their step's end in it.
+  /// Sets the branches to the equilibrium in a state, or advances them to the end of the step in a
+  /// state.
   void rest(const Vector& u, RelaxingStress& relaxation) const;
   void advance(const Vector& u, RelaxingStress& relaxation) const;
 
  private:
   struct Cell {
-    std::array<unsigned int, SolidSpace::nodes_per_cell> nodes;  // in local_dofs_, by threes
+    std::array<unsigned int, SolidSpace::nodes_per_cell>
+        nodes;  // index in local_dofs_, three for each node
     CellNodes global_nodes;
     CellIntegrals integrals;
     const materials::Material* material;

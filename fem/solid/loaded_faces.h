@@ -10,10 +10,10 @@
 
 namespace vibrissa::fem {
 
-/// Parts of the surface under a pressure that may differ from point to point: traction -p n on the
+/// Parts of the surface under a pressure that may vary from point to point: traction -p n on the
 /// reference area, or on the current one (T12.6), n da = cof(F) N dA. Pressures are given at the
-/// points of quadrature of all faces that this process knows, in the order of faces(), [Pa].
-/// Proven by tests/fem/solid/follower_pressure_test.cc and tests/fem/sensor/wind_surface_test.cc.
+/// points of quadrature of all faces that this process knows, in the order of faces(), [Pa]. Proven
+/// by tests/fem/solid/follower_pressure_test.cc and tests/fem/sensor/wind_surface_test.cc.
 class LoadedFaces {
  public:
   static constexpr int nodes_per_face = 9;
@@ -25,7 +25,7 @@ class LoadedFaces {
     double area;                                                // JxW [m^2]
   };
   struct Face {
-    std::size_t cell;  // among those that this process knows
+    std::size_t cell;  // index among the cells that this process knows
     bool owned;
     dealii::types::boundary_id boundary;
     std::array<unsigned int, nodes_per_face> nodes;  // of the cell
@@ -41,7 +41,7 @@ class LoadedFaces {
 
   /// force += nodal forces of the pressures on the reference area.
   void add_force(std::span<const double> pressure_pa, Vector& force) const;
-  /// force += nodal forces on the current area of the body displaced by u [m].
+  /// force += nodal forces on the current area with the displacement u [m].
   void add_force(std::span<const double> pressure_pa, const Vector& u, Vector& force) const;
   /// tangent -= factor * symmetric part of the derivative of that force at fixed pressures.
   void add_tangent(double factor, std::span<const double> pressure_pa, const Vector& u,

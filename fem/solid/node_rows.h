@@ -16,12 +16,12 @@ using CellNodes = std::array<PetscInt, SolidSpace::nodes_per_cell>;
 CellNodes nodes_of(const SolidSpace& space,
                    const dealii::DoFHandler<3>::active_cell_iterator& cell);
 
-/// A PETSc matrix as deal.II's, which takes it over.
+/// Converts a PETSc matrix to a deal.II matrix, which then owns it.
 std::unique_ptr<Matrix> wrapped(Mat raw, MPI_Comm communicator);
 
-/// Which nodes share a cell with each node of this process, in compressed rows: a ninth of the
-/// entries of the unknowns' pattern. Cells of other processes that touch ours are known here too,
-/// so that no process need send rows to another.
+/// For each node of this process, the nodes that share a cell with it, in compressed rows: a ninth
+/// of the entries of the pattern of the unknowns. Neighbouring cells of other processes are
+/// included, so that no process needs to send rows to another.
 class NodePattern {
  public:
   explicit NodePattern(const SolidSpace& space);
@@ -33,20 +33,19 @@ class NodePattern {
   std::size_t length(const PetscInt row) const { return start(row + 1) - start(row); }
   std::size_t n_entries() const { return neighbours_.size(); }
   PetscInt neighbour(const std::size_t entry) const { return neighbours_[entry]; }
-  /// Places of the cell's nodes among the neighbours of one of them.
+  /// Positions of the nodes of a cell among the neighbours of one of them.
   std::array<std::size_t, SolidSpace::nodes_per_cell> places(PetscInt row,
                                                              const CellNodes& nodes) const;
 
  private:
   PetscInt first_ = 0;                // node of the first row
-  std::vector<std::size_t> start_;    // of each row among the neighbours, and the end
+  std::vector<std::size_t> start_;    // start of each row in neighbours_, and the end
   std::vector<PetscInt> neighbours_;  // ascending within a row
 };
 
-/// Sums the cells' matrices of one component in rows of nodes, without a look-up for every single
-/// entry, and hands them over to PETSc in one piece, the same for each of the three components,
-/// which do not couple. Cells are added by every process that owns one of their nodes.
-/// Proven by tests/fem/solid/node_rows_test.cc.
+/// Sums the cell matrices of one component in rows of nodes, without a search for every entry, and
+/// passes them to PETSc at once, the same for each of the three components, which are not coupled.
+/// Every process adds the cells of its own nodes. Proven by tests/fem/solid/node_rows_test.cc.
 class NodeRows {
  public:
   explicit NodeRows(const NodePattern& pattern);

@@ -8,32 +8,33 @@
 
 namespace vibrissa::fem {
 
-/// The relaxing branches of a body (T12.7) at its points, over one step of a fixed length:
-///   S_v = factor S + history,  history known at the step's start,                 from (T12.8).
+/// The relaxing branches of a solid (T12.7) at its points, over one step of fixed length:
+///   S_v = factor S + history,  history known at the start of the step,                 from
+///   (T12.8).
 /// Proven by tests/fem/solid/relaxing_stress_test.cc.
 class RelaxingStress {
  public:
   using Values = CellElasticity::Stress;
 
-  /// Of cells in the order in which InternalForce keeps them.
+  /// Materials of the cells in the order of InternalForce.
   RelaxingStress(const std::vector<const materials::Material*>& material_of_cell, double step_s);
 
   bool relaxes(const std::size_t cell) const { return place_[cell] != nowhere; }
   double factor(const std::size_t cell) const { return states_[place_[cell]].factor; }
   const Values& history(const std::size_t cell) const { return states_[place_[cell]].history; }
 
-  /// At rest for ever under the law's stress.
+  /// Sets a cell to equilibrium under the stress of the law.
   void rest(std::size_t cell, const Values& law);
-  /// To the step's end, where the law's stress is this.
+  /// Advances a cell to the end of the step, with this stress of the law.
   void advance(std::size_t cell, const Values& law);
 
-  /// All that is remembered, and back.
+  /// Saves and restores the state.
   std::vector<double> memory() const;
   void restore(const std::vector<double>& memory);
 
  private:
   struct Branch {
-    double decay, gain;  // exp(-h/tau), and g times its mean over the step
+    double decay, gain;  // exp(-h/tau), and g times the mean decay over the step
     Values stress;       // Q
   };
   struct State {

@@ -15,8 +15,7 @@ const materials::Material& material_of(const std::map<std::string, materials::Ma
                                        const std::string& region) {
   const auto found = materials.find(region);
   if (found == materials.end()) {
-    throw signals::UserError("the mesh has a region '" + region +
-                             "' that no material is given for");
+    throw signals::UserError("the region '" + region + "' of the mesh has no material");
   }
   return found->second;
 }

@@ -26,7 +26,7 @@ void SolidSpace::find_clamped() {
       dofs_, dealii::ComponentMask(), {meshes::boundary::clamp});
   clamped_ = at_clamp & dofs_.locally_owned_dofs();
   if (dealii::Utilities::MPI::sum(clamped_.n_elements(), dofs_.get_communicator()) == 0) {
-    throw signals::UserError("the mesh has no boundary named 'clamp': nothing holds the sensor");
+    throw signals::UserError("the mesh has no boundary named 'clamp', so nothing holds the sensor");
   }
 }
 

@@ -15,7 +15,7 @@
 
 namespace vibrissa::fem {
 
-/// Displacement space of the solid: continuous triquadratic (Q2) on isoparametric hexahedra, held
+/// Displacement space of the solid: continuous triquadratic (Q2) on isoparametric hexahedra, zero
 /// at the boundary "clamp". The mesh must outlive it.
 class SolidSpace {
  public:
@@ -30,7 +30,7 @@ class SolidSpace {
   const dealii::FE_Q<3>& scalar_element() const { return scalar_element_; }
   dealii::types::global_dof_index n_dofs() const { return dofs_.n_dofs(); }
   const dealii::IndexSet& clamped() const { return clamped_; }  // owned by this process
-  /// Index in the cell's list of unknowns of component c at node n (n as in scalar_element).
+  /// Index of component c at node n (numbering of scalar_element) among the unknowns of the cell.
   unsigned int cell_dof(unsigned int node, unsigned int component) const {
     return cell_dof_[3 * node + component];
   }

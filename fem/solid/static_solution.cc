@@ -12,18 +12,18 @@ namespace {
 
 [[noreturn]] void give_up(const double share, const double increment, const NewtonReport& report) {
   throw NoEquilibrium(
-      "the static load does not come to balance: " + signals::to_text(100. * share) +
-          " % of it do, an increment of " + signals::to_text(100. * increment) +
-          " % more does not (" + report.failure +
-          "; out-of-balance force over force: " + report.history() +
-          "). Lower the load, look for a material that is too soft for it or for distorted cells "
-          "of the mesh, or allow smaller increments",
+      "the solid finds no equilibrium under the static load: " + signals::to_text(100. * share) +
+          " % of the load is in equilibrium, but an increment of " +
+          signals::to_text(100. * increment) + " % more is not (" + report.failure +
+          "; relative out-of-balance force: " + report.history() +
+          "). Lower the load, allow smaller increments, or check the mesh for distorted cells and "
+          "the materials for a stiffness that is too low",
       share);
 }
 
 }  // namespace
 
-/// The balance at a share of the way from one load to another.
+/// The equilibrium problem at a fraction of the path from one load to the next.
 class StaticPath::Problem : public BalanceProblem {
  public:
   Problem(const SolidSpace& space, const SolidOperators& operators)

@@ -13,12 +13,12 @@
 
 namespace vibrissa::fem {
 
-/// What a body at rest is loaded with; all grow together from nothing.
+/// Loads of a solid at rest; all increase together from zero.
 struct StaticLoad {
   std::array<double, 3> body_acceleration_m_s2{};  // gravity minus the base's acceleration
   std::optional<Vector> force;                     // N at every node, fixed in direction
   const StateLoad* following = nullptr;            // at rest
-  /// Displacements of held unknowns [m], and a first guess of the others; nothing: zero.
+  /// Displacements of the held unknowns [m], and an initial guess of the others; nothing: zero.
   std::optional<Vector> displacement;
   /// Unknowns that are held; nothing: those of the clamp.
   std::optional<dealii::IndexSet> held;
@@ -36,7 +36,7 @@ struct StaticSolution {
   unsigned int n_increments = 0, n_iterations = 0, n_factorisations = 0;
 };
 
-/// A load that does not come to balance, with the share of the way to it that does.
+/// No equilibrium was found under a load; contains the share of the load for which one was found.
 class NoEquilibrium : public signals::UserError {
  public:
   NoEquilibrium(const std::string& what, const double share)
@@ -44,20 +44,21 @@ class NoEquilibrium : public signals::UserError {
   const double share_reached;
 };
 
-/// Equilibria at finite strain one after another, by Newton's iteration (newton.h) in increments of
-/// the way from each load to the next, which are halved on failure and doubled on success, each
-/// begun from the extrapolation of those before. Tangents are kept as long as they serve.
-/// Proven by tests/fem/solid/static_solution_test.cc.
+/// A sequence of equilibria at finite strain, by Newton's iteration (newton.h). The path from each
+/// load to the next is divided into increments, which are halved after a failure and doubled after
+/// a success; each starts from the extrapolation of the previous ones. A tangent is kept as long as
+/// it converges. Proven by tests/fem/solid/static_solution_test.cc.
 class StaticPath {
  public:
-  /// Begins undeformed and without load. Operators must outlive the path.
+  /// Starts undeformed and without load. The operators must outlive the path.
   StaticPath(const SolidSpace& space, const SolidOperators& operators,
              const StaticOptions& options = {});
   ~StaticPath();
 
-  /// Goes on to the equilibrium under a load, which must outlive the next step. Throws
-  /// NoEquilibrium with the share of the way, the last residuals and advice when the least
-  /// increment fails; the path is then at the last equilibrium found, and ends there.
+  /// Finds the equilibrium under the next load, which must exist until the load after it is solved.
+  /// Throws NoEquilibrium with the share of the load, the last residuals and advice when the
+  /// smallest increment fails; the path then stays at the last equilibrium and must not be
+  /// continued.
   StaticSolution go_to(const StaticLoad& load);
 
  private:

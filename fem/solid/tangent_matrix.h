@@ -13,32 +13,32 @@
 
 namespace vibrissa::fem {
 
-/// A symmetric matrix that is filled again and again in one pattern: a multiple of the mass and the
-/// cells' tangents, in the order of the cells that this process knows. Rows and columns of held
-/// unknowns are zero but for the diagonal. Stored as the upper triangle of 3 x 3 blocks.
-/// Proven by tests/fem/solid/internal_force_test.cc.
+/// A symmetric matrix that is filled repeatedly in one pattern: a multiple of the mass plus the
+/// tangents of the cells that this process knows, in their order. Rows and columns of held unknowns
+/// are zero except the diagonal. Stored as the upper triangle of 3 x 3 blocks. Proven by
+/// tests/fem/solid/internal_force_test.cc.
 class TangentMatrix {
  public:
   TangentMatrix(const SolidSpace& space, const Matrix& mass, const dealii::IndexSet& held);
 
-  /// Begins anew with factor * M.
+  /// Starts again with factor * M.
   void start(double mass_factor);
-  /// += factor * the cell's tangent.
+  /// Adds factor * the tangent of a cell.
   void add(std::size_t cell, double factor, const CellElasticity::Blocks& blocks);
-  /// Holds the held unknowns and hands the values over.
+  /// Applies the held unknowns and finishes the matrix.
   void finish(double diagonal_of_held = 1.);
 
   const Matrix& matrix() const { return *matrix_; }
-  /// The matrix, of which nothing is left here.
+  /// Moves the matrix to the caller.
   std::unique_ptr<Matrix> release() { return std::move(matrix_); }
 
  private:
   static constexpr auto n_nodes = SolidSpace::nodes_per_cell;
   static constexpr std::size_t n_pairs = n_nodes * (n_nodes + 1) / 2;
 
-  /// Where the block of a pair of a cell's nodes lies, the pairs (i, j >= i) one after another.
+  /// Position of the block of a pair of nodes of a cell, for the pairs (i, j >= i) in order.
   struct Place {
-    std::uint32_t block;  // of the values, or `foreign`
+    std::uint32_t block;  // index in the values, or `foreign`
     bool transposed;      // the second node comes first in the matrix
   };
   static constexpr std::uint32_t foreign = 0xffffffffu;
@@ -52,17 +52,17 @@ class TangentMatrix {
   const SolidSpace& space_;
   std::unique_ptr<Matrix> matrix_;
   PetscInt first_row_ = 0;
-  std::vector<std::size_t> start_;  // of the blocks of each row, and the end
-  std::vector<PetscInt> columns_;   // of each block, ascending in a row
+  std::vector<std::size_t> start_;  // start of the blocks of each row, and the end
+  std::vector<PetscInt> columns_;   // column of each block, ascending in a row
   std::vector<std::array<Place, n_pairs>> cells_;
-  std::vector<double> mass_;  // of one component, of each block
+  std::vector<double> mass_;  // mass of one component in each block
   std::vector<std::size_t> held_, diagonal_of_held_;
   std::vector<double> own_values_;  // with several processes
   double* values_ = nullptr;        // [block][3 component of the column + component of the row]
 };
 
-/// Factorises the tangent, in the place of the factors that are there; indefinite, it throws
-/// IndefiniteMatrix and leaves none.
+/// Factorises the tangent and replaces the existing factors. Throws IndefiniteMatrix when the
+/// tangent is indefinite; then there are no factors.
 void renew_factors(const TangentMatrix& tangent, std::unique_ptr<CholeskySolver>& factors);
 
 }  // namespace vibrissa::fem

@@ -151,7 +151,7 @@ void Lanczos::run(const Eigen::Index n, const Eigen::Index n_beyond) {
     if (size > most) {
       throw signals::InternalError("the modes did not converge within a basis of " +
                                    std::to_string(size) +
-                                   " vectors; ask for fewer modes or refine the mesh");
+                                   " vectors; request fewer modes or refine the mesh");
     }
   }
 }

@@ -31,7 +31,8 @@ void refine(std::vector<Eigenpair>& pairs, const CholeskySolver& stiffness,
     eigenvalues[k] = pair.eigenvalue;
     image.col(k) = owned_entries(pair.vector);
   }
-  // The vectors solve K image = right up to their own error, which the factors take out.
+  // The vectors solve K image = right except for their own error, which a solution with the factors
+  // removes.
   const Columns right = multiply(mass, image) * eigenvalues.asDiagonal();
   Columns residual;
   take_residual(right, image, product, pairs[0].vector, residual);

@@ -70,7 +70,8 @@ bool search(BalanceProblem& problem, const Point& at, const Vector& step, Point&
   return false;
 }
 
-/// At u with the stresses of the state in balance, or where that will not do, wholly there.
+/// Assembles the tangent at u with the stresses of the last equilibrium or, when this is
+/// indefinite, completely at the last equilibrium.
 bool renew_tangent(BalanceProblem& problem, const Vector& in_balance, const Vector& u,
                    NewtonReport& report) {
   for (const Vector* at : {&u, &in_balance}) {
@@ -86,8 +87,8 @@ bool renew_tangent(BalanceProblem& problem, const Vector& in_balance, const Vect
   return false;
 }
 
-/// Iterations that are still to come at the pace of the last ones; none while it is too early to
-/// say: the first ones take stretching out that the guess had brought in, whatever the tangent.
+/// Predicted number of further iterations, from the convergence rate of the last ones; zero after
+/// too few iterations: the first ones remove axial strain of the initial guess, with any tangent.
 double iterations_left(const std::vector<double>& residuals, const double tolerance) {
   constexpr std::size_t looked_at = 3;
   if (residuals.size() <= looked_at) return 0.;
@@ -101,7 +102,7 @@ double iterations_left(const std::vector<double>& residuals, const double tolera
 
 NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Vector& u,
                            const NewtonOptions& options) {
-  // Steps this small next to the displacement are rounding.
+  // Smaller steps, relative to the displacement, are rounding.
   constexpr double rounding = 1e-12;
   NewtonReport report;
   Point at{u, u}, next{u, u};
@@ -109,7 +110,7 @@ NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Ve
   SecantMemory secants(options.n_secants);
   const auto by_factors = [&problem](const Vector& force, Vector& x) { problem.solve(force, x); };
   if (!evaluate(problem, at)) {
-    report.failure = "the state that it begins from is no state of the body";
+    report.failure = "the initial state is not a valid state of the solid";
     return report;
   }
   report.residuals.push_back(at.residual());
@@ -126,7 +127,7 @@ NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Ve
     if (!search(problem, at, step, next, length)) {
       if (step.linfty_norm() <= rounding * at.u.linfty_norm()) break;
       if (fresh) {
-        report.failure = "no step along the tangent brings the forces closer to balance";
+        report.failure = "no step along the tangent reduces the out-of-balance force";
         return report;
       }
       renew = true;
@@ -148,7 +149,7 @@ NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Ve
   report.converged =
       at.residual() <= options.tolerance ||
       (step.linfty_norm() <= rounding * at.u.linfty_norm() && at.residual() <= of_rounding);
-  if (!report.converged) report.failure = "the iteration ran out";
+  if (!report.converged) report.failure = "the largest number of iterations was reached";
   return report;
 }
 

@@ -7,12 +7,12 @@
 
 namespace vibrissa::fem {
 
-/// Forces that must balance in a displacement, with a symmetric tangent.
+/// An equilibrium problem with a symmetric tangent.
 class BalanceProblem {
  public:
   virtual ~BalanceProblem() = default;
-  /// out_of_balance = driving minus resisting forces, zero at held unknowns. Returns a force to
-  /// measure it by [N], not finite where u is no state of the body.
+  /// out_of_balance = driving minus resisting forces, zero at held unknowns. Returns a reference
+  /// force [N]; it is not finite when u is not a valid state of the solid.
   virtual double forces(const Vector& u, Vector& out_of_balance) = 0;
   /// Assembles and factorises -d(out_of_balance)/du at u with the stresses of another state;
   /// throws IndefiniteMatrix.
@@ -22,10 +22,10 @@ class BalanceProblem {
 };
 
 struct NewtonOptions {
-  double tolerance = 1e-11;  // out-of-balance force over the force to measure it by
+  double tolerance = 1e-11;  // out-of-balance force divided by the reference force
   unsigned int max_iterations = 40;
-  std::size_t n_secants = 20;             // steps that a kept tangent is updated by
-  double tangent_worth_iterations = 15.;  // a new one costs about as much
+  std::size_t n_secants = 20;             // number of steps that update a kept tangent
+  double tangent_worth_iterations = 15.;  // cost of a new tangent in iterations
 };
 
 struct NewtonReport {
@@ -38,11 +38,11 @@ struct NewtonReport {
   std::string history() const;
 };
 
-/// Newton's iteration from u, which it changes. A tangent, that of an earlier call too, is kept and
-/// updated by secants (secant_memory.h) until a new one pays; a new one is made at u with the
-/// stresses of in_balance (T13.2), the last state in balance. Steps are shortened until the force
-/// along them has fallen (T13.1), and out of states that have no energy; u is left at the last
-/// state that has one. Proven by tests/fem/solvers/newton_test.cc and static_solution_test.cc.
+/// Newton's iteration from u, which is updated. A tangent, also of an earlier call, is kept and
+/// updated by secants (secant_memory.h) until a new tangent is cheaper; a new tangent is assembled
+/// at u with the stresses of in_balance (T13.2), the last equilibrium. Steps are shortened until
+/// the force along them has decreased (T13.1) and the state has a finite energy; u is always such a
+/// state. Proven by tests/fem/solvers/newton_test.cc and static_solution_test.cc.
 NewtonReport solve_balance(BalanceProblem& problem, const Vector& in_balance, Vector& u,
                            const NewtonOptions& options = {});
 

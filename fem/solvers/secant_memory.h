@@ -8,19 +8,18 @@
 
 namespace vibrissa::fem {
 
-/// What the last steps of an iteration have shown of a stiffness beside a factorised one that is no
-/// longer true: limited-memory BFGS on its inverse (Nocedal and Wright, Numerical
-/// Optimization, 2006, algorithm 7.4). Stays positive definite. Proven by
-/// tests/fem/solvers/newton_test.cc.
+/// Corrects an outdated factorised stiffness by the last steps of an iteration: limited-memory BFGS
+/// on its inverse (Nocedal and Wright, Numerical Optimization, 2006, algorithm 7.4). The result
+/// stays positive definite. Proven by tests/fem/solvers/newton_test.cc.
 class SecantMemory {
  public:
   explicit SecantMemory(std::size_t n_pairs) : n_pairs_(n_pairs) {}
 
   void clear() { pairs_.clear(); }
-  /// A step and by how much the resisting force grew along it. A pair that no positive definite
-  /// stiffness has is left out.
+  /// Adds a step and the growth of the resisting force along it. A pair that contradicts a positive
+  /// definite stiffness is ignored.
   void add(const Vector& step, const Vector& growth);
-  /// step = approximate inverse times force; solve: by the factorised stiffness.
+  /// step = approximate inverse times force; by_factors solves with the factorised stiffness.
   using Solve = std::function<void(const Vector& force, Vector& step)>;
   void solve(const Solve& by_factors, const Vector& force, Vector& step) const;
 

@@ -1,8 +1,8 @@
-"""Vibrissa: why the whisker or airflow sensor on the bench differs from the one in the simulation.
+"""Vibrissa finds why a whisker or airflow sensor on the bench differs from its simulation.
 
-Records are NumPy arrays with units in their names (SI). What each function returns as a `report` is
-the very document that the program prints with --json. docs/notebook.md walks from a recording to a
-verdict.
+Records contain NumPy arrays in SI units; the names end in the unit. Each `report` is the document
+that the program prints with --json. docs/notebook.md is an example: from a recording to a
+diagnosis.
 """
 import json as _json
 import os as _os
@@ -44,20 +44,23 @@ __all__ = [
 
 
 class Identification:
-    """A base vibration response model found in a record: `model`, and `report` as a dict."""
+    """Result of `identify`: the base vibration response model `model`, and `report` as a dict."""
 
     def __init__(self, model, report):
         self.model = model
         self.report = report
 
     def __repr__(self):
-        modes = ", ".join(f"{mode['frequency_hz']:.3f} Hz" for mode in self.report["modes"])
-        return f"Identification({modes}; fit {self.report['fit_percent']:.2f} %)"
+        modes = ", ".join(f"{mode['frequency_hz']:.5g} Hz" for mode in self.report["modes"])
+        return f"Identification({modes}; fit {self.report['fit_percent']:.4g} %)"
 
 
 class Diagnosis:
-    """Why records differ from a simulation: `report` (diagnosis.json as a dict), `words` for people,
-    `updated`, the simulation with what was found."""
+    """Why records differ from a simulation.
+
+    `report` is diagnosis.json as a dict, `words` is the text for people, `updated` is the
+    simulation with the effects that were found.
+    """
 
     def __init__(self, answer):
         self.updated = answer.updated
@@ -73,15 +76,16 @@ class Diagnosis:
 
     def __repr__(self):
         best = self.report["ranking"][0]
-        return f"Diagnosis({self.verdict}, probability {best['probability']:.2f})"
+        return f"Diagnosis({self.verdict}, probability {best['probability']:.2g})"
 
 
 def identify(record, *, held_out=None, order=None, max_order=6, period_samples=0,
              method="output-error", hold=None, direct_term=True):
-    """Finds the model from base_acceleration_m_s2 to base_moment_N_m.
+    """Identifies the model from base_acceleration_m_s2 to base_moment_N_m.
 
-    Without `held_out` the last third of the record only scores the model. `order` is the number of
-    poles, two for each mode; by default an information criterion chooses it.
+    Without `held_out`, the first two thirds of the record are fitted and the last third scores the
+    model. `order` is the number of poles, two for each mode; by default an information criterion
+    selects it.
     """
     model, report = _core.identify(record, held_out, order, max_order, period_samples, method, hold,
                                    direct_term)
@@ -90,11 +94,12 @@ def identify(record, *, held_out=None, order=None, max_order=6, period_samples=0
 
 def separate(record, *, model=None, methods=("fdaf",), block=64, taps=512, step=None,
              hold=None):
-    """The wind's part of the base moment [N m], one array for each method.
+    """Returns the part of the base moment that the wind causes [N m], one array for each method.
 
-    `model`, a Bvrm or an Identification, adds the method "bvrm". `hold`, how the base acceleration
-    runs between its samples, is by default as the model was fitted, else "first_order".
-    `methods`: one name or several of those that `vibrissa separate --help` lists.
+    `model` (a Bvrm or an Identification) adds the method "bvrm". `hold` is the assumed course of
+    the base acceleration between its samples; the default is the hold of the fit, else
+    "first_order".
+    `methods` is one name, or several names, of the methods that `vibrissa separate --help` lists.
     """
     if isinstance(methods, str):
         methods = (methods,)
@@ -104,10 +109,10 @@ def separate(record, *, model=None, methods=("fdaf",), block=64, taps=512, step=
 
 
 def diagnose(real, *, simulation, max_effects=3, possible_experiments=()):
-    """Why the records `real` differ from `simulation`, and how far the gap closes.
+    """Finds why the records `real` differ from `simulation`, and how much of the gap is closed.
 
-    Either may be a path; `simulation` may be a Dataset (anybody's simulated records), a Model, a
-    model.json, or a case file (.prm). Raises TooLittleData when nothing can be said.
+    Both may be paths. `simulation` may be a Dataset (simulated records of any program), a Model, a
+    model.json or a case file (.prm). Raises TooLittleData when the data allow no answer.
     """
     rate_hz = 0.0
     if isinstance(simulation, (str, _os.PathLike)):
@@ -128,9 +133,9 @@ def _read_simulation(path):
 
 
 def simulate(case, *, settings=()):
-    """The record of a sensor that is shaken and blown at as the case file (.prm) says.
+    """Simulates the base moment under base vibration and wind, as the case file (.prm) describes.
 
-    `settings`: entries that replace those of the file, as "SECTION/ENTRY=VALUE".
+    Returns a Record. `settings` replace entries of the case file: "SECTION/ENTRY=VALUE".
     """
     from . import _solid
 
@@ -139,7 +144,7 @@ def simulate(case, *, settings=()):
 
 
 def solve(case, *, settings=()):
-    """The reduced model of the solid that a case file (.prm) describes."""
+    """Returns the reduced model of the solid that the case file (.prm) describes."""
     from . import _solid
 
     with _tempfile.TemporaryDirectory() as folder:

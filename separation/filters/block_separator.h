@@ -8,8 +8,8 @@
 
 namespace vibrissa::separation {
 
-/// A separator that works on whole blocks: collects samples, hands on full blocks, and gives their
-/// results out one sample at a time, block_length - 1 samples late.
+/// A separator that works on whole blocks: it collects samples, processes full blocks, and returns
+/// the results sample by sample with a latency of block_length - 1 samples.
 class BlockSeparator : public Separator {
  public:
   explicit BlockSeparator(std::size_t block_length);

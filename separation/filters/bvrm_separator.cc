@@ -58,7 +58,7 @@ bool BvrmSeparator::passes_straight_through() const {
   return shaper_.reach() == 0 && !shaper_.has_midpoints() && latency_ == 0 && bank_.shift() <= 0;
 }
 
-// What process_block comes to where nothing is shaped and nothing waits.
+// The result of process_block without input shaping and without latency.
 void BvrmSeparator::process_sample(double acceleration, double moment, double& wind) {
   double vibration = 0.;
   bank_.process(&acceleration, nullptr, &acceleration, &vibration, 1);

@@ -13,8 +13,8 @@
 
 namespace vibrissa::separation {
 
-/// A ring of past samples: gives each sample back so many samples later. Before that it gives what
-/// it was started with.
+/// Ring buffer that delays a signal by a fixed number of samples. The first outputs are the start
+/// value.
 class DelayLine {
  public:
   explicit DelayLine(std::size_t delay) : ring_(delay + 1, 0.) {}
@@ -30,10 +30,11 @@ class DelayLine {
   std::size_t next_ = 0;
 };
 
-/// M_s_hat = M_r - G a with an identified model (Routray et al. 2024, eq. 12), starting at rest.
-/// Straight lines and steps need no latency; a band-limited hold looks InputShaper's reach ahead, a
-/// negative delay as far as it leads. Before its first sample the acceleration is taken as
-/// constant. Proven by tests/separation/filters/bvrm_separator_test.cc.
+/// M_s_hat = M_r - G a with an identified model (Routray et al. 2024, eq. 12), from rest. The holds
+/// first_order and zero_order need no latency; band_limited needs the future samples of the
+/// InputShaper, and a negative delay needs the samples by which the moment leads. Before the first
+/// sample the acceleration is assumed constant. Proven by
+/// tests/separation/filters/bvrm_separator_test.cc.
 class BvrmSeparator : public Separator {
  public:
   /// Throws UserError for a model that check() refuses or a rate that is not positive.
@@ -57,9 +58,9 @@ class BvrmSeparator : public Separator {
   InputShaper shaper_;
   std::size_t latency_;
   DelayLine moment_line_, vibration_line_;
-  std::vector<double> window_;  // acceleration: two reaches of the past, then the block
-  std::size_t n_skipped_ = 0;   // shaped samples that lay before the first
-  std::size_t n_early_ = 0;     // results that were not due yet
+  std::vector<double> window_;  // acceleration: past samples (two reaches), then the block
+  std::size_t n_skipped_ = 0;   // shaped samples before the first sample
+  std::size_t n_early_ = 0;     // results before the latency has passed
   bool started_ = false, vibrates_ = false;
   Block node_{}, midpoint_{}, direct_{}, vibration_{};
 };

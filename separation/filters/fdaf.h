@@ -12,16 +12,16 @@
 
 namespace vibrissa::separation {
 
-/// The reference paper prints one L for two things: its L = 20 and L = 200 are taken as the block
-/// length. The filter must hold the ring-down (431 samples to 1 % at 31.47 Hz, zeta 0.027, 500 Hz),
-/// so its length is separate.
+/// The reference paper uses one L for two lengths; its L = 20 and L = 200 are used as block length
+/// here. The filter must be as long as the decay of the sensor (431 samples to 1 % at 31.47 Hz,
+/// zeta 0.027, 500 Hz), so its length is a separate option.
 struct FdafOptions {
   std::size_t block_length = 20;
   /// Rounded up to whole partitions of block_length.
   std::size_t filter_length = 440;
   StepOptions step = {};
   Constraint constraint = Constraint::constrained;
-  /// Share of the weights lost per block, 0 .. 1.
+  /// Share by which the weights decrease in each block, 0 .. 1.
   double leakage = 0.;
 };
 
@@ -33,10 +33,9 @@ FdafOptions paper_experiment_fdaf();
 /// Partitioned-block frequency-domain adaptive filter from base acceleration to base moment, by
 /// overlap-save with transforms of 2 block_length. For each block
 ///   Y = sum_p X_p W_p,  e = M_r - y (last half),  W_p += conj(X_p) mu E   (constrained, see
-/// Constraint; mu by bin, see StepOptions);
-/// e, the error before the block's own update, is M_s_hat (see OutputGuard for what it never
-/// exceeds). Latency block_length - 1.
-/// Proven by tests/separation/filters/fdaf_test.cc against block LMS in the time domain.
+/// Constraint; mu by bin, see StepOptions); e, the error before the update with this block, is
+/// M_s_hat (OutputGuard states its bound). Latency block_length - 1. Proven by
+/// tests/separation/filters/fdaf_test.cc against block LMS in the time domain.
 class Fdaf : public BlockSeparator {
  public:
   /// Throws UserError for options out of range, with the option's name.
@@ -46,7 +45,7 @@ class Fdaf : public BlockSeparator {
   std::size_t n_partitions() const { return filter_.n_partitions(); }
   /// block_length times n_partitions(), at least filter_length.
   std::size_t n_taps() const { return filter_.n_taps(); }
-  /// The taps learnt so far, base acceleration to base moment.
+  /// The present taps, from base acceleration to base moment.
   std::vector<double> impulse_response() { return filter_.impulse_response(); }
 
  private:

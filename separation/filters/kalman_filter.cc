@@ -98,7 +98,7 @@ void PartitionedKalman::learn() {
   expected_power_ = wind_power_;
   for (std::size_t p = 0; p < input_.n_partitions(); ++p)
     expected_power_ += 0.5 * input_.power(p) * covariance_.col(static_cast<Eigen::Index>(p));
-  // Where nothing is heard and nothing expected there is nothing to learn either.
+  // A bin without signal and without expected power gives no update.
   const Eigen::ArrayXd share = (expected_power_ > 1e-290).select(expected_power_.inverse(), 0.);
   for (std::size_t p = 0; p < input_.n_partitions(); ++p) {
     const auto j = static_cast<Eigen::Index>(p);

@@ -18,10 +18,10 @@ struct KalmanOptions {
   std::size_t block_length = 64;
   /// Rounded up to whole partitions of block_length.
   std::size_t filter_length = 440;
-  /// A of the model W[k + 1] = A W[k] + noise, 0 < A <= 1. 1: the path stands still, and the filter
-  /// averages over all it has seen. The filter follows a change within about 1 / (1 - A) blocks.
+  /// A of the model W[k + 1] = A W[k] + noise, 0 < A <= 1. 1: the path is constant, and the filter
+  /// averages over all past samples. The filter follows a change within about 1 / (1 - A) blocks.
   double transition = 1.;
-  /// Forgetting of the wind's spectrum per block, in [0, 1).
+  /// Forgetting factor of the wind spectrum per block, in [0, 1).
   double noise_forgetting = 0.9;
 };
 
@@ -30,12 +30,13 @@ struct KalmanOptions {
 ///   e = last half of ifft(sum_p X_p W_p),  e = M_r - e,
 ///   C_p <- A^2 C_p + (1 - A^2) |W_p|^2,   D = sum_p |X_p|^2 C_p / 2 + Psi,
 ///   W_p += constraint(C_p conj(X_p) E / D),   C_p <- C_p (1 - |X_p|^2 C_p / (2 D)),
-/// with Psi the forgetting mean of |E|^2. The halves are those of overlap-save: E has block_length
-/// samples in a transform twice as long. With them C falls as the covariance of least squares does
-/// for white input. The first C is the moment's power over the acceleration's: no units, no floor.
-/// A block without any moment or any acceleration (a gap given as zeros) teaches nothing.
-/// e is M_s_hat (see OutputGuard for what it never exceeds); latency block_length - 1. Proven by
-/// tests/separation/filters/kalman_filter_test.cc against the least-squares solution.
+/// with Psi the exponentially weighted mean of |E|^2. The factors 1/2 come from overlap-save: E has
+/// block_length samples in a transform twice as long. With them C decreases as the covariance of
+/// least squares for white input. The first C is the power of the moment divided by the power of
+/// the acceleration, so that no absolute constant is needed. A block without moment or without
+/// acceleration (a gap of zeros) does not change the filter. e is M_s_hat (OutputGuard states its
+/// bound); latency block_length - 1. Proven by tests/separation/filters/kalman_filter_test.cc
+/// against the least-squares solution.
 class PartitionedKalman : public BlockSeparator {
  public:
   /// Throws UserError for options out of range, with the option's name.
@@ -43,7 +44,7 @@ class PartitionedKalman : public BlockSeparator {
 
   std::string name() const override { return "Kalman"; }
   std::size_t n_taps() const { return filter_.n_taps(); }
-  /// The taps learnt so far, base acceleration to base moment.
+  /// The present taps, from base acceleration to base moment.
   std::vector<double> impulse_response() { return filter_.impulse_response(fft_); }
 
  private:
@@ -52,7 +53,7 @@ class PartitionedKalman : public BlockSeparator {
   void reset_blocks() override;
   void learn();
   void forget();
-  /// Sets the prior when there is none yet or the moment is far beyond it.
+  /// Sets the prior when there is none yet or the moment is far above it.
   void renew_prior(const Eigen::ArrayXd& error_power);
 
   KalmanOptions options_;

@@ -11,9 +11,8 @@ namespace {
 std::size_t checked_delay(const LineCancellerOptions& options) {
   if (options.delay_samples == 0)
     throw signals::UserError(
-        "line canceller: delay_samples = 0 must be at least 1; without a delay the moment "
-        "predicts "
-        "itself and nothing is left");
+        "line canceller: delay_samples = 0 must be at least 1; without a delay the filter predicts "
+        "the moment from itself and removes all of it");
   return options.delay_samples;
 }
 

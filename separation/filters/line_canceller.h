@@ -8,18 +8,19 @@
 namespace vibrissa::separation {
 
 struct LineCancellerOptions {
-  /// Of the moment against itself. Longer than the wind's correlation, so that only lines, which
-  /// correlate for ever, can be predicted.
+  /// Delay of the moment. It must be longer than the correlation time of the wind, so that only
+  /// lines, whose correlation does not decay, can be predicted.
   std::size_t delay_samples = 50;
   NlmsOptions lms = {.filter_length = 200, .step = 0.02};
 };
 
 /// Removes the lines of a periodic vibration without any accelerometer: predicts the moment from
-/// its own past, delay_samples ago, by normalised LMS, and hands on what could not be predicted
-/// (Widrow et al. 1975, the delay-based canceller of Routray et al. 2024, fig. 2a). A line of
-/// amplitude A in white noise of variance s^2 remains with s^2 / (s^2 + A^2 n_taps / 4) of its
-/// amplitude. Steady wind and wind lines look like vibration lines and are removed, too.
-/// Ignores the base acceleration. Proven by tests/separation/filters/line_canceller_test.cc.
+/// its own past, delay_samples ago, by normalised LMS, and returns the prediction error (Widrow et
+/// al. 1975, the delay-based canceller of Routray et al. 2024, fig. 2a). Of a line of amplitude A
+/// in white noise of variance s^2, the share s^2 / (s^2 + A^2 n_taps / 4) of the amplitude remains.
+/// Steady wind and lines of the wind cannot be distinguished from vibration lines and are removed,
+/// too. The base acceleration is not used. Proven by
+/// tests/separation/filters/line_canceller_test.cc.
 class LineCanceller : public Separator {
  public:
   /// Throws UserError for options out of range, with the option's name.
@@ -32,7 +33,7 @@ class LineCanceller : public Separator {
   std::size_t latency_samples() const override { return 0; }
 
  private:
-  TapWindow past_;  // the last delay_samples moments
+  TapWindow past_;  // the last delay_samples samples of the moment
   NormalisedLms lms_;
 };
 

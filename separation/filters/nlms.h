@@ -8,8 +8,8 @@
 
 namespace vibrissa::separation {
 
-/// Normalised LMS filter from base acceleration to base moment: the time-domain reference without
-/// latency. See NormalisedLms. Proven by tests/separation/filters/nlms_test.cc.
+/// Normalised LMS filter from base acceleration to base moment: the reference method in the time
+/// domain, without latency. See NormalisedLms. Proven by tests/separation/filters/nlms_test.cc.
 class Nlms : public Separator {
  public:
   /// Throws UserError for options out of range, with the option's name.

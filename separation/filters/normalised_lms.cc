@@ -49,7 +49,7 @@ double NormalisedLms::step(double x, double d) {
   sum_of_energies_ += energy;
   n_samples_ += 1.;
   const double scale = energy + options_.regularisation * sum_of_energies_ / n_samples_;
-  // Below the smallest normal number a quotient would overflow; such an input is silent.
+  // Below the smallest normal number a quotient would overflow; such an input counts as zero.
   if (scale > 1e-290) taps_ += (options_.step * error / scale) * samples;
   return error;
 }

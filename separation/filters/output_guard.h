@@ -7,21 +7,22 @@
 
 namespace vibrissa::separation {
 
-/// Tells when an adaptive filter has learnt nonsense: its vibration estimate exceeds four times the
-/// largest moment so far, which no part of the moment does. The filter then hands the moment
-/// on (and, if it goes by gradients, forgets its weights), so that |M_s_hat| <= 5 max |M_r|
-/// whatever comes in (typically: taps learnt in near-silence meet a loud input). Relative: units do
-/// not matter. Proven by tests/separation/filters/stability_test.cc.
+/// Detects a diverged adaptive filter: its vibration estimate exceeds four times the largest moment
+/// so far, which is not possible for a part of the moment. The filter then returns the moment
+/// itself (and a gradient filter resets its weights), so that |M_s_hat| <= 5 max |M_r| for every
+/// input. A typical cause: taps adapted to a very small input, followed by a large input. The
+/// criterion is relative, so units do not matter. Proven by
+/// tests/separation/filters/stability_test.cc.
 class OutputGuard {
  public:
   static constexpr double largest_share = 4.;
 
   void clear() { largest_moment_ = 0.; }
-  /// Takes the moments before the estimate that belongs to them is evaluated.
+  /// Takes the samples of the moment; call it before accepts() for the estimate of these samples.
   void hear(const double* moment, std::size_t n) {
     largest_moment_ = std::max(largest_moment_, largest(moment, n));
   }
-  /// Refuses what is not finite, too.
+  /// False for values that are not finite.
   bool accepts(double vibration) const {
     return std::abs(vibration) <= largest_share * largest_moment_;
   }

@@ -90,8 +90,8 @@ void PairedFilter::pair_newest() {
   pair.tail(n - 1) = (first + j * second).segment(1, n - 1).reverse().conjugate();
 }
 
-// An odd number of partitions leaves the last without a partner. Where every update is constrained
-// it may hear one, as the imaginary taps that would answer to it stay zero.
+// With an odd number of partitions the last one has no partner. When every update is constrained,
+// its pair may contain another spectrum, because the imaginary taps for it stay zero.
 void PairedFilter::separate_last() {
   const Eigen::Index n = spectra_.rows() - 1;
   const auto alone = spectrum_back(n_pairs() - 1);

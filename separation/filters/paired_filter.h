@@ -10,11 +10,12 @@
 
 namespace vibrissa::separation {
 
-/// What keeps the filter a linear convolution (the second half of each partition's taps zero).
+/// How the filter is constrained to a linear convolution (second half of the taps of each partition
+/// zero).
 enum class Constraint {
-  constrained,   // every partition, every block: two transforms each
-  alternating,   // every block, but one partition in turn
-  unconstrained  // never: circular wrap-around stays as an error
+  constrained,   // every partition in every block: two transforms each
+  alternating,   // one partition in each block, in turn
+  unconstrained  // never: the error of the circular convolution remains
 };
 
 /// FIR filter in the frequency domain, cut into P partitions of the block length
@@ -22,10 +23,11 @@ enum class Constraint {
 /// partitions, h = ceil(P / 2) blocks apart, share one complex transform: with U = X_p - j X_{p+h}
 /// and V = W_p + j W_{p+h} over the whole circle of bins,
 ///   y = Re ifft(sum U V),   V += fft(constraint(ifft(conj(U) E)))
-/// are those of both partitions, and a pair stays together when the input moves on by a block.
-/// Half as many transforms of the same length, and complex ones, which are quicker than two real
-/// ones. Knows nothing of step sizes: adapt() takes the scaled error. Proven by
-/// tests/separation/filters/paired_filter_test.cc against plain convolution and correlation.
+/// give the results of both partitions, and the pairs stay the same when the input advances by a
+/// block. This needs half as many transforms of the same length, and one complex transform is
+/// faster than two real ones. Step sizes are not part of this class: adapt() takes the scaled
+/// error. Proven by tests/separation/filters/paired_filter_test.cc against plain convolution and
+/// correlation.
 class PairedFilter {
  public:
   PairedFilter(std::size_t block_length, std::size_t n_partitions, Constraint constraint);
@@ -34,12 +36,12 @@ class PairedFilter {
   std::size_t n_taps() const { return block_length_ * n_partitions(); }
   Eigen::Index n_bins() const { return powers_.rows(); }
 
-  /// Forgets the input and the taps.
+  /// Resets the input and the taps.
   void clear();
   void clear_taps();
   /// Takes the next block of the input.
   void push(std::span<const double> block);
-  /// The filter's output for the last block taken.
+  /// Output of the filter for the last block.
   void apply(std::span<double> output);
   /// Sum over the partitions of |X_p|^2, by bin.
   const Eigen::ArrayXd& power() const { return power_; }
@@ -47,7 +49,7 @@ class PairedFilter {
   /// block_length of the error in the second half of the transform.
   void adapt(const Spectrum& scaled_error);
   void scale(double factor) { weights_ *= factor; }
-  /// The filter's taps in time.
+  /// The taps in the time domain.
   std::vector<double> impulse_response();
 
  private:

@@ -9,10 +9,10 @@
 
 namespace vibrissa::separation {
 
-/// FIR filter in the frequency domain, cut into partitions of the block length (partitioned-block
-/// overlap-save; Soo & Pang 1990), with a step of its own for each bin and partition; every update
-/// is constrained to a linear convolution (the second half of each partition's taps zero).
-/// PairedFilter is quicker where all partitions share one step. Proven by
+/// FIR filter in the frequency domain, divided into partitions of the block length
+/// (partitioned-block overlap-save; Soo & Pang 1990), with a separate step for each bin and
+/// partition; every update is constrained to a linear convolution (the second half of each
+/// partition's taps zero). PairedFilter is faster when all partitions have the same step. Proven by
 /// tests/separation/filters/partitioned_filter_test.cc against plain convolution.
 class PartitionedFilter {
  public:
@@ -27,7 +27,7 @@ class PartitionedFilter {
              signals::RealFft& fft);
   /// |W_p|^2, [bin][partition].
   auto power() const { return weights_.abs2(); }
-  /// The filter's taps in time.
+  /// The taps in the time domain.
   std::vector<double> impulse_response(signals::RealFft& fft) const;
 
  private:

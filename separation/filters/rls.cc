@@ -57,7 +57,7 @@ void Rls::process(std::span<const double> base_acceleration, std::span<const dou
 double Rls::step(double x, double d) {
   window_.push(x);
   guard_.hear(&d, 1);
-  // What is refused here is no fault of the data, which stay: too few of them yet.
+  // A refused estimate is not an error of the data, which are kept: there are too few of them yet.
   double estimate = taps_.dot(window_.samples());
   if (!guard_.accepts(estimate)) estimate = 0.;
   sum_of_squares_ += x * x;
@@ -107,7 +107,7 @@ void Rls::rotate_in(Eigen::Index first) {
 }
 
 void Rls::solve() {
-  // Below this share of the largest a diagonal holds nothing but rounding.
+  // Below this share of the largest diagonal entry, a diagonal entry is only rounding.
   const double smallest = 1e-14 * factor_.diagonal().cwiseAbs().maxCoeff();
   for (Eigen::Index j = row_.size() - 1; j >= 0; --j) {
     const Eigen::Index n = row_.size() - j - 1;

@@ -17,7 +17,7 @@ std::vector<double> checked_channel(const signals::Record& record, const std::st
     if (!std::isfinite(x[i]))
       throw signals::UserError("separation: " + name + " is not finite at sample " +
                                std::to_string(i) + " (" + signals::to_text(record.time_s(i)) +
-                               " s); cut it out or fill it");
+                               " s); remove or replace this sample");
   std::vector<double> values(x.begin(), x.end());
   values.resize(x.size() + n_tail, x.back());
   return values;
@@ -27,7 +27,7 @@ std::vector<double> checked_channel(const signals::Record& record, const std::st
 
 std::vector<double> separate_record(Separator& separator, const signals::Record& record) {
   const std::size_t latency = separator.latency_samples();
-  // The record goes on as it ended until its last samples have come out.
+  // The last samples are repeated until the separator has returned all results.
   const auto acceleration = checked_channel(record, signals::channel::base_acceleration, latency);
   std::vector<double> moment = checked_channel(record, signals::channel::base_moment, latency);
   separator.reset();

@@ -34,7 +34,7 @@ void SpectraBuffer::push(std::span<const double> block, signals::RealFft& fft) {
   newest_ = (newest_ + spectra_.cols() - 1) % spectra_.cols();
   spectra_.col(newest_) = Eigen::Map<const Spectrum>(fft.spectrum().data(), spectra_.rows());
   powers_.col(newest_) = spectra_.col(newest_).abs2();
-  // Summed anew each time: a running sum would keep the rounding of what has left it.
+  // Summed again each time: a running sum would accumulate rounding errors.
   power_ = powers_.col(0);
   for (Eigen::Index p = 1; p < powers_.cols(); ++p) power_ += powers_.col(p);
 }

@@ -11,19 +11,19 @@ namespace vibrissa::separation {
 using Spectrum = Eigen::ArrayXcd;
 using SpectrumRef = Eigen::Ref<const Eigen::ArrayXcd>;
 
-/// Spectra of the input's last blocks for overlap-save: spectrum p is that of the two neighbouring
-/// blocks that end p blocks ago (2 block_length samples, the newest last).
-/// Proven by tests/separation/filters/partitioned_filter_test.cc.
+/// Spectra of the last input blocks for overlap-save: spectrum p is the spectrum of the two
+/// consecutive blocks that end p blocks ago (2 block_length samples, the newest last). Proven by
+/// tests/separation/filters/partitioned_filter_test.cc.
 class SpectraBuffer {
  public:
   SpectraBuffer(std::size_t block_length, std::size_t n_partitions);
 
-  /// Takes the next block, through the given transform of length 2 block_length.
+  /// Takes the next block; fft has the length 2 block_length.
   void push(std::span<const double> block, signals::RealFft& fft);
   void clear();
   std::size_t n_partitions() const { return static_cast<std::size_t>(spectra_.cols()); }
   Eigen::Index n_bins() const { return spectra_.rows(); }
-  /// 0: the newest.
+  /// Partition 0 is the newest.
   auto spectrum(std::size_t partition) const { return spectra_.col(place(partition)); }
   /// |X_p|^2 by bin.
   auto power(std::size_t partition) const { return powers_.col(place(partition)); }

@@ -48,7 +48,7 @@ const Eigen::ArrayXd& StepRule::update(const Eigen::ArrayXd& power) {
   sum_of_means_ += power.mean();
   n_blocks_ += 1.;
   const double floor = options_.regularisation * sum_of_means_ / n_blocks_;
-  // Below the smallest normal number a quotient would overflow; such a bin is silent.
+  // Below the smallest normal number a quotient would overflow; such a bin counts as zero.
   constexpr double silence = std::numeric_limits<double>::min() * 1e10;
   step_ = (power_ + floor > silence).select(options_.step / (power_ + floor), 0.);
   return step_;

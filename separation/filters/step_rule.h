@@ -7,21 +7,21 @@ namespace vibrissa::separation {
 /// How the step of a frequency-domain filter is scaled.
 enum class StepNormalisation {
   /// Per bin by its input power, summed over the partitions: dimensionless, stable for 0 < mu < 2
-  /// (unconstrained, stationary input) whatever the number of partitions.
+  /// (unconstrained, stationary input) for any number of partitions.
   power,
-  /// mu itself, as block LMS has it: W_p += mu conj(X_p) E. Its useful size is 1 / power of the
+  /// mu itself, as in block LMS: W_p += mu conj(X_p) E. Useful values are near 1 / power of the
   /// input.
   fixed
 };
 
-/// What P the power rule divides by, from the present power p and lambda per block. P <- lambda P +
-/// (1 - lambda) p throughout.
+/// Divisor of the power rule, from the present power p and the mean P, with P <- lambda P + (1 -
+/// lambda) p in each block.
 enum class PowerSmoothing {
-  /// max(p, P): never below p, so that a burst after silence makes no step above mu.
+  /// max(p, P): never below p, so that a burst after silence gives no step above mu.
   guarded,
-  /// P itself (the textbook's rule). A burst after silence makes a step far above mu.
+  /// P (the textbook rule). A burst after silence gives a step far above mu.
   mean,
-  /// p itself: no memory; with few partitions it follows the scatter of single spectra.
+  /// p: no memory; with few partitions it follows the scatter of single spectra.
   none
 };
 
@@ -31,13 +31,13 @@ struct StepOptions {
   PowerSmoothing smoothing = PowerSmoothing::guarded;
   /// lambda of the power rule, per block.
   double power_forgetting = 0.9;
-  /// Added to P as this share of the mean power over all bins and blocks so far: bins and times
-  /// without input hardly learn. Relative, so that units do not matter.
+  /// Share of the mean power over all bins and blocks so far that is added to the divisor, so that
+  /// bins and times without input hardly change the weights. Relative, so units do not matter.
   double regularisation = 1e-3;
 };
 
-/// The step of each bin. Silence (no power at all) gives zero.
-/// Proven by tests/separation/filters/step_rule_test.cc.
+/// The step of each bin; zero when there is no power. Proven by
+/// tests/separation/filters/step_rule_test.cc.
 class StepRule {
  public:
   /// Throws UserError for a step that is not positive (power rule: above 2), a forgetting outside
@@ -45,7 +45,7 @@ class StepRule {
   StepRule(const StepOptions& options, Eigen::Index n_bins);
 
   void clear();
-  /// Takes the present power of each bin, summed over the partitions, and gives its step.
+  /// Takes the present power of each bin, summed over the partitions; returns the steps.
   const Eigen::ArrayXd& update(const Eigen::ArrayXd& power);
 
  private:

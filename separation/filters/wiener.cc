@@ -21,13 +21,14 @@ void check_signal(std::span<const double> x, const std::string& name) {
   const auto bad = std::ranges::find_if_not(x, [](double value) { return std::isfinite(value); });
   if (bad != x.end())
     throw UserError("Wiener filter: " + name + " is not finite at sample " +
-                    std::to_string(bad - x.begin()) + "; cut it out or fill it");
+                    std::to_string(bad - x.begin()) + "; remove or replace this sample");
 }
 
 void check(std::span<const double> a, std::span<const double> m, const WienerOptions& options) {
   if (a.size() != m.size())
-    throw UserError("Wiener filter: " + std::to_string(a.size()) + " accelerations and " +
-                    std::to_string(m.size()) + " moments");
+    throw UserError("Wiener filter: " + std::to_string(a.size()) +
+                    " samples of acceleration, but " + std::to_string(m.size()) +
+                    " samples of moment");
   if (options.filter_length == 0 || options.filter_length > a.size())
     throw UserError("Wiener filter: filter_length = " + std::to_string(options.filter_length) +
                     " must be between 1 and the number of samples, " + std::to_string(a.size()));

@@ -24,7 +24,8 @@ void check_lengths(const signals::FrequencyResponse& response) {
       (!response.standard_deviation.empty() && response.standard_deviation.size() != n))
     throw UserError("frequency fit: " + std::to_string(n) + " frequencies, " +
                     std::to_string(response.value.size()) + " values and " +
-                    std::to_string(response.standard_deviation.size()) + " standard deviations");
+                    std::to_string(response.standard_deviation.size()) +
+                    " standard deviations; all need the same length");
 }
 
 std::vector<double> averaged_variance(const std::vector<double>& standard_deviation) {
@@ -43,8 +44,8 @@ std::vector<double> averaged_variance(const std::vector<double>& standard_deviat
   return variance;
 }
 
-// Without the care for overflow that a complex division takes: these values lie near one, or near
-// squares of angular frequencies.
+// Without the overflow checks of a complex division: these values are near one, or near squares of
+// angular frequencies.
 Eigen::ArrayXcd reciprocal(const Eigen::ArrayXcd& z) {
   return z.conjugate() * z.abs2().inverse();
 }
@@ -69,7 +70,7 @@ FrequencyProblem::FrequencyProblem(const signals::FrequencyResponse& response,
     : sampling_(sampling), direct_term_(direct_term), delay_s_(delay_s) {
   if (sampling_) {
     highest_damped_rad_s_ = separation::highest_rad_s(sampling_->hold, sampling_->rate_hz);
-    // The samples of a band-limited signal are as good as the signal.
+    // The samples of a band-limited signal determine the signal.
     if (sampling_->hold == Hold::band_limited) sampling_.reset();
   }
   if (sampling_) delay_ = sampled_delay(delay_s_, sampling_->rate_hz);
@@ -86,7 +87,7 @@ void FrequencyProblem::take_lines(const signals::FrequencyResponse& response) {
     const double f = response.frequency_hz[k], w = 2. * std::numbers::pi * f;
     if (!std::isfinite(f) || f < 0. || (!omega.empty() && !(w > omega.back())))
       throw UserError("frequency fit: frequency " + std::to_string(k + 1) + ", " +
-                      signals::to_text(f) + " Hz, is not above the one before it");
+                      signals::to_text(f) + " Hz, is not above the frequency before it");
     omega.push_back(w);
     value.push_back(response.value[k]);
     deviation.push_back(response.standard_deviation.empty()
@@ -110,7 +111,7 @@ void FrequencyProblem::weigh(const std::vector<double>& standard_deviation) {
   root_weight_ = Eigen::ArrayXd::Constant(n_lines(), std::sqrt(2. / power));
   if (known) {
     const std::vector<double> variance = averaged_variance(standard_deviation);
-    // No line is known better than rounding allows.
+    // The deviation of a line is at least its rounding error.
     root_weight_ =
         (2. / (Eigen::Map<const Eigen::ArrayXd>(variance.data(), n_lines()) + 1e-16 * power))
             .sqrt();
@@ -232,7 +233,7 @@ Eigen::VectorXd FrequencyProblem::with_best_gains(const std::vector<ModalTerm>& 
   if (direct_term_) columns.rightCols(1) = direct_column();
   const Eigen::VectorXd measured =
       residual(Eigen::VectorXd::Zero(direct_term_ ? 1 : 0));  // of a model without modes
-  // The columns differ by powers of the frequency; equal lengths let the rank be evaluated.
+  // The columns differ by powers of the frequency; with equal lengths the rank can be determined.
   const Eigen::VectorXd length = columns.colwise().norm();
   columns.array().rowwise() /= length.transpose().array();
   const Eigen::VectorXd gain = columns.colPivHouseholderQr().solve(measured).cwiseQuotient(length);

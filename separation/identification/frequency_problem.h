@@ -14,17 +14,17 @@
 
 namespace vibrissa::separation {
 
-/// The grid on which a frequency response was measured as a ratio of spectra of samples.
+/// Sampling of a frequency response that was measured as the ratio of spectra of samples.
 struct Sampling {
   double rate_hz = 0.;
   Hold hold = Hold::first_order;
 };
 
-/// Weighted differences between a measured frequency response and a model:
-/// e = sqrt(weight) (H - G(j w)), real and imaginary parts one above the other.
-/// Lines without a finite value are left out. weight = 2 / variance, where the variance of a line
-/// is averaged with that of its neighbours (few periods tell little about one line alone); equal
-/// weights when a line has no variance. Throws UserError unless lines and frequencies fit together.
+/// Weighted differences between a measured frequency response and a model: e = sqrt(weight) (H -
+/// G(j w)), real parts first, then imaginary parts. Lines without a finite value are ignored.
+/// weight = 2 / variance, where the variance of a line is averaged with the variances of its
+/// neighbours (few periods give a poor estimate for one line); equal weights when a line has no
+/// variance. Throws UserError for inconsistent lines and frequencies.
 class FrequencyProblem {
  public:
   FrequencyProblem(const signals::FrequencyResponse& response, std::optional<Sampling> sampling,
@@ -38,7 +38,7 @@ class FrequencyProblem {
   const Eigen::ArrayXd& root_weight() const { return root_weight_; }
   const Eigen::ArrayXcd& measured() const { return measured_; }
   double highest_rad_s() const { return s_[s_.size() - 1].imag(); }
-  /// Stable, and not beyond what the grid tells from its aliases.
+  /// Whether the mode is stable and below the frequency where aliases begin.
   bool admissible(const ModalTerm& mode) const;
   /// sum of weight |H|^2.
   double total() const { return total_; }
@@ -70,7 +70,7 @@ class FrequencyProblem {
   double highest_damped_rad_s_ = std::numeric_limits<double>::infinity();
   Eigen::ArrayXcd s_, measured_;
   Eigen::ArrayXd root_weight_;
-  Eigen::ArrayXcd gain_weight_, direct_weight_;  // root_weight times what the delay does
+  Eigen::ArrayXcd gain_weight_, direct_weight_;  // root_weight times the effect of the delay
   std::array<Eigen::ArrayXcd, 3> late_;          // exp(-j w n / rate), n = 1, 2, 3
   double total_ = 0.;
 };

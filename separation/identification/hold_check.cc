@@ -80,10 +80,9 @@ bool delayed(const HoldTrial& told, const HoldTrial& other, double rate_hz) {
 std::string residual_words(const HoldTrial& told, const HoldTrial& other) {
   std::ostringstream text;
   text.precision(3);
-  text << "the residual is " << told.residual_rms_n_m << " N m when the acceleration is taken as "
-       << to_string(told.hold) << " between its samples, but " << other.residual_rms_n_m
-       << " N m when taken as " << to_string(other.hold) << ": " << to_string(other.hold)
-       << " is the likely hold";
+  text << to_string(other.hold) << " is the likely hold of the acceleration: the residual is "
+       << other.residual_rms_n_m << " N m with it, but " << told.residual_rms_n_m
+       << " N m with the given hold " << to_string(told.hold);
   return text.str();
 }
 
@@ -91,11 +90,13 @@ std::string delay_words(const HoldTrial& told, const HoldTrial& other, double ra
   std::ostringstream text;
   text.precision(3);
   const double lead = told.unphysical_lead_s.value;
-  text << "with " << to_string(told.hold) << " the moment would " << (lead > 0. ? "lead" : "lag")
-       << " what a vibrating mode can do by " << std::abs(lead) * 1e3 << " ms ("
-       << std::abs(lead) * rate_hz << " samples), with " << to_string(other.hold)
-       << " it would not: either the acceleration ran as " << to_string(other.hold)
-       << " between its samples, or the two channels are shifted by that time";
+  text << "either " << to_string(other.hold)
+       << " is the hold of the acceleration, or the two channels are shifted by "
+       << std::abs(lead) * 1e3 << " ms (" << std::abs(lead) * rate_hz
+       << " samples): with the given hold " << to_string(told.hold) << " the moment "
+       << (lead > 0. ? "leads" : "lags behind")
+       << " the response of a vibrating mode by this time; with " << to_string(other.hold)
+       << " it does not";
   return text.str();
 }
 
@@ -112,7 +113,8 @@ HoldDiagnosis check_hold(const Bvrm& model, std::span<const Segment> segments,
                          double sampling_rate_hz, const SrivcOptions& told) {
   if (model.modes.empty()) throw signals::UserError("hold check: the model has no mode");
   std::vector<Candidate> candidates{try_hold(model, segments, sampling_rate_hz, told, told.hold)};
-  // A mode that a band-limited input tells from its aliases may be beyond what others do.
+  // A mode that can be distinguished from its aliases under band_limited may not be under the other
+  // holds.
   for (const Hold hold : {Hold::zero_order, Hold::first_order, Hold::band_limited})
     if (hold != told.hold && is_told_from_aliases(model, hold, sampling_rate_hz))
       candidates.push_back(try_hold(model, segments, sampling_rate_hz, told, hold));
@@ -140,7 +142,7 @@ HoldDiagnosis check_hold(const Bvrm& model, std::span<const Segment> segments,
     break;
   }
   if (likely) diagnosis.likely = likely->hold;
-  // Two steps may lead back to what was told.
+  // Two steps may lead back to the given hold.
   if (diagnosis.likely == told.hold) diagnosis.words.clear();
   return diagnosis;
 }

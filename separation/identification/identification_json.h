@@ -24,14 +24,14 @@ nlohmann::json identification_json(const Identification& identification);
 ///  "undamped": [{"frequency_hz", "frequency_sd_hz"}], "n_orders", "words"}.
 nlohmann::json output_only_json(const OutputOnlyIdentification& found);
 
-/// What a record says about a model beyond its fit.
+/// Evidence of a record about a model, in addition to the fit.
 struct ModelEvidence {
   PolesAndZeros poles_zeros;
   ResidualTests residual;
-  HoldDiagnosis hold;  // of the input between its samples
+  HoldDiagnosis hold;  // hold of the input between its samples
 };
 
-/// Tests the residual on the held-out record and the hold on the record that was fitted.
+/// Tests the residual on the held-out record and the hold on the fitted record.
 ModelEvidence examine(const Identification& identification, const signals::Record& fitted,
                       const signals::Record& held_out);
 
@@ -39,7 +39,7 @@ ModelEvidence examine(const Identification& identification, const signals::Recor
 ///  "residual_white", "residual_independent_of_input", "residual_words", "hold_words"}.
 nlohmann::json evidence_json(const ModelEvidence& evidence);
 
-/// What `vibrissa identify --json` prints: both of the above, and "order_words", "method".
+/// The document of `vibrissa identify --json`: both of the above, and "order_words", "method".
 nlohmann::json identification_report(const Identification& identification,
                                      const ModelEvidence& evidence, const std::string& method);
 

@@ -38,7 +38,7 @@ void check_channel(const Record& record, const std::string& name, const std::str
                       std::to_string(i) + " (" + signals::to_text(record.time_s(i)) + " s)");
   if (signals::is_constant(x))
     throw UserError("identification: " + name + " of the " + which +
-                    " is constant; nothing can be learnt from it");
+                    " is constant, so no model can be identified from it");
 }
 
 void check_record(const Record& record, double sampling_rate_hz, const std::string& which) {
@@ -46,13 +46,14 @@ void check_record(const Record& record, double sampling_rate_hz, const std::stri
   check_channel(record, channel::base_moment, which);
   if (record.sampling_rate_hz() != sampling_rate_hz)
     throw UserError("identification: the " + which + " has a sampling rate of " +
-                    signals::to_text(record.sampling_rate_hz()) + " Hz, the first fit record " +
-                    signals::to_text(sampling_rate_hz) + " Hz; resample one of them");
+                    signals::to_text(record.sampling_rate_hz()) +
+                    " Hz, but the first fit record has " + signals::to_text(sampling_rate_hz) +
+                    " Hz; resample one of them");
 }
 
 void check_all(std::span<const Record> fit_records, const Record& held_out,
                const IdentifyOptions& options) {
-  if (fit_records.empty()) throw UserError("identification: no record to fit");
+  if (fit_records.empty()) throw UserError("identification: no fit record is given");
   const double rate = fit_records[0].sampling_rate_hz();
   for (std::size_t i = 0; i < fit_records.size(); ++i)
     check_record(fit_records[i], rate, "fit record " + std::to_string(i + 1));
@@ -60,7 +61,7 @@ void check_all(std::span<const Record> fit_records, const Record& held_out,
   const std::size_t order = options.order.value_or(options.max_order);
   if (order == 0 || order % 2 != 0)
     throw UserError("identification: order = " + std::to_string(order) +
-                    " must be an even number of poles, at least 2 (two a mode)");
+                    " must be an even number of poles, at least 2 (two for each mode)");
 }
 
 std::size_t total_samples(std::span<const Record> records) {
@@ -85,9 +86,10 @@ std::size_t affordable_order(std::span<const Record> records, const IdentifyOpti
   if (order == 0 || (options.order && order < wanted))
     throw UserError(
         "identification: " + std::to_string(n) +
-        " samples to fit are too few for a model of order " +
+        " samples of the fit records are too few for a model of order " +
         std::to_string(options.order.value_or(2)) + " (at least " +
-        std::to_string(4 * n_unknowns(options.order.value_or(2), records.size(), options)) + ")");
+        std::to_string(4 * n_unknowns(options.order.value_or(2), records.size(), options)) +
+        " are needed)");
   return order;
 }
 
@@ -115,7 +117,7 @@ std::vector<Segment> segments_of(std::span<const Record> records) {
 
 double information_criterion(const FittedBvrm& fit, double n_samples, double n_unknowns,
                              double mean_square_moment) {
-  // An error below what rounding leaves is no better than another.
+  // Errors below the rounding level count as equal.
   const double mean_square = std::max(fit.residual_variance * (n_samples - n_unknowns) / n_samples,
                                       1e-24 * mean_square_moment);
   return n_samples * std::log(mean_square) + n_unknowns * std::log(n_samples);
@@ -223,9 +225,9 @@ class Identifier {
   double mean_square_moment_ = 0.;
 };
 
-// A mode that hardly decays within the records is none that they could show: it sits beside a line
-// of the input and predicts that line through the accelerometer's noise. It would ring for ever in
-// a separator that starts at rest.
+// The records do not determine a mode that hardly decays within them: it is near a line of the
+// input and fits that line through the accelerometer noise. In a separator that starts at rest it
+// would oscillate without end.
 std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
   const auto lasting = std::ranges::find_if(
       model.modes, [&](const ModalTerm& mode) { return 0.5 * mode.a1 * duration_s < 1.; });
@@ -233,7 +235,8 @@ std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
   return lasting->frequency_hz();
 }
 
-// The lowest criterion among the fits that came to an end and decay; among all when none did.
+// The lowest criterion among the converged fits with decaying modes; among all fits when there is
+// none.
 const Trial& choose(const std::vector<Trial>& trials, double duration_s) {
   const auto rank = [&](const Trial& trial) {
     return std::pair(trial.fit.end != FitEnd::converged ||
@@ -255,7 +258,7 @@ DecayingOrders decaying_orders(const std::vector<Trial>& trials, Hold hold, doub
     if (trial.summary.hold != hold) continue;
     if (const auto mode_hz = lasting_mode_hz(trial.fit.model, duration_s)) {
       orders.words = "; order " + std::to_string(trial.summary.order) +
-                     " was not asked: its mode at " +
+                     " was not considered, because its mode at " +
                      signals::to_text(std::round(10. * *mode_hz) / 10.) +
                      " Hz does not decay within the record";
       break;
@@ -326,8 +329,8 @@ Identification identify_bvrm(std::span<const Record> fit_records, const Record& 
         held_out_rules ? selection->by_cross_validation : selection->by_information;
     if (asked != best.summary.order) {
       result.order_words += "; the fit of order " + std::to_string(asked) +
-                            " to all of the record found no end, order " +
-                            std::to_string(best.summary.order) + " is given";
+                            " to the whole record did not converge, so order " +
+                            std::to_string(best.summary.order) + " is returned";
     }
   }
   result.fit = options.method == IdentifyMethod::output_error

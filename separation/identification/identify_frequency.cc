@@ -69,7 +69,7 @@ FittedBvrm fitted(const FrequencyProblem& problem, const LevenbergResult& result
 void check_order(std::size_t order) {
   if (order == 0 || order % 2 != 0)
     throw signals::UserError("frequency fit: order = " + std::to_string(order) +
-                             " must be an even number of poles, at least 2 (two a mode)");
+                             " must be an even number of poles, at least 2 (two for each mode)");
 }
 
 }  // namespace

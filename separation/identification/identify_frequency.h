@@ -14,22 +14,22 @@ struct FrequencyFitOptions {
   std::size_t order = 2;  // number of poles, even
   bool direct_term = true;
   double delay_s = 0.;  // known, not estimated
-  /// The response is the ratio of spectra of samples, whose input ran between them as the hold
-  /// says. Nothing: it is that of the continuous signals.
+  /// The response is the ratio of spectra of samples, with this hold of the input. Nothing: it is
+  /// the response of the continuous signals.
   std::optional<Sampling> sampling = std::nullopt;
   int max_iterations = 100;
 };
 
 /// Fits G(j w) to a measured frequency response by weighted least squares, weights 1 / variance
-/// (equal when unknown), over all parameters at once. Starting values are found from the response:
-/// vector fitting, and the fit of two poles less with one more mode where the residual asks for it;
-/// the better result is kept. Covariance: (J^T W J)^-1 times the residual variance. Throws
-/// UserError for an odd order, or fewer lines than the parameters need. Proven by
+/// (equal when unknown), over all parameters at once. Initial values come from the response: vector
+/// fitting, and the fit with two poles less plus one mode at the largest residual; the better
+/// result is kept. Covariance: (J^T W J)^-1 times the residual variance. Throws UserError for an
+/// odd order, and for too few lines. Proven by
 /// tests/separation/identification/identify_frequency_test.cc.
 FittedBvrm identify_frequency(const signals::FrequencyResponse& response,
                               const FrequencyFitOptions& options);
 
-/// The same for the orders 2, 4, ... options.order, as far as the lines allow.
+/// The same for the orders 2, 4, ... options.order, as long as there are enough lines.
 std::vector<FittedBvrm> identify_frequency_orders(const signals::FrequencyResponse& response,
                                                   const FrequencyFitOptions& options);
 

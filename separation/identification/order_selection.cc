@@ -87,10 +87,11 @@ std::size_t n_unknowns(const FittedBvrm& fit, std::size_t n_segments,
 std::string verdict(const OrderSelection& selection) {
   const std::string held_out = std::to_string(selection.by_cross_validation);
   if (selection.by_cross_validation == selection.by_information)
-    return "held-out data and the information criterion both ask for order " + held_out;
-  return "held-out data ask for order " + held_out + ", the information criterion for order " +
+    return "held-out data and the information criterion both select order " + held_out;
+  return "held-out data select order " + held_out + ", the information criterion selects order " +
          std::to_string(selection.by_information) +
-         ": the record hardly determines what lies between; take the lower one, or a longer record";
+         ": the record hardly determines the modes in between; take the lower order, or a longer "
+         "record";
 }
 
 void choose(const std::vector<std::vector<double>>& held_out_squares, double rounding,
@@ -110,10 +111,10 @@ void choose(const std::vector<std::vector<double>>& held_out_squares, double rou
 }
 
 void check_options(std::span<const Segment> segments, const OrderOptions& options) {
-  if (segments.empty()) throw UserError("order selection: no segment to fit");
+  if (segments.empty()) throw UserError("order selection: no segment is given");
   if (options.max_order == 0 || options.max_order % 2 != 0)
     throw UserError("order selection: max_order = " + std::to_string(options.max_order) +
-                    " must be an even number of poles, at least 2 (two a mode)");
+                    " must be an even number of poles, at least 2 (two for each mode)");
   if (!(options.held_out_share > 0. && options.held_out_share < 0.9))
     throw UserError("order selection: held_out_share must lie between 0 and 0.9");
   for (const Segment& segment : segments)

@@ -12,11 +12,11 @@
 
 namespace vibrissa::separation {
 
-/// Output-error fits of the orders 2, 4, ... max_order, each started twice: from the fit of the
-/// frequency response, and from the fit two orders below with one more mode, without gain, where
-/// the response leaves most. The better end is kept, so that the squared error on these segments
-/// never rises with the order. Stops where the response does not determine a model. Throws
-/// UserError as refine_output_error() and identify_frequency() do. Proven by
+/// Output-error fits of the orders 2, 4, ... max_order, each with two initial models: the fit of
+/// the frequency response, and the fit with two poles less plus one mode without gain at the
+/// largest residual of the response. The better result is kept, so that the squared error on these
+/// segments never increases with the order. Stops when the response does not determine a model.
+/// Throws UserError as refine_output_error() and identify_frequency() do. Proven by
 /// tests/separation/identification/order_selection_test.cc.
 std::vector<FittedBvrm> fit_orders(const signals::FrequencyResponse& response,
                                    std::span<const Segment> segments, double sampling_rate_hz,
@@ -27,9 +27,10 @@ struct OrderOptions {
   std::size_t max_order = 6;  // number of poles, even
   double delay_s = 0.;
   OutputErrorOptions fit = {};
-  std::size_t period_samples = 0;   // of periodic segments in steady state; 0: not periodic
-  double held_out_share = 0.3;      // of each segment, at its end
-  std::size_t whitening_taps = 30;  // of the autoregression
+  std::size_t period_samples =
+      0;  // period of segments that are periodic and in steady state; 0: not periodic
+  double held_out_share = 0.3;      // share of each segment, at its end
+  std::size_t whitening_taps = 30;  // taps of the autoregression
 };
 
 struct OrderTrial {
@@ -37,8 +38,8 @@ struct OrderTrial {
   FittedBvrm fit;                    // to the whitened fitting parts
   double fitted_mean_square = 0.;    // whitened error on the fitting parts, N^2 m^2
   double held_out_mean_square = 0.;  // whitened error on the held-out parts in free simulation
-  /// Mean difference of the squared held-out errors to those of the order with the smallest, in
-  /// its standard deviations (from the scatter between 40 pieces).
+  /// Mean difference between the squared held-out errors of this order and of the best order, in
+  /// standard deviations (from the scatter between 40 parts).
   double worse_than_best = 0.;
   double information_criterion = 0.;  // n ln fitted_mean_square + unknowns ln n
 };
@@ -46,18 +47,18 @@ struct OrderTrial {
 struct OrderSelection {
   std::vector<OrderTrial> trials;  // ascending order
   /// The lowest order whose held-out error is not worse than the smallest by more than two standard
-  /// deviations, or no more than rounding.
+  /// deviations, or is only rounding.
   std::size_t by_cross_validation = 0;
   std::size_t by_information = 0;  // the smallest criterion
-  std::string words;               // both, and whether they agree
+  std::string words;               // both orders, and whether they agree
 };
 
-/// Asks how many poles the records determine. The noise of an accelerometer, carried through the
-/// model, is loud at the resonances, and there a criterion made for white noise takes its fit for
-/// knowledge. Hence both channels are first filtered by the autoregression (Yule and Walker) that
-/// whitens the error of the highest order: the model between them stays the same, its error becomes
-/// white. Only then the orders are fitted and compared. Throws UserError for an odd order, a share
-/// outside (0, 0.9), or records too short. Proven by
+/// Selects the number of poles that the records determine. Accelerometer noise that passes through
+/// the model is large at the resonances; a criterion for white noise would then select too high an
+/// order. Therefore both channels are first filtered by the autoregression (Yule-Walker) that
+/// whitens the error of the highest order: the model between the channels stays the same, and its
+/// error becomes white. Then the orders are fitted and compared. Throws UserError for an odd order,
+/// a share outside (0, 0.9), or records too short. Proven by
 /// tests/separation/identification/order_selection_test.cc, with white noise and with a noisy
 /// accelerometer.
 OrderSelection select_order(std::span<const Segment> segments, double sampling_rate_hz,

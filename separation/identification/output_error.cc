@@ -17,9 +17,10 @@ using signals::UserError;
 void check_start(const Bvrm& start, const OutputErrorProblem& problem, double sampling_rate_hz) {
   for (const ModalTerm& mode : start.modes)
     if (!problem.admissible(mode))
-      throw UserError(
-          "output-error fit: the start has a mode at " + signals::to_text(mode.frequency_hz()) +
-          " Hz, beyond half the sampling rate of " + signals::to_text(sampling_rate_hz) + " Hz");
+      throw UserError("output-error fit: the initial model has a mode at " +
+                      signals::to_text(mode.frequency_hz()) +
+                      " Hz, above half the sampling rate of " + signals::to_text(sampling_rate_hz) +
+                      " Hz");
 }
 
 // The unknowns in which the output is linear: all but a1 and a0.

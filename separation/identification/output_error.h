@@ -14,20 +14,22 @@ namespace vibrissa::separation {
 struct OutputErrorOptions {
   Hold hold = Hold::first_order;
   bool direct_term = true;
-  /// Estimated for each segment beside the model; otherwise at rest at the first sample, no offset.
+  /// Estimated for each segment together with the model; otherwise at rest at the first sample, no
+  /// offset.
   Nuisance nuisance = {};
   int max_iterations = 100;
 };
 
 /// Output-error fit in the time domain (maximum likelihood for white noise on the moment):
-///   M[n] = (G a)[n] + free response of each mode + offset + e[n],  sum e^2 least
-/// over (b1, b0, a1, a0) of every mode and D, from the given start, whose gains are first fitted
-/// linearly. The delay is the start's. Sensitivities are exact derivatives of the difference
+///   M[n] = (G a)[n] + free response of each mode + offset + e[n],  with minimum sum e^2 over (b1,
+///   b0, a1, a0) of every mode and D, from the given initial model, whose gains are first fitted
+///   linearly. The delay is that of the initial model. Sensitivities are exact derivatives of the
+///   difference
 /// equation, by filtering. Covariance: residual variance times (J^T J)^-1. Several segments are
-/// fitted as one; the noise is taken as equally large in all. Throws UserError for an unstable
-/// start or one beyond half the sampling rate, segments of unequal lengths, values that are not
-/// finite, or fewer samples than unknowns. Proven by output_error_test.cc (gradient, Cramer-Rao
-/// bound) and time_domain_fit_test.cc in tests/separation.
+/// fitted together; the noise is assumed equal in all of them. Throws UserError for an initial
+/// model that is unstable or above half the sampling rate, segments of unequal lengths, values that
+/// are not finite, or fewer samples than unknowns. Proven by output_error_test.cc (gradient,
+/// Cramer-Rao bound) and time_domain_fit_test.cc in tests/separation.
 FittedBvrm refine_output_error(const Bvrm& start, std::span<const Segment> segments,
                                double sampling_rate_hz, const OutputErrorOptions& options = {});
 

@@ -129,8 +129,8 @@ bool OutputErrorProblem::linearise(const Eigen::VectorXd& unknowns, NormalEquati
   return true;
 }
 
-// Columns of the Gram matrix: model parameters, error, offset, free responses. The last die out,
-// and are then left out.
+// Columns of the Gram matrix: model parameters, error, offset, free responses. The free responses
+// decay and are then omitted.
 void OutputErrorProblem::add_segment(const AlignedSegment& segment, Eigen::Index first_nuisance,
                                      const Eigen::VectorXd& unknowns) {
   gram_.clear();

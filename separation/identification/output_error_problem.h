@@ -11,8 +11,8 @@
 
 namespace vibrissa::separation {
 
-/// Output error and its sensitivities on a set of segments. Unknowns: the model's parameters, then
-/// for each segment the free response (two numbers a mode) and the offset.
+/// Output error and its sensitivities on a set of segments. Unknowns: the parameters of the model,
+/// then for each segment the free response (two numbers for each mode) and the offset.
 class OutputErrorProblem {
  public:
   OutputErrorProblem(std::size_t n_modes, double delay_s, std::span<const Segment> segments,
@@ -27,7 +27,7 @@ class OutputErrorProblem {
   double total() const { return total_; }
   bool admissible(const ModalTerm& mode) const;
 
-  /// For minimise(). No allocation but that of the equations' first filling.
+  /// For minimise(). Allocates only at the first call.
   bool linearise(const Eigen::VectorXd& unknowns, NormalEquations& equations);
 
  private:

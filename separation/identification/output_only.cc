@@ -21,7 +21,7 @@ using PolesByOrder = std::vector<std::vector<Pole>>;
 
 constexpr std::size_t n_pieces = 20;
 
-// What a straight line does not explain.
+// Residual of a linear fit.
 std::vector<double> without_line(std::span<const double> x) {
   const auto n = static_cast<Eigen::Index>(x.size());
   const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(n, -1., 1.);
@@ -135,10 +135,10 @@ Pole centre(const std::vector<Pole>& poles) {
   return {median(real), median(imaginary)};
 }
 
-// The chains that stand over a third of the orders; of several about the same pole the longest.
+// The chains over at least a third of the orders; the longest of several near the same pole.
 std::vector<Chain> standing_chains(const PolesByOrder& by_order) {
   const std::size_t fewest = std::max<std::size_t>(3, by_order.size() / 3);
-  std::vector<Chain> chains = chains_of(by_order), detectability;
+  std::vector<Chain> chains = chains_of(by_order), long_chains;
   std::ranges::stable_sort(chains, std::greater<>(),
                            [](const Chain& chain) { return chain.poles.size(); });
   for (const Chain& chain : chains) {
@@ -146,10 +146,10 @@ std::vector<Chain> standing_chains(const PolesByOrder& by_order) {
       const Pole pole = centre(other.poles);
       return std::abs(centre(chain.poles) - pole) < std::abs(decay_per_s(pole)) + reach(pole);
     };
-    if (chain.poles.size() >= fewest && std::ranges::none_of(detectability, same))
-      detectability.push_back(chain);
+    if (chain.poles.size() >= fewest && std::ranges::none_of(long_chains, same))
+      long_chains.push_back(chain);
   }
-  return detectability;
+  return long_chains;
 }
 
 // The same orders' poles of another set of covariances, next to these.
@@ -199,7 +199,8 @@ bool is_determined(const OutputOnlyMode& mode, double longest_lag_s) {
          mode.frequency_hz.standard_deviation < 0.5 * zeta * mode.frequency_hz.value;
 }
 
-// Its frequency is known to a fraction of what the lags resolve, its decay is not told from none.
+// The frequency is known to a fraction of the resolution of the lags; the decay is not
+// significantly different from zero.
 bool is_undamped(const OutputOnlyMode& mode, double longest_lag_s) {
   return mode.frequency_hz.value * longest_lag_s >= 1. &&
          mode.damping_ratio.value < 2. * mode.damping_ratio.standard_deviation + 1e-4 &&
@@ -207,14 +208,14 @@ bool is_undamped(const OutputOnlyMode& mode, double longest_lag_s) {
 }
 
 std::string describe(const OutputOnlyIdentification& found) {
-  std::string words = found.modes.empty() ? "no resonance stands out" : "";
+  std::string words = found.modes.empty() ? "no resonance was found" : "";
   if (!found.undamped_hz.empty())
     words += std::string(words.empty() ? "" : "; ") +
-             "what does not decay is a line of the drive, or a mode whose damping the record does "
-             "not determine";
+             "an undamped line is a line of the excitation, or a mode whose damping the record "
+             "does not determine";
   return words + (words.empty() ? "" : "; ") +
-         "from an output alone there is no gain and no direct term, the drive is taken for white, "
-         "and a resonance or colour of the drive looks like one of the sensor";
+         "identification from the output alone gives no gain and no direct term; it assumes white "
+         "excitation, so a resonance of the excitation looks like a resonance of the sensor";
 }
 
 struct Sizes {
@@ -226,20 +227,21 @@ Sizes checked_sizes(std::span<const double> moment, const OutputOnlyOptions& opt
   constexpr std::size_t fewest_samples = 400;
   if (moment.size() < fewest_samples)
     throw UserError("output-only identification: " + std::to_string(moment.size()) +
-                    " samples are too few, take at least " + std::to_string(fewest_samples));
+                    " samples are too few; take at least " + std::to_string(fewest_samples));
   if (options.max_order < 2 || options.max_order % 2 != 0)
     throw UserError("output-only identification: order = " + std::to_string(options.max_order) +
-                    " must be an even number of poles, at least 2 (two a mode)");
+                    " must be an even number of poles, at least 2 (two for each mode)");
   for (std::size_t i = 0; i < moment.size(); ++i)
     if (!std::isfinite(moment[i]))
       throw UserError("output-only identification: sample " + std::to_string(i) +
                       " of the moment is not finite");
   if (signals::is_constant(moment))
-    throw UserError("output-only identification: the moment is constant; nothing can be learnt");
+    throw UserError(
+        "output-only identification: the moment is constant, so no mode can be identified from it");
   const std::size_t n_rows = std::min(options.max_lags, moment.size() / (4 * n_pieces));
   if (n_rows < 4)
     throw UserError("output-only identification: " + std::to_string(n_rows) +
-                    " lags are too few, take at least 4");
+                    " lags are too few; take at least 4");
   return {n_rows, std::min(options.max_order, (n_rows - 1) / 2 * 2)};
 }
 

@@ -7,15 +7,14 @@
 
 namespace vibrissa::separation {
 
-/// Poles (a1, a0; gains zero) of a model with n_modes modes, found without starting values by
-/// vector fitting (Gustavsen & Semlyen 1999, relaxed as Gustavsen 2006): linear least squares for a
-/// common denominator in partial fractions, whose zeros are the next poles; unstable ones are
-/// reflected.
+/// Poles (a1, a0; gains zero) of a model with n_modes modes, found without initial values by vector
+/// fitting (Gustavsen & Semlyen 1999, relaxed as Gustavsen 2006): linear least squares for a common
+/// denominator in partial fractions, whose zeros are the next poles; unstable poles are reflected.
 std::vector<ModalTerm> vector_fitting_poles(const FrequencyProblem& problem, std::size_t n_modes);
 
-/// Places (a1, a0) where one more mode would take most from the residual of a fitted model, best
-/// first. Each is tried with its own best gains while those of the other modes and the direct term
-/// adapt.
+/// Poles (a1, a0) at which one more mode reduces the residual of a fitted model most, the best
+/// first. Each is tried with its best gains, and the gains of the other modes and the direct term
+/// are fitted again.
 std::vector<ModalTerm> promising_modes(const FrequencyProblem& problem,
                                        const Eigen::VectorXd& parameters, std::size_t n_places);
 

@@ -17,7 +17,8 @@ namespace {
 
 using signals::UserError;
 
-// Signal without its mean and scaled to unit mean square, zeros behind so that no lag wraps round.
+// Signal without its mean and scaled to unit mean square, with zeros appended so that no lag wraps
+// around.
 class Normalised {
  public:
   Normalised(std::span<const double> x, std::size_t length, const std::string& name)
@@ -85,24 +86,22 @@ std::string ranges(const std::vector<int>& lags) {
 std::string whiteness_words(const Correlation& c) {
   if (c.passed()) return "the residual is white";
   return "the residual is not white (lags " + ranges(c.suspicious_lags) +
-         "): the noise is coloured, by wind, by an accelerometer's noise carried through the "
-         "model, "
-         "or by what the model leaves out";
+         "): possible causes are wind, accelerometer noise that passes through the model, or "
+         "dynamics that the model does not contain";
 }
 
 std::string independence_words(const Correlation& c) {
-  if (c.passed()) return "the residual does not follow the input";
+  if (c.passed()) return "the residual is uncorrelated with the input";
   std::vector<int> before, after;
   for (const int lag : c.suspicious_lags) (lag < 0 ? before : after).push_back(lag);
   std::string text;
   if (!after.empty())
-    text = "the residual still follows the input at lags " + ranges(after) +
+    text = "the residual is correlated with the input at lags " + ranges(after) +
            ": the order is too low, the hold is wrong, or the sensor is nonlinear";
   if (!before.empty())
     text += (after.empty() ? "" : "; ") +
-            std::string("the residual is ahead of the input at lags ") + ranges(before) +
-            ": the input answers the output, a delay is wrong, or the input ran otherwise between "
-            "its samples";
+            std::string("the residual is correlated with later input at lags ") + ranges(before) +
+            ": the output feeds back to the input, a delay is wrong, or the hold is wrong";
   return text;
 }
 
@@ -118,7 +117,8 @@ ResidualTests test_residual(std::span<const double> residual,
   if (options.max_lag == 0 || n < samples_per_lag * options.max_lag)
     throw UserError("residual tests: " + std::to_string(n) +
                     " samples are too few for lags up to " + std::to_string(options.max_lag) +
-                    " (at least " + std::to_string(samples_per_lag) + " a lag, and one lag)");
+                    " (at least " + std::to_string(samples_per_lag) +
+                    " for each lag, and at least one lag)");
   if (!(options.false_alarm > 0. && options.false_alarm < 1.))
     throw UserError("residual tests: false_alarm must lie between 0 and 1");
   const auto memory = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));

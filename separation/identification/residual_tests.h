@@ -7,18 +7,18 @@
 
 namespace vibrissa::separation {
 
-/// At least.
+/// Smallest number of samples for each lag.
 inline constexpr std::size_t samples_per_lag = 8;
 
 struct ResidualTestOptions {
   std::size_t max_lag = 25;
-  /// Chance that a residual that has nothing to hide is called suspicious, over all lags together.
+  /// Probability of a false alarm for a white residual, over all lags together.
   double false_alarm = 0.01;
 };
 
-/// One correlation function with its regions: single_limit holds each lag of a residual without
-/// secrets in 99 of 100 cases (for figures), all_limit all lags together in 1 - false_alarm of the
-/// cases (for the verdict; Sidak's bound, on the safe side for lags that depend on each other).
+/// One correlation function with its limits for a white residual: single_limit contains each single
+/// lag with probability 0.99 (for plots); all_limit contains all lags together with probability 1 -
+/// false_alarm (for the test; Sidak's bound, conservative for dependent lags).
 struct Correlation {
   std::vector<int> lag;
   std::vector<double> value;  // -1 .. 1
@@ -29,21 +29,22 @@ struct Correlation {
 };
 
 struct ResidualTests {
-  /// r(l) of the residual, lags 1 .. max_lag. Of white noise it scatters with 1 / sqrt(n).
+  /// r(l) of the residual, lags 1 .. max_lag. Its standard deviation is 1 / sqrt(n) for white
+  /// noise.
   Correlation whiteness;
-  /// Of the residual at n + l with the input at n, lags -max_lag .. max_lag: at positive lags the
-  /// residual follows the input. Scatters with sqrt(sum_k r_e(k) r_u(k) / n), k over the lags at
-  /// which either remembers itself (Ljung, System Identification, 2nd ed., section 16.6), here up
-  /// to sqrt(n) lags with Bartlett's weights.
+  /// Correlation of the residual at n + l with the input at n, lags -max_lag .. max_lag. Its
+  /// standard deviation is sqrt(sum_k r_e(k) r_u(k) / n), with k over the lags at which both are
+  /// correlated with themselves (Ljung, System Identification, 2nd ed., section 16.6), here up to
+  /// sqrt(n) lags with Bartlett weights.
   Correlation independence;
-  std::string words;  // both verdicts
+  std::string words;  // both results, as text
 };
 
-/// Asks of a residual (measured minus simulated moment) whether the model left something that the
-/// data tell: is it white, and does it still follow the base acceleration? A coloured residual
-/// alone does no harm to a model fitted by output error; one that follows the input does. Means are
-/// removed. Throws UserError for unequal lengths, fewer samples a lag, a constant signal,
-/// values that are not finite, or a false_alarm outside (0, 1). Proven by
+/// Tests the residual (measured minus simulated moment): is it white, and is it uncorrelated with
+/// the base acceleration? A coloured residual alone does not bias an output-error fit; a residual
+/// that is correlated with the input shows a wrong model. Means are removed. Throws UserError for
+/// unequal lengths, fewer than samples_per_lag samples for each lag, a constant signal, values that
+/// are not finite, or a false_alarm outside (0, 1). Proven by
 /// tests/separation/identification/residual_tests_test.cc: rates of false alarms and of detection.
 ResidualTests test_residual(std::span<const double> residual,
                             std::span<const double> base_acceleration,

@@ -76,7 +76,7 @@ FittedBvrm refine_srivc(const Bvrm& start, std::span<const Segment> segments,
   SrivcRegression regression(start.modes.size(), start.delay_s, segments, sampling_rate_hz,
                              options);
   if (!regression.admissible(start))
-    throw UserError("SRIVC fit: the start has a mode beyond half the sampling rate of " +
+    throw UserError("SRIVC fit: the initial model has a mode above half the sampling rate of " +
                     signals::to_text(sampling_rate_hz) + " Hz");
   const double n_free = regression.n_samples() - static_cast<double>(regression.n_unknowns());
   const Outcome outcome = iterate(regression, start, options.max_iterations, n_free);

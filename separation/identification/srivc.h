@@ -15,7 +15,8 @@ namespace vibrissa::separation {
 struct SrivcOptions {
   Hold hold = Hold::first_order;
   bool direct_term = true;
-  /// Estimated for each segment beside the model; otherwise at rest at the first sample, no offset.
+  /// Estimated for each segment together with the model; otherwise at rest at the first sample, no
+  /// offset.
   Nuisance nuisance = {};
   int max_iterations = 50;
 };
@@ -25,15 +26,15 @@ struct SrivcOptions {
 /// as prefilter, the linear regression
 ///   (A / A0) M = (B / A0) a + free responses of A0 + offset + e
 /// is solved with the noise-free sensitivities of the present model as instruments, and A0 replaced
-/// by A, until the simulated moment moves by less than a thousandth of what the noise allows.
-/// Written in partial fractions over the poles of A0, which spans the same regression as powers of
-/// s and stays well conditioned. The input, and with it what the present model explains of
-/// the moment, is filtered exactly for the hold; the rest of the moment as straight lines, which
-/// matters only on the way: at the end A / A0 = 1. Unstable poles are
+/// by A, until the simulated moment changes by less than a thousandth of its deviation due to
+/// noise. The regression uses partial fractions over the poles of A0, which are equivalent to
+/// powers of s and well conditioned. The input, and the part of the moment that the present model
+/// explains, are filtered exactly for the hold; the rest of the moment is filtered with a
+/// first-order hold, which has no effect after convergence, when A / A0 = 1. Unstable poles are
 /// reflected. Covariance: residual variance times the inverse of the instruments' inner products.
-/// end is step_limit when it still moves, unstable when a pole goes beyond what the grid tells from
-/// its aliases. Throws UserError as refine_output_error does. Proven by
-/// srivc_test.cc, time_domain_fit_test.cc and cramer_rao_test.cc in tests/separation.
+/// end is step_limit when it has not converged, unstable when a pole is above the frequency where
+/// aliases begin. Throws UserError as refine_output_error does. Proven by srivc_test.cc,
+/// time_domain_fit_test.cc and cramer_rao_test.cc in tests/separation.
 FittedBvrm refine_srivc(const Bvrm& start, std::span<const Segment> segments,
                         double sampling_rate_hz, const SrivcOptions& options = {});
 

@@ -10,10 +10,10 @@
 
 namespace vibrissa::separation {
 
-/// What one solution of the instrumental-variable equations gives.
+/// Result of one solution of the instrumental-variable equations.
 struct SrivcSolution {
-  /// Modes with the present poles and the numerators found, and the denominator (c1, c0) of each:
-  /// see quotient().
+  /// Modes with the present poles and the new numerators, and the denominator (c1, c0) of each
+  /// mode: see quotient().
   std::vector<ModalTerm> modes;
   Eigen::VectorXd denominator;
   double direct_term = 0.;
@@ -28,18 +28,19 @@ class SrivcRegression {
                   double sampling_rate_hz, const SrivcOptions& options);
 
   double n_samples() const { return static_cast<double>(n_rows_); }
-  /// Of the measured moment.
+  /// Mean square of the measured moment.
   double mean_square() const { return measured_.squaredNorm() / n_samples(); }
   Eigen::Index n_unknowns() const { return instruments_.cols(); }
   bool admissible(const Bvrm& model) const;
 
   /// Fills the regressors for the poles of an admissible model, and the instruments for its gains
-  /// and the free responses found last.
+  /// and the last free responses.
   void prepare(const Bvrm& model);
-  /// Gains that fit best with these poles, by least squares; the denominator stays.
+  /// Gains that fit best with these poles, by least squares; the denominator does not change.
   Bvrm with_best_gains(const Bvrm& model);
   SrivcSolution solve();
-  /// sum over the samples of (simulated moment - that of the model prepared before)^2.
+  /// sum over the samples of (simulated moment - simulated moment of the previously prepared
+  /// model)^2.
   double movement() const { return movement_; }
   /// Inverse of the instruments' inner products, for (b1, b0, a1, a0) of each mode and the direct
   /// term; empty when singular.

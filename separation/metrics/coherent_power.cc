@@ -39,7 +39,7 @@ CoherentPower coherent_power(const std::span<const double> base_acceleration_m_s
       signals::welch_response(base_acceleration_m_s2, moment_n_m, sampling_rate_hz, options);
   const auto input = signals::welch_spectrum(base_acceleration_m_s2, sampling_rate_hz, options);
   const double spacing_hz = sampling_rate_hz / static_cast<double>(options.segment_samples);
-  // A response by chance makes the rest look too quiet, the more the fewer averages there are.
+  // A random response reduces the residual; the correction is larger for fewer averages.
   const double n = signals::welch_averages(moment_n_m.size(), options);
   const double correction = n / (n - 1.);
   CoherentPower power;

@@ -65,7 +65,7 @@ class PathFinder {
       throw signals::UserError("time warping: the path between signals of " +
                                std::to_string(x_.size()) + " and " + std::to_string(y_.size()) +
                                " samples needs " + std::to_string(std::lround(1e-6 * bytes)) +
-                               " MB, more than 512; take a narrower window");
+                               " MB, but at most 512 MB are allowed; take a narrower window");
   }
 
   // What row `row` needs of the one above: its columns and the one before them.

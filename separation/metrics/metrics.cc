@@ -114,7 +114,7 @@ double mean_square_error(std::span<const double> truth, std::span<const double> 
 double nrmse(std::span<const double> truth, std::span<const double> estimate) {
   check_pair(truth, estimate);
   if (is_constant(truth))
-    throw UserError("metric: nrmse (and fit %) of a constant signal is not defined");
+    throw UserError("metric: NRMSE and fit of a constant signal are not defined");
   return std::sqrt(power(difference(truth, estimate)) / variance(truth));
 }
 
@@ -156,7 +156,7 @@ double band_power(std::span<const double> x, double sampling_rate_hz, const Band
   }
   if (n_lines == 0)
     throw UserError("metric: the band " + signals::to_text(band.low_hz) + " .. " +
-                    signals::to_text(band.high_hz) + " Hz holds no line of a record of " +
+                    signals::to_text(band.high_hz) + " Hz contains no line of a record of " +
                     signals::to_text(n / sampling_rate_hz) + " s");
   return sum;
 }

@@ -19,15 +19,17 @@ double nrmse(std::span<const double> truth, std::span<const double> estimate);
 /// 100 (1 - nrmse): "accuracy %" of docs/theory.md (T15).
 double fit_percent(std::span<const double> truth, std::span<const double> estimate);
 
-/// Variance accounted for, 100 (1 - var(truth - estimate) / var(truth)): blind to an offset.
+/// Variance accounted for, 100 (1 - var(truth - estimate) / var(truth)); an offset does not change
+/// it.
 double vaf_percent(std::span<const double> truth, std::span<const double> estimate);
 
-/// Signal to distortion 10 log10(sum Ms^2 / sum (Ms - Ms_hat)^2) against the true wind moment.
+/// Signal-to-distortion ratio 10 log10(sum Ms^2 / sum (Ms - Ms_hat)^2) against the true wind
+/// moment.
 double sdr_db(std::span<const double> true_wind_moment, std::span<const double> wind_estimate);
 
-/// What Routray et al. (2024) call SNR: 10 log10 of the power of the wind estimate over the power
-/// of the vibration estimate. A separator that removes nothing scores high: never a measure of
-/// quality.
+/// The ratio that Routray et al. (2024) call SNR: 10 log10(power of the wind estimate / power of
+/// the vibration estimate). It is not a measure of quality: a separator that removes nothing has a
+/// high value.
 double paper_snr_db(std::span<const double> wind_estimate,
                     std::span<const double> vibration_estimate);
 
@@ -36,30 +38,30 @@ struct Band {
   double high_hz = 0.;
 };
 
-/// Power of x in the band [unit^2], from one periodogram of its whole length with its mean removed;
-/// a line on the edge belongs to the band. Throws UserError for a band without a line below half
-/// the rate.
+/// Power of x in the band [unit^2], from one periodogram over the whole length without the mean; a
+/// line on the edge is in the band. Throws UserError for a band without a line below half the
+/// sampling rate.
 double band_power(std::span<const double> x, double sampling_rate_hz, const Band& band);
 
 /// 10 log10(band power of the estimate / band power of the truth).
 double band_power_difference_db(std::span<const double> truth, std::span<const double> estimate,
                                 double sampling_rate_hz, const Band& band);
 
-/// Delay of y behind x in samples (negative: y leads): place of the largest cross-correlation of
-/// the signals without their means within +-max_delay, refined by a parabola through its
-/// neighbours. Throws UserError for a constant signal or max_delay not below the length.
+/// Delay of y behind x in samples (negative: y leads): position of the maximum of the
+/// cross-correlation, with the means removed, within ±max_delay, refined by a parabola through the
+/// neighbouring values. Throws UserError for a constant signal or max_delay not below the length.
 double delay_samples(std::span<const double> x, std::span<const double> y, std::size_t max_delay);
 
 struct ConvergenceOptions {
-  double window_s = 0.1;     // short-term power is taken over this
-  double tolerance_db = 3.;  // how near to the final level
+  double window_s = 0.1;     // length for the short-term power
+  double tolerance_db = 3.;  // distance to the final level
   double final_fraction =
       0.25;  // share of the record, at its end, whose mean power is the final level
 };
 
 /// First time after which the short-term power of the error never exceeds its final level by more
-/// than the tolerance, counted from the first sample to the end of the first such window [s].
-/// Nothing when that is not before the final part begins.
+/// than the tolerance, from the first sample to the end of the first such window [s]. Nothing when
+/// this time is in the final part.
 std::optional<double> convergence_time_s(std::span<const double> error, double sampling_rate_hz,
                                          const ConvergenceOptions& options = {});
 

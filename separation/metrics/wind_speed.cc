@@ -29,15 +29,15 @@ void check_rising(const std::function<double(double)>& law, double highest_speed
                     " must be positive and finite");
   if (law(0.) != 0.)
     throw UserError("wind speed: the drag law gives " + to_text(law(0.)) +
-                    " N m at rest and must give 0");
+                    " N m at rest, but it must give 0");
   constexpr int n_speeds = 1000;
   double last = 0.;
   for (int i = 1; i <= n_speeds; ++i) {
     const double speed = highest_speed * i / n_speeds, moment = law(speed);
     if (!(moment > last) || !std::isfinite(moment))
-      throw UserError("wind speed: the drag law does not rise at " + to_text(speed) + " m/s (" +
+      throw UserError("wind speed: the drag law does not increase at " + to_text(speed) + " m/s (" +
                       to_text(moment) + " N m after " + to_text(last) +
-                      " N m); several speeds would have one moment");
+                      " N m), so several speeds would have the same moment");
     last = moment;
   }
 }
@@ -51,7 +51,7 @@ void check_points(const std::vector<DragCalibration::Point>& points) {
         !std::isfinite(point.speed_m_s) || !std::isfinite(point.moment_n_m))
       throw UserError("wind speed: calibration point " + std::to_string(i + 1) + " (" +
                       to_text(point.speed_m_s) + " m/s, " + to_text(point.moment_n_m) +
-                      " N m) does not lie above the one before it, or above zero");
+                      " N m) must be above zero and above the point before it");
     last = point;
   }
 }

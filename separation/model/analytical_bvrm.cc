@@ -25,7 +25,7 @@ Bvrm reduced_bvrm(const signals::ReducedModel& model) {
   for (std::size_t k = 0; k < model.modes.size(); ++k) {
     const signals::ReducedMode& mode = model.modes[k];
     if (!(mode.damping_ratio > 0.))
-      throw signals::UserError("base-vibration model: mode " + std::to_string(k + 1) +
+      throw signals::UserError("base vibration response model: mode " + std::to_string(k + 1) +
                                " of the reduced model is undamped; give it a damping ratio");
     const double static_moment =
         dot(mode.moment_participation, about) * dot(mode.participation, axial);

@@ -102,11 +102,11 @@ void check_options(const Bvrm& model, const CHeaderOptions& options) {
                     " Hz is not positive and finite");
   if (options.hold == Hold::band_limited)
     throw UserError(
-        "C header: the hold band_limited looks ahead in time; take first_order or zero_order");
+        "C header: the hold band_limited needs future samples; take first_order or zero_order");
   if (sampled_delay(model.delay_s, options.sampling_rate_hz).shift < 0)
     throw UserError("C header: the moment leads the acceleration by " +
                     signals::to_text(-model.delay_s) +
-                    " s, which no filter in real time can do; delay the moment instead");
+                    " s, but a filter in real time cannot look ahead; delay the moment instead");
   if (model.modes.empty()) throw UserError("C header: the model has no mode");
   const auto is_word = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
   if (options.name.empty() || std::isdigit(static_cast<unsigned char>(options.name[0])) ||
@@ -141,7 +141,7 @@ constexpr const char* body = R"(#ifndef @NAME_H
 
 typedef struct {
   float s[@NAME_SECTIONS][2];
-  float past[@NAME_DELAY + 1]; /* inputs, a ring */
+  float past[@NAME_DELAY + 1]; /* ring buffer of the inputs */
   float first, last;
   int next, seen;
 } @NAME_state;
@@ -151,8 +151,8 @@ static inline void @NAME_reset(@NAME_state *state) {
   state->seen = 0;
 }
 
-/* Takes one sample of the base acceleration [m/s^2], gives the base moment of the vibration [N m].
-   The sensor is taken to be at rest at the first sample after a reset. */
+/* Takes one sample of the base acceleration [m/s^2] and returns the base moment of the vibration
+   [N m]. The function assumes that the sensor is at rest at the first sample after a reset. */
 static inline float @NAME_step(@NAME_state *state, float acceleration) {
   static const float a[@NAME_SECTIONS][4] = {@A};
   static const float c[@NAME_SECTIONS][2] = {@C};
@@ -189,7 +189,7 @@ static inline float @NAME_step(@NAME_state *state, float acceleration) {
 
 std::string describe(const Bvrm& model, const CHeaderOptions& options) {
   std::ostringstream text;
-  text << "/* Base-vibration response model of an airflow sensor at "
+  text << "/* Base vibration response model of an airflow sensor at "
        << signals::to_text(options.sampling_rate_hz) << " Hz, " << to_string(options.hold)
        << " hold, delay " << signals::to_text(model.delay_s) << " s.\n";
   for (const ModalTerm& mode : model.modes)
@@ -200,8 +200,8 @@ std::string describe(const Bvrm& model, const CHeaderOptions& options) {
   return text.str();
 }
 
-// A - 1: what a state changes by from sample to sample, which single precision holds far better
-// than a factor near one.
+// A - 1: what a state changes by from sample to sample, which single precision represents much
+// better than a factor near one.
 std::array<double, 4> change(const Section& section) {
   const auto& a = section.a;
   return {a[0] - 1., a[1], a[2], a[3] - 1.};

@@ -16,12 +16,12 @@ struct CHeaderOptions {
 
 /// The sampled model as a header of standard C (C99) for a microcontroller: single precision, no
 /// library, no allocation; NAME_state, NAME_reset(), and NAME_step(), which takes one sample of the
-/// base acceleration and gives the moment of the vibration that goes with it, as simulate() does
-/// from rest. One second-order section a mode, in parallel, as changes of a state that turns and
-/// shrinks (complex poles) or decays (real ones): the usual direct form loses what single precision
-/// has when the sampling is fast against the mode. Throws UserError for a model
-/// that check() refuses, a bad rate, a name that is no C identifier, the band_limited hold (whose
-/// shaping filter looks ahead) and a model whose moment leads (negative delay). Proven by
+/// base acceleration and returns the moment of the vibration, as simulate() does from rest. There
+/// is one second-order section for each mode, in parallel, in a state form that computes the change
+/// of the state: the usual direct form loses precision in single precision when the sampling rate
+/// is high compared with the mode. Throws UserError for a model that check() refuses, an invalid
+/// sampling rate, a name that is not a C identifier, the band_limited hold (its shaping filter
+/// needs future samples) and a moment that leads (negative delay). Proven by
 /// tests/separation/model/c_header_test.cc, which compiles the header with the C compiler.
 std::string c_header(const Bvrm& model, const CHeaderOptions& options);
 void write_c_header(const std::filesystem::path& file, const Bvrm& model,

@@ -18,12 +18,13 @@ struct ModeEstimate {
   Estimate frequency_hz, damping_ratio, static_gain_kg_m;
 };
 
-/// A model with what the data say about its parameters. NaN stands for what they do not say.
+/// A model with the uncertainty of its parameters; NaN when the uncertainty is unknown.
 struct FittedBvrm {
   Bvrm model;
-  /// Of (b1, b0, a1, a0) of each mode in turn, then the direct term when there is one.
+  /// Covariance of (b1, b0, a1, a0) of each mode, mode by mode, then of the direct term when there
+  /// is one.
   Eigen::MatrixXd covariance;
-  std::vector<ModeEstimate> modes;  // in the model's order: ascending frequency
+  std::vector<ModeEstimate> modes;  // in ascending order of frequency, as in the model
   Estimate direct_term_kg_m;
   double residual_variance = 0.;
   FitEnd end = FitEnd::converged;
@@ -32,14 +33,14 @@ struct FittedBvrm {
 
 inline constexpr Eigen::Index parameters_per_mode = 4;
 
-/// Number of parameters of a model with so many modes.
+/// Number of parameters of a model with n_modes modes.
 Eigen::Index n_parameters(std::size_t n_modes, bool direct_term);
 Eigen::VectorXd to_parameters(const Bvrm& model, bool direct_term);
 /// The model with these parameters; without a direct term it is zero.
 Bvrm with_parameters(const Eigen::VectorXd& parameters, bool direct_term, double delay_s);
 
-/// Standard deviations by linear propagation of the covariance (empty: NaN); modes are put in
-/// ascending order of frequency, covariance with them.
+/// Standard deviations by linear propagation of the covariance (empty: NaN); modes and covariance
+/// are sorted by ascending frequency.
 FittedBvrm make_fitted(const Eigen::VectorXd& parameters, const Eigen::MatrixXd& covariance,
                        bool direct_term, double delay_s);
 

@@ -16,7 +16,7 @@ std::array<double, n> numerator(const ModalTerm& term, const std::array<Sensitiv
   return taps;
 }
 
-// In a long silence the state would stay among the smallest doubles, which are slow.
+// During long silence the state would become subnormal, which is slow.
 constexpr double negligible = 1e-280;
 
 template <std::size_t size>
@@ -55,7 +55,7 @@ void ModalBank::Mode::start(const ModalState& state, double first_node) {
   v[history - 2] = (matrix[0][0] * right[1] - matrix[1][0] * right[0]) / determinant;
 }
 
-// In a call of one sample the loops and the memory's moves would cost more than the mode.
+// For a call with one sample, the loops and memory moves would cost more than the mode.
 void ModalBank::Mode::add_sample(double node, double& output) {
   static_assert(history == 3);
   const double older = v[1], last = v[2];

@@ -12,24 +12,24 @@
 namespace vibrissa::separation {
 
 /// State of 1 / (s^2 + a1 s + a0) driven by the base acceleration: position x [m], velocity x'
-/// [m/s]. The mode's share of the moment is b0 x + b1 x'.
+/// [m/s]. The moment of the mode is b0 x + b1 x'.
 struct ModalState {
   double position_m = 0.;
   double velocity_m_s = 0.;
 };
 
-/// The sampled model as a stream, in chunks of any size, without allocation. Output n is the moment
-/// at the time (n - fraction) / rate; the whole-sample shift() of the delay is the caller's. Proven
-/// by tests/separation/model/simulation_test.cc.
+/// Simulates the sampled model as a stream, in blocks of any size, without allocation. Output n is
+/// the moment at the time (n - fraction) / rate; the caller applies the shift() of the delay in
+/// whole samples. Proven by tests/separation/model/simulation_test.cc.
 class ModalBank {
  public:
   ModalBank(const Bvrm& model, double sampling_rate_hz, Hold hold);
 
   std::ptrdiff_t shift() const { return delay_.shift; }
-  /// Starts anew, with these states at the first sample; empty means at rest.
+  /// Restarts with these states at the first sample; empty: at rest.
   void reset(std::span<const ModalState> states = {});
   /// Takes n samples of the shaped input (see InputShaper; midpoint null when it has none) and
-  /// gives n of output, which may be one of the inputs.
+  /// writes n samples of output, which may be one of the inputs.
   void process(const double* node, const double* midpoint, const double* direct, double* output,
                std::size_t n);
 

@@ -62,7 +62,8 @@ Motion motion_after(double a1, double a0, double t) {
   const double first = std::ldexp(t, -n_doublings);
   Sensitive damping{a1 * first, first, 0.}, stiffness{a0 * first * first, 0., first * first};
 
-  // Taylor series of the answer to a ramp, whose derivatives are those to a step and an impulse.
+  // Taylor series of the response to a ramp; its derivatives are the responses to a step and an
+  // impulse.
   constexpr int n_terms = 24;
   std::array<Sensitive, n_terms> term{};
   term[3].value = 1. / 6.;

@@ -10,11 +10,12 @@ namespace vibrissa::separation {
 
 namespace {
 
-void require(bool good, std::size_t mode, const std::string& figure, double value,
+void require(bool good, std::size_t mode, const std::string& parameter, double value,
              const std::string& rule) {
   if (!good)
-    throw signals::UserError("base-vibration model, mode " + std::to_string(mode + 1) + ": " +
-                             figure + " = " + signals::to_text(value) + " must be " + rule);
+    throw signals::UserError("base vibration response model, mode " + std::to_string(mode + 1) +
+                             ": " + parameter + " = " + signals::to_text(value) + " must be " +
+                             rule);
 }
 
 }  // namespace
@@ -55,7 +56,8 @@ void check(const Bvrm& model) {
     require(std::isfinite(mode.b0), k, "b0", mode.b0, "finite");
   }
   if (!std::isfinite(model.direct_term_kg_m) || !std::isfinite(model.delay_s))
-    throw signals::UserError("base-vibration model: direct_term_kg_m and delay_s must be finite");
+    throw signals::UserError(
+        "base vibration response model: direct_term_kg_m and delay_s must be finite");
 }
 
 std::vector<std::complex<double>> response(const Bvrm& model,

@@ -9,9 +9,9 @@
 
 namespace vibrissa::separation {
 
-/// One mode of the base-vibration response, (b1 s + b0) / (s^2 + a1 s + a0), a0 = w^2, a1 = 2 zeta
-/// w. The base moment has an elastic and a viscous part, hence b1. Any stable pair of poles will
-/// do, two real ones (damping ratio above 1) as well.
+/// One mode of the base vibration response, (b1 s + b0) / (s^2 + a1 s + a0), a0 = w^2, a1 = 2 zeta
+/// w. The base moment has an elastic and a viscous part, hence b1. Every stable pair of poles is
+/// possible, also two real poles (damping ratio above 1).
 struct ModalTerm {
   double b1 = 0.;  // kg m / s
   double b0 = 0.;  // kg m / s^2
@@ -27,11 +27,11 @@ struct ModalTerm {
 ModalTerm make_modal_term(double frequency_hz, double damping_ratio, double static_gain_kg_m,
                           double viscous_gain_kg_m_s = 0.);
 
-/// Is the mode stable, and its free oscillation, damped as it is, below this angular frequency? Two
+/// Whether the mode is stable and its damped free oscillation is below this angular frequency. Two
 /// real poles do not oscillate.
 bool is_stable_below(const ModalTerm& mode, double highest_rad_s);
 
-/// Base-vibration response model (BVRM): base moment per base acceleration,
+/// Base vibration response model (BVRM): base moment per base acceleration,
 ///   G(s) = exp(-s delay) [ sum_k (b1_k s + b0_k) / (s^2 + a1_k s + a0_k) + D ]   [N m s^2/m = kg
 ///   m]
 /// (Routray et al. 2024, eq. 12, with a finite sum and one direct term for the modes above the
@@ -44,8 +44,8 @@ struct Bvrm {
   std::size_t order() const { return 2 * modes.size(); }  // number of poles
 };
 
-/// Throws UserError that names the mode and the figure unless every mode is stable and all is
-/// finite.
+/// Throws UserError with the mode and the parameter unless every mode is stable and all parameters
+/// are finite.
 void check(const Bvrm& model);
 
 /// G(j 2 pi f), convention exp(+j w t). Proven by tests/separation/model/rational_model_test.cc.
@@ -53,11 +53,11 @@ std::vector<std::complex<double>> response(const Bvrm& model, std::span<const do
 
 /// {"schema": "vibrissa-bvrm-1", "modes": [{"frequency_hz", "damping_ratio", "b1_kg_m_per_s",
 /// ...}],
-///  "direct_term_kg_m", "delay_s"}. frequency_hz and damping_ratio are for the reader's eyes.
+///  "direct_term_kg_m", "delay_s"}. frequency_hz and damping_ratio are only for people.
 nlohmann::json to_json(const Bvrm& model);
 /// Throws UserError with the place (where, e.g. a file name, and the entry) for an entry that is
-/// missing, unknown, of the wrong kind, not finite, unstable, or for a frequency_hz or
-/// damping_ratio that contradicted_by a0 and a1.
+/// missing, unknown, of the wrong type, not finite, unstable, or for a frequency_hz or
+/// damping_ratio that contradicts a0 and a1.
 Bvrm bvrm_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace vibrissa::separation

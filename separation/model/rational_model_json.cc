@@ -20,7 +20,7 @@ class Object {
  public:
   Object(const json& value, std::string place, const std::set<std::string>& known)
       : value_(value), place_(std::move(place)) {
-    if (!value.is_object()) throw UserError(place_ + ": must be an object with entries by name");
+    if (!value.is_object()) throw UserError(place_ + ": must be a JSON object (names with values)");
     for (const auto& item : value.items())
       if (!known.count(item.key()))
         throw UserError(place_ + ": " +
@@ -47,8 +47,8 @@ class Object {
     const double given = number(key);
     if (std::abs(given - value) > 1e-6 * std::abs(value))
       throw UserError(place_ + ": '" + key + "' is " + signals::to_text(given) +
-                      ", but a0_per_s2 and a1_per_s say " + signals::to_text(value) +
-                      "; change those, or leave '" + key + "' out");
+                      ", but a0_per_s2 and a1_per_s give " + signals::to_text(value) +
+                      "; correct them, or leave '" + key + "' out");
   }
 
  private:
@@ -93,7 +93,7 @@ Bvrm bvrm_from_json(const json& value, const std::string& where) {
   if (object.entry("schema") != schema)
     throw UserError(where + ": 'schema' must be \"" + schema + "\"");
   const json& modes = object.entry("modes");
-  if (!modes.is_array()) throw UserError(where + ": 'modes' must be a list");
+  if (!modes.is_array()) throw UserError(where + ": 'modes' must be an array");
   Bvrm model;
   for (std::size_t k = 0; k < modes.size(); ++k)
     model.modes.push_back(read_mode(modes[k], where + ": modes[" + std::to_string(k) + "]"));

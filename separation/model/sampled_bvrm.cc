@@ -25,7 +25,7 @@ SampledBvrm sampled_bvrm_from_json(const json& value, const std::string& where) 
   SampledBvrm sampled;
   json model = value;
   if (value.is_object() && value.contains("hold")) {
-    if (!value["hold"].is_string()) throw UserError(where + ": 'hold' must be a text");
+    if (!value["hold"].is_string()) throw UserError(where + ": 'hold' must be a string");
     try {
       sampled.hold = parse_hold(value["hold"].get<std::string>());
     } catch (const UserError& error) {

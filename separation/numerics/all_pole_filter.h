@@ -6,13 +6,13 @@
 
 namespace vibrissa::separation {
 
-/// v[n] = u[n] - pole1 v[n-1] - pole2 v[n-2]. Eight samples at once: what the inputs add within the
-/// eight waits for nothing, so that only two products lie between one group and the next.
-/// Proven by tests/separation/numerics/all_pole_filter_test.cc.
+/// v[n] = u[n] - pole1 v[n-1] - pole2 v[n-2]. Processes eight samples at once: the contributions of
+/// the inputs within a group do not depend on earlier outputs, so that only two products connect
+/// one group to the next. Proven by tests/separation/numerics/all_pole_filter_test.cc.
 class AllPoleFilter {
  public:
   AllPoleFilter(double pole1, double pole2) : pole1_(pole1), pole2_(pole2) {
-    double last = 0., now = 1.;  // answer to a unit impulse
+    double last = 0., now = 1.;  // response to a unit impulse
     for (Eigen::Index i = 0; i < n_lanes; ++i) {
       for (Eigen::Index j = 0; j + i < n_lanes; ++j)
         by_input_[static_cast<std::size_t>(j)][i + j] = now;
@@ -29,7 +29,7 @@ class AllPoleFilter {
     return (u - pole2 * older) - pole1 * last;
   }
 
-  /// v[0 .. n) from u[0 .. n) and the two samples before v[0], which stand at v[-1] and v[-2].
+  /// v[0 .. n) from u[0 .. n) and the two samples before v[0], at v[-1] and v[-2].
   void run(const double* u, double* v, std::ptrdiff_t n) const {
     std::ptrdiff_t i = 0;
     for (; i + n_lanes <= n; i += n_lanes) {

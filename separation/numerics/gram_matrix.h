@@ -5,9 +5,9 @@
 
 namespace vibrissa::separation {
 
-/// Columns of a tall matrix, a block of rows at a time, and the sum of their inner products.
-/// Three columns against three at once, so that each number read serves three products.
-/// Proven by tests/separation/numerics/gram_matrix_test.cc.
+/// Inner products of the columns of a tall matrix, summed block by block of rows. Three columns are
+/// multiplied with three columns at once, so that each number that is read is used in three
+/// products. Proven by tests/separation/numerics/gram_matrix_test.cc.
 class GramMatrix {
  public:
   static constexpr Eigen::Index block = 256;

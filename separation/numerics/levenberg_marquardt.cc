@@ -92,7 +92,7 @@ class Descent {
 
   void refuse(double gain, bool inadmissible) {
     damping_ = std::max(1e-6, 8. * damping_);
-    // A step so damped gains nothing that could be seen in the cost any more.
+    // With this damping a step changes the cost by less than rounding.
     if (damping_ > 1e10 || gain <= 1e-14 * result_.equations.cost) {
       finished_ = true;
       if (inadmissible) result_.end = FitEnd::unstable;

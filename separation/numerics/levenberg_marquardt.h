@@ -9,8 +9,8 @@ namespace vibrissa::separation {
 /// How a fit ended.
 enum class FitEnd {
   converged,
-  step_limit,  // still moving after the allowed number of iterations
-  unstable,    // the best fit lies where a mode would be unstable or beyond the sampling's reach
+  step_limit,  // not converged after the allowed number of iterations
+  unstable,    // at the best fit a mode is unstable or above the frequency range of the sampling
   poor_excitation  // the data do not determine the parameters
 };
 std::string to_string(FitEnd end);
@@ -24,10 +24,10 @@ struct NormalEquations {
 
 struct LevenbergOptions {
   int max_iterations = 100;
-  /// Ends when the next step would be less than this many standard deviations of the parameters.
+  /// Ends when the next step is less than this number of standard deviations of the parameters.
   double tolerance = 1e-3;
   double n_residuals = 0.;
-  /// Cost that is as good as zero (rounding).
+  /// Cost that counts as zero (rounding).
   double negligible_cost = 0.;
 };
 
@@ -41,14 +41,14 @@ struct LevenbergResult {
 /// Fills the equations at the parameters; false when the parameters are not admissible.
 using Linearise = std::function<bool(const Eigen::VectorXd&, NormalEquations&)>;
 
-/// Minimises sum e^2 by Levenberg's and Marquardt's damped Gauss-Newton steps, each parameter
-/// scaled by its own column of J. The start must be admissible. Proven by
+/// Minimises sum e^2 by the Levenberg-Marquardt method, with each parameter scaled by its column of
+/// J. The initial parameters must be admissible. Proven by
 /// tests/separation/numerics/levenberg_marquardt_test.cc.
 LevenbergResult minimise(const Eigen::VectorXd& start, const Linearise& linearise,
                          const LevenbergOptions& options);
 
-/// Inverse of J^T J by eigenvalues of the matrix scaled to unit diagonal; nothing (an empty matrix)
-/// when it is singular to working precision.
+/// Inverse of J^T J by eigenvalues of the matrix scaled to unit diagonal; an empty matrix when it
+/// is singular to working precision.
 Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& matrix);
 
 }  // namespace vibrissa::separation

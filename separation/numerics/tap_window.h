@@ -5,7 +5,7 @@
 
 namespace vibrissa::separation {
 
-/// The last n samples, the newest first and in one piece, for filters that work sample by sample.
+/// The last n samples, contiguous and the newest first, for filters that work sample by sample.
 class TapWindow {
  public:
   explicit TapWindow(std::size_t n) : n_(static_cast<Eigen::Index>(n)), buffer_(2 * n_ + 256) {
@@ -27,7 +27,7 @@ class TapWindow {
 
  private:
   Eigen::Index n_;
-  Eigen::VectorXd buffer_;  // aligned, so that sums round the same way in every object
+  Eigen::VectorXd buffer_;  // aligned, so that sums round equally in every object
   Eigen::Index first_ = 0;
 };
 

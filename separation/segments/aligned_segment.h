@@ -10,20 +10,20 @@
 
 namespace vibrissa::separation {
 
-/// A piece of a record without interruption.
+/// A part of a record without interruption.
 struct Segment {
   std::span<const double> base_acceleration;  // m/s^2
-  std::span<const double> base_moment;        // N m, as many samples
+  std::span<const double> base_moment;        // N m, the same number of samples
 };
 
-/// A segment whose output[n] is what the model says at the time (n - fraction) / rate, its input
-/// shaped for the hold; direct is the input of the direct term.
+/// A segment in which output[n] corresponds to the model output at the time (n - fraction) / rate;
+/// node and midpoint are the input shaped for the hold, direct is the input of the direct term.
 struct AlignedSegment {
   std::vector<double> node, midpoint, direct, output;
-  std::size_t first = 0;  // outputs before it are not known
+  std::size_t first = 0;  // first output that is known
 };
 
-/// True when outputs lie between the samples of the shaped input.
+/// Whether the outputs are between the samples of the shaped input.
 bool lies_between(const SampledDelay& delay, Hold hold);
 
 /// Aligns segments for a model with this delay. Throws UserError that begins with `who` for unequal

@@ -7,14 +7,14 @@
 
 namespace vibrissa::separation {
 
-/// The autoregression x[n] = sum_j a[j] x[n - 1 - j] + e[n] of a signal by Yule's and Walker's
-/// equations, and what it leaves of any other. Proven by
+/// The autoregression x[n] = sum_j a[j] x[n - 1 - j] + e[n] of a signal by the Yule-Walker
+/// equations, and its use as a whitening filter. Proven by
 /// tests/separation/segments/whitener_test.cc.
 class Whitener {
  public:
-  /// Throws UserError unless the signal has at least four samples a tap.
+  /// Throws UserError unless the signal has at least four samples for each tap.
   Whitener(std::span<const double> signal, std::size_t n_taps);
-  /// e of this signal; as many samples fewer as there are taps.
+  /// The residual e of this signal; it is n_taps() samples shorter.
   std::vector<double> apply(std::span<const double> signal) const;
   std::size_t n_taps() const { return taps_.size(); }
 
@@ -22,8 +22,8 @@ class Whitener {
   std::vector<double> taps_;
 };
 
-/// Segments with both channels filtered alike. Under the zero_order, first_order and band_limited
-/// holds alike the model from one channel to the other stays the same.
+/// Segments with both channels filtered equally. The model from one channel to the other stays the
+/// same, for each of the holds zero_order, first_order and band_limited.
 class WhitenedSegments {
  public:
   WhitenedSegments(std::span<const Segment> segments, const Whitener& whitener);

@@ -4,9 +4,9 @@
 
 namespace vibrissa::signals {
 
-/// While it lives, the C library reads and writes the numbers of this thread with a point, whatever
-/// locale the program around us has set: for libraries that ask it (UDUNITS, deal.II, matio).
-/// Proven by tests/python/module_test.py.
+/// During its lifetime the C library reads and writes the numbers of this thread with a decimal
+/// point, whatever locale the host program has set. Libraries such as UDUNITS, deal.II and matio
+/// depend on it. Proven by tests/python/module_test.py.
 class DecimalPoint {
  public:
   DecimalPoint()

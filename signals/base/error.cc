@@ -29,7 +29,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return cost.back();
 }
 
-// Longer input is no slip of the finger, and its distance to every name would cost too much.
+// Longer input is not a misspelt name, and the distance to every name would take too long.
 constexpr std::size_t longest_name = 200;
 
 }  // namespace
@@ -57,7 +57,7 @@ std::string nearest_name(const std::string& given, const std::vector<std::string
 std::string unknown_name(const std::string& kind, const std::string& given,
                          const std::vector<std::string>& known) {
   std::string text = "unknown " + kind + " '" + given + "'";
-  if (known.empty()) return text + "; there is none";
+  if (known.empty()) return text + "; the list of known names is empty";
   const std::string nearest = nearest_name(given, known);
   text += nearest.empty() ? "." : "; did you mean '" + nearest + "'?";
   text += " Known: ";

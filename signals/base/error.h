@@ -6,7 +6,7 @@
 
 namespace vibrissa::signals {
 
-/// A mistake in what the user gave. The message says what is wrong, where (file, line, parameter)
+/// An error in the input of the user. The message says what is wrong, where (file, line, parameter)
 /// and what to do. Programs print it and end with exit status 2.
 class UserError : public std::runtime_error {
  public:
@@ -27,11 +27,12 @@ class InternalError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The known name that one may have meant, case apart; empty when none is near.
+/// The known name that is most similar to the given name, ignoring case; empty when none is
+/// similar.
 std::string nearest_name(const std::string& given, const std::vector<std::string>& known);
 
 /// "unknown <kind> '<given>'; did you mean '<nearest>'? Known: a, b, c" for messages about names.
-/// The hint is left out when no known name is near. Proven by tests/signals/base/error_test.cc.
+/// There is no hint when no known name is similar. Proven by tests/signals/base/error_test.cc.
 std::string unknown_name(const std::string& kind, const std::string& given,
                          const std::vector<std::string>& known);
 

@@ -11,8 +11,8 @@
 
 namespace vibrissa::signals {
 
-/// One value of a JSON file, which knows where it stands: every reader throws UserError with the
-/// file, the place and what it must be. The document must outlive it. Proven by
+/// One value of a JSON file with its place in the file. Every reader throws UserError with the
+/// file, the place and the expected type. The document must outlive it. Proven by
 /// tests/signals/model/reduced_model_json_test.cc, which reads through it.
 class JsonEntry {
  public:
@@ -20,7 +20,7 @@ class JsonEntry {
       : value_(value), file_(std::move(file)), place_(std::move(place)) {}
 
   JsonEntry operator[](const std::string& key) const {
-    require(value_.is_object(), "must be an object with entries by name");
+    require(value_.is_object(), "must be a JSON object (names with values)");
     const auto found = value_.find(key);
     if (found == value_.end()) JsonEntry(value_, file_, place_ / key).fail("is missing");
     return JsonEntry(*found, file_, place_ / key);
@@ -35,10 +35,10 @@ class JsonEntry {
     return value_.get<bool>();
   }
   std::string text() const {
-    require(value_.is_string(), "must be text");
+    require(value_.is_string(), "must be a string");
     return value_.get<std::string>();
   }
-  /// Each element of an array through a function of its entry.
+  /// Applies `read` to each element of an array.
   template <typename Read>
   auto list(Read read) const {
     require(value_.is_array(), "must be an array");
@@ -50,7 +50,7 @@ class JsonEntry {
   }
   template <typename Read>
   auto triple(Read read) const {
-    require(value_.is_array() && value_.size() == 3, "must be an array of 3");
+    require(value_.is_array() && value_.size() == 3, "must be an array of 3 elements");
     const auto values = list(read);
     return std::array{values[0], values[1], values[2]};
   }
@@ -63,10 +63,10 @@ class JsonEntry {
   std::array<std::array<double, 3>, 3> matrix() const {
     return triple([](const JsonEntry& entry) { return entry.vector(); });
   }
-  /// Each entry of an object by its name, through a function of it.
+  /// Applies `read` to each entry of an object.
   template <typename Read>
   auto by_name(Read read) const {
-    require(value_.is_object(), "must be an object with entries by name");
+    require(value_.is_object(), "must be a JSON object (names with values)");
     std::map<std::string, decltype(read(*this))> result;
     for (const auto& item : value_.items()) result[item.key()] = read((*this)[item.key()]);
     return result;

@@ -5,9 +5,9 @@
 
 namespace vibrissa::signals {
 
-/// Throws UserError with the file when it cannot be opened, is no JSON (then with line and column)
-/// or is nested beyond anything of ours, which would exhaust the stack of whoever walks it. Proven
-/// by tests/signals/base/json_input_test.cc.
+/// Reads a JSON file. Throws UserError with the file when it cannot be opened, is not valid JSON
+/// (then with line and column) or is nested more than 64 levels deep, which could exhaust the
+/// stack. Proven by tests/signals/base/json_input_test.cc.
 nlohmann::json read_json(const std::filesystem::path& file);
 
 }  // namespace vibrissa::signals

@@ -93,8 +93,8 @@ bool LineReader::next(std::string_view& line) {
     }
     const std::size_t length = buffer_.size() - used_;
     if (length > longest_line)
-      throw UserError("a line of more than " + std::to_string(longest_line >> 20) +
-                      " MiB: this is no table of numbers");
+      throw UserError("a line is longer than " + std::to_string(longest_line >> 20) +
+                      " MiB: this is not a table of numbers");
     const bool more = read_more();
     looked_at = length;
     if (more) continue;

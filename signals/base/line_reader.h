@@ -7,8 +7,8 @@
 
 namespace vibrissa::signals {
 
-/// Bytes of a file by their place, without holding them: of what cannot be read twice (a pipe) all
-/// are held. Throws UserError when the file cannot be read.
+/// Bytes of a file by their position, without keeping them in memory. The bytes of a pipe, which
+/// cannot be read twice, are kept. Throws UserError when the file cannot be read.
 class FileBytes {
  public:
   explicit FileBytes(const std::filesystem::path& file);
@@ -16,25 +16,25 @@ class FileBytes {
   FileBytes(FileBytes&& other) noexcept;
   FileBytes(const FileBytes&) = delete;
 
-  /// Fills the buffer from this place on; fewer bytes only at the file's end.
+  /// Fills the buffer from this position on; reads fewer bytes only at the end of the file.
   std::size_t read(std::size_t at, char* to, std::size_t n_bytes) const;
 
  private:
   std::string name_;
   int descriptor_ = -1;
-  std::string held_;  // of a pipe
+  std::string held_;  // bytes of a pipe
 };
 
-/// Goes through the lines of [from, to) in a buffer that is as long as a block, or the longest
+/// Reads the lines of the bytes [from, to). The buffer has the length of a block, or of the longest
 /// line. Proven by tests/signals/formats/csv_file_test.cc.
 class LineReader {
  public:
   LineReader(const FileBytes& bytes, std::size_t from, std::size_t to);
 
-  /// The next line without its '\n', valid until the next call; false behind the last one. Throws
-  /// UserError for a line of more than longest_line bytes.
+  /// Gives the next line without its '\n', valid until the next call; returns false after the last
+  /// line. Throws UserError for a line of more than longest_line bytes.
   bool next(std::string_view& line);
-  /// Where the next line begins.
+  /// Position of the next line.
   std::size_t position() const { return buffer_at_ + used_; }
 
   static constexpr std::size_t longest_line = std::size_t{1} << 24;

@@ -6,7 +6,7 @@
 
 namespace vibrissa::signals {
 
-/// ASCII letters in lower case, all else as it is.
+/// The text with ASCII letters in lower case.
 inline std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](const unsigned char c) { return static_cast<char>(std::tolower(c)); });

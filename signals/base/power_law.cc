@@ -18,14 +18,14 @@ namespace {
 void check(const std::span<const double> x, const std::span<const double> y) {
   assert(x.size() == y.size());
   if (x.size() < 3)
-    throw UserError("an exponent needs three points or more, not " + std::to_string(x.size()));
+    throw UserError("a power law needs at least three points, got " + std::to_string(x.size()));
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!(x[i] > (i == 0 ? 0. : x[i - 1])) || !std::isfinite(x[i]))
-      throw UserError("an exponent needs positive, ascending values; number " +
+      throw UserError("a power law needs positive, ascending values; value " +
                       std::to_string(i + 1) + " is " + to_text(x[i]));
     if (y[i] == 0. || !std::isfinite(y[i]))
-      throw UserError("an exponent needs responses other than zero; that to " + to_text(x[i]) +
-                      " is " + to_text(y[i]));
+      throw UserError("a power law needs finite responses other than zero; the response to " +
+                      to_text(x[i]) + " is " + to_text(y[i]));
   }
 }
 

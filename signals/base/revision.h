@@ -6,7 +6,7 @@ namespace vibrissa::signals {
 /// or before the first commit. Made by cmake/VibrissaRevision.cmake.
 const char* program_revision();
 
-/// The version in the project's CMakeLists.txt.
+/// The version in CMakeLists.txt.
 const char* program_version();
 
 }  // namespace vibrissa::signals

@@ -91,8 +91,8 @@ ScaledName parse_scaled_name(const std::string& text, const std::string& needed_
     found.has_unit = true;
   }
   if (!can_scale(found.scale))
-    throw UserError("the factors multiply to " + to_text(found.scale) +
-                    "; their product must be a finite number other than 0");
+    throw UserError("the product of the factors is " + to_text(found.scale) +
+                    "; it must be a finite number other than 0");
   return found;
 }
 

@@ -4,7 +4,8 @@
 
 namespace vibrissa::signals {
 
-/// Without the blanks (spaces, tabs, carriage returns) at both ends; a part of the text given.
+/// The text without the blanks (spaces, tabs, carriage returns) at both ends; a view of the given
+/// text.
 inline std::string_view trimmed(const std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
   const auto first = text.find_first_not_of(blanks);

@@ -25,13 +25,15 @@ ut_system* unit_system() {
   static const std::unique_ptr<ut_system, Free> system = [] {
     ut_set_error_message_handler(ut_ignore);
     std::unique_ptr<ut_system, Free> read(ut_read_xml(nullptr));
-    if (!read) throw std::runtime_error("the units of UDUNITS-2 (libudunits2-data) are not there");
+    if (!read)
+      throw std::runtime_error(
+          "the unit tables of UDUNITS-2 are missing; install the package libudunits2-data");
     return read;
   }();
   return system.get();
 }
 
-// What sensor people write that UDUNITS reads otherwise or not at all.
+// Usual spellings that UDUNITS reads with another meaning or not at all.
 const Words& usual_words() {
   static const Words words{{"Nm", "(N.m)"},     {"mNm", "(mN.m)"},     {"uNm", "(uN.m)"},
                            {"Nmm", "(N.mm)"},   {"mNmm", "(mN.mm)"},   {"uNmm", "(uN.mm)"},
@@ -84,7 +86,7 @@ std::unique_ptr<cv_converter, Free> converter(const Unit& from, const Unit& to) 
 }  // namespace
 
 UnitConversion convert_unit(const std::string& from, const std::string& to) {
-  // UDUNITS keeps its state in globals.
+  // UDUNITS has global state.
   static std::mutex alone;
   const std::lock_guard lock(alone);
   const DecimalPoint in_its_tables;
@@ -95,7 +97,9 @@ UnitConversion convert_unit(const std::string& from, const std::string& to) {
                     "' is not known; write it as in m/s2, g, mN mm, uT, V, km/h or N m/T");
   auto found = converter(plain, target);
   if (!found) found = converter(parse(replaced(from, gravity_words())), target);
-  if (!found) throw UnitError("'" + from + "' does not measure what '" + to + "' measures");
+  if (!found)
+    throw UnitError("'" + from + "' cannot be converted to '" + to +
+                    "': the units measure different quantities");
   const double offset = cv_convert_double(found.get(), 0.);
   return {cv_convert_double(found.get(), 1.) - offset, offset};
 }

@@ -12,17 +12,17 @@ struct UnitConversion {
   double offset = 0.;
 };
 
-/// A unit that is not known, or measures something else.
+/// A unit that is unknown, or that measures another quantity.
 class UnitError : public UserError {
  public:
   using UserError::UserError;
 };
 
-/// From one unit to another that measures the same: "mN mm" to "N m", "km/h" to "m/s", "degC" to
-/// "K". Spelling as UDUNITS-2 reads it (https://www.unidata.ucar.edu/software/udunits), with "Nm",
-/// "mps" and their like taken, too; g, mg and ug are those of gravity where a mass would make no
-/// sense. Throws UnitError for a unit that is not known and for one that measures something else.
-/// Proven by tests/signals/base/unit_test.cc.
+/// Conversion between two units of the same quantity: "mN mm" to "N m", "km/h" to "m/s", "degC" to
+/// "K". The spelling is that of UDUNITS-2 (https://www.unidata.ucar.edu/software/udunits); "Nm",
+/// "mps" and similar spellings are also accepted. g, mg and ug mean the acceleration of gravity
+/// where a mass is not possible. Throws UnitError for an unknown unit and for a unit of another
+/// quantity. Proven by tests/signals/base/unit_test.cc.
 UnitConversion convert_unit(const std::string& from, const std::string& to);
 
 }  // namespace vibrissa::signals

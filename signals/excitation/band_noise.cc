@@ -30,7 +30,8 @@ void check_noise(const BandNoise& noise, double sampling_rate_hz) {
   if (!(noise.low_hz > 0. && noise.low_hz <= noise.high_hz &&
         noise.high_hz < 0.5 * sampling_rate_hz))
     throw UserError("band noise: " + to_text(noise.low_hz) + " .. " + to_text(noise.high_hz) +
-                    " Hz; needs 0 < low <= high, below half the rate of " +
+                    " Hz is not a possible band; it needs 0 < low <= high, and high below half the "
+                    "sampling rate of " +
                     to_text(sampling_rate_hz) + " Hz");
   if (!(noise.peak >= 0.) || !std::isfinite(noise.peak))
     throw UserError("band noise: peak " + to_text(noise.peak) + " is negative or not finite");
@@ -46,7 +47,7 @@ std::vector<double> sample(const BandNoise& noise, double sampling_rate_hz) {
   const auto last = static_cast<std::size_t>(std::floor(noise.high_hz / line_hz * (1. + 1e-12)));
   if (noise.n_samples < 2 || first > last || first == 0)
     throw UserError("band noise: " + std::to_string(noise.n_samples) +
-                    " samples hold no line within " + to_text(noise.low_hz) + " .. " +
+                    " samples contain no line within " + to_text(noise.low_hz) + " .. " +
                     to_text(noise.high_hz) + " Hz; take a longer record or a wider band");
   RealFft fft(noise.n_samples);
   std::ranges::fill(fft.spectrum(), 0.);

@@ -13,11 +13,11 @@ struct BandNoise {
   std::uint64_t seed = 0;
 };
 
-/// Gaussian noise with a flat spectrum between low and high and none elsewhere: every line of the
-/// record in the band has an independent complex normal amplitude. It repeats without a step.
-/// Equal seeds give equal noise with every standard library. Throws UserError unless 0 < low <=
-/// high < half the sampling rate, the peak is not negative, and a line lies in the band.
-/// Proven by tests/signals/excitation/band_noise_test.cc.
+/// Gaussian noise with a flat spectrum between low and high, and no power elsewhere: every line of
+/// the record in the band has an independent complex normal amplitude. The noise is periodic
+/// without a step. Equal seeds give equal noise with every standard library. Throws UserError
+/// unless 0 < low <= high < half the sampling rate, the peak is not negative, and a line lies in
+/// the band. Proven by tests/signals/excitation/band_noise_test.cc.
 std::vector<double> sample(const BandNoise& noise, double sampling_rate_hz);
 
 }  // namespace vibrissa::signals

@@ -20,19 +20,22 @@ using Eigen::VectorXd;
 void check_lines(const std::vector<std::size_t>& order, std::size_t n_amplitudes,
                  std::size_t n_phases) {
   if (order.empty() || n_amplitudes != order.size() || n_phases != order.size())
-    throw UserError("crest factor: " + std::to_string(order.size()) + " lines with " +
-                    std::to_string(n_amplitudes) + " amplitudes and " + std::to_string(n_phases) +
-                    " phases; needs one of each for every line, and a line at least");
+    throw UserError(
+        "crest factor: " + std::to_string(order.size()) + " lines with " +
+        std::to_string(n_amplitudes) + " amplitudes and " + std::to_string(n_phases) +
+        " phases; at least one line is needed, and each line needs one amplitude and one phase");
   const std::set<std::size_t> distinct(order.begin(), order.end());
   if (distinct.count(0) != 0 || distinct.size() != order.size())
-    throw UserError("crest factor: a line has order 0 or is given twice");
+    throw UserError(
+        "crest factor: a line has order 0 or is given twice; give each line once, with an order of "
+        "at least 1");
 }
 
 VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-// The sum over one period on dense time, and its transforms.
+// The oversampled sum over one period, and its transforms.
 class PeriodSum {
  public:
   PeriodSum(const std::vector<std::size_t>& order, const std::vector<double>& amplitude,
@@ -104,7 +107,7 @@ class PeriodSum {
   RealFft fft_;
 };
 
-// Keeps the phases with the lowest peak of all that are shown to it.
+// Keeps the phases with the lowest peak so far.
 struct Best {
   VectorXd phase;
   double peak;
@@ -119,7 +122,7 @@ struct Best {
   }
 };
 
-// The level optimiser_runs slowly to the peak: hard clipping mixes the phases, gentle clipping
+// The clipping level rises slowly to the peak: hard clipping mixes the phases, gentle clipping
 // refines them.
 void clip(Best& best, PeriodSum& sum, std::size_t n_clippings) {
   VectorXd phase = best.phase;

@@ -31,32 +31,35 @@ void check_design(const ExcitationDesign& design) {
   require(design.sampling_rate_hz > 0. && std::isfinite(design.sampling_rate_hz),
           "sampling rate " + to_text(design.sampling_rate_hz) + " Hz is not positive and finite");
   require(design.high_hz < 0.5 * design.sampling_rate_hz,
-          "highest frequency " + to_text(design.high_hz) + " Hz is not below half the rate of " +
-              to_text(design.sampling_rate_hz) + " Hz; lower it or sample faster");
-  require(design.period_samples >= 2,
-          "a period of " + std::to_string(design.period_samples) + " samples is too short");
+          "highest frequency " + to_text(design.high_hz) +
+              " Hz is not below half the sampling rate of " + to_text(design.sampling_rate_hz) +
+              " Hz; lower the frequency or raise the sampling rate");
+  require(design.period_samples >= 2, "a period of " + std::to_string(design.period_samples) +
+                                          " samples is too short; take at least 2");
   require(design.peak > 0. && std::isfinite(design.peak),
           "peak " + to_text(design.peak) + " is not positive and finite");
-  require(!design.levels.empty(), "no level given; 1 is the peak itself");
+  require(!design.levels.empty(), "no level is given; level 1 is the peak itself");
   for (const double level : design.levels)
     require(level > 0. && std::isfinite(level),
             "level " + to_text(level) + " is not positive and finite");
   require(design.n_realisations >= 1 && design.n_realisations <= 1000,
           "realisations must be 1 to 1000, not " + std::to_string(design.n_realisations));
   require(design.n_periods >= 1, "at least one period must be kept");
-  require(design.n_periods < most_samples && design.n_lead_in_periods < most_samples &&
-              design.period_samples <= most_samples / (design.n_periods + design.n_lead_in_periods),
-          "a drive of more than " + std::to_string(most_samples) + " samples; take fewer periods");
+  require(
+      design.n_periods < most_samples && design.n_lead_in_periods < most_samples &&
+          design.period_samples <= most_samples / (design.n_periods + design.n_lead_in_periods),
+      "the drive has more than " + std::to_string(most_samples) + " samples; take fewer periods");
   require(design.fade_s >= 0. && design.fade_s * design.sampling_rate_hz <=
                                      0.5 * static_cast<double>(design.period_samples),
-          "a fade of " + to_text(design.fade_s) + " s does not fit twice into the sweep");
+          "a fade of " + to_text(design.fade_s) +
+              " s does not fit twice into the sweep; take a shorter fade or a longer period");
   const bool one_alone =
       design.kind == ExcitationKind::sweep ||
       (design.kind == ExcitationKind::multisine && design.phase == PhaseRule::schroeder);
   require(!one_alone || design.n_realisations == 1,
-          "sweeps and Schroeder phases have one realisation; take random or optimised phases, or "
-          "noise, for " +
-              std::to_string(design.n_realisations));
+          "sweeps and Schroeder phases have only one realisation; for " +
+              std::to_string(design.n_realisations) +
+              " realisations take random or optimised phases, or noise");
 }
 
 std::uint64_t seed_of(const ExcitationDesign& design, std::size_t realisation) {
@@ -92,7 +95,7 @@ std::vector<double> phases_of(const ExcitationDesign& design, const std::vector<
   return lower_crest_factor(order, std::vector<double>(n, 1.), start);
 }
 
-// One period of the flat sum with the given peak between the samples, too.
+// One period of the flat sum; the peak includes the values between the samples.
 Drive multisine_drive(const ExcitationDesign& design, const std::vector<std::size_t>& order,
                       std::size_t realisation, double& amplitude) {
   Drive drive{.realisation = realisation,

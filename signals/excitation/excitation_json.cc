@@ -31,8 +31,8 @@ void add_multisine(json& document, const DesignedExcitation& excitation) {
   document["phase"] = name_of(design.phase);
   document["resolution_hz"] = excitation.resolution_hz();
   document["form"] =
-      "sum of amplitude cos(2 pi frequency_hz t + phase_rad) over the excited lines, phases in the "
-      "order of the lines; amplitudes are those of level 1, realisation 1";
+      "sum over the excited lines of amplitude * cos(2 pi frequency_hz t + phase_rad); the phases "
+      "are in the order of the lines; the amplitudes are those of level 1, realisation 1";
   for (const DescribedLine& line : excitation.lines)
     document["lines"].push_back(line_json(excitation, line));
 }

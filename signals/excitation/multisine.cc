@@ -44,7 +44,7 @@ std::vector<double> line_phases(std::size_t n_lines, MultisinePhase phase, std::
 
 void check_frequencies(std::span<const double> frequency_hz) {
   if (frequency_hz.empty())
-    throw UserError("multisine: no line given; name at least one frequency");
+    throw UserError("multisine: no line is given; give at least one frequency");
   std::vector<double> sorted(frequency_hz.begin(), frequency_hz.end());
   for (const double f : sorted)
     if (!(f > 0.) || !std::isfinite(f))
@@ -52,7 +52,7 @@ void check_frequencies(std::span<const double> frequency_hz) {
   std::ranges::sort(sorted);
   const auto twice = std::ranges::adjacent_find(sorted);
   if (twice != sorted.end())
-    throw UserError("multisine: frequency " + to_text(*twice) + " Hz is given twice");
+    throw UserError("multisine: frequency " + to_text(*twice) + " Hz is given twice; give it once");
 }
 
 // The largest frequency that all are whole multiples of, by Euclid's algorithm. Remainders below
@@ -76,7 +76,7 @@ double peak_of_sum(const Multisine& multisine) {
   if (highest > largest_order)
     throw UserError("multisine: the frequencies have no common period shorter than " +
                     to_text(largest_order / std::ranges::max(multisine.frequency_hz)) +
-                    " s; take whole multiples of one resolution");
+                    " s; take frequencies that are whole multiples of one resolution");
   RealFft fft(2 * oversampling * static_cast<std::size_t>(std::lround(highest)));
   for (std::size_t i = 0; i < multisine.frequency_hz.size(); ++i) {
     const auto order =
@@ -101,7 +101,7 @@ std::vector<double> Multisine::sample(double sampling_rate_hz, std::size_t n_sam
     if (!(f < 0.5 * sampling_rate_hz))
       throw UserError("multisine: frequency " + to_text(f) +
                       " Hz is not below half the sampling rate of " + to_text(sampling_rate_hz) +
-                      " Hz; lower it or sample faster");
+                      " Hz; lower the frequency or raise the sampling rate");
   std::vector<double> result(n_samples, 0.);
   for (std::size_t line = 0; line < frequency_hz.size(); ++line)
     for (std::size_t i = 0; i < n_samples; ++i) {
@@ -135,14 +135,15 @@ std::vector<double> multisine_lines(double low_hz, double high_hz, std::size_t n
                               to_text(resolution_hz) + " Hz";
   if (!(low_hz > 0.) || !(high_hz >= low_hz) || !std::isfinite(high_hz) || !(resolution_hz > 0.) ||
       !std::isfinite(resolution_hz) || n_lines == 0)
-    throw UserError(request + ": needs 0 < low <= high, a positive resolution and a line at least");
+    throw UserError(request +
+                    ": 0 < low <= high, a positive resolution and at least one line are needed");
   // A bound that is a multiple but for rounding counts as one.
   const double first = std::ceil(low_hz / resolution_hz * (1. - 1e-12));
   const double last = std::floor(high_hz / resolution_hz * (1. + 1e-12));
   const double n_free = last - first + 1.;
   if (static_cast<double>(n_lines) > n_free)
     throw UserError(request + ": only " + to_text(std::max(n_free, 0.)) +
-                    " fit; ask for fewer, widen the band or take a longer period");
+                    " lines fit; take fewer lines, a wider band or a longer period");
 
   std::vector<double> order(n_lines);
   for (std::size_t i = 0; i < n_lines; ++i) {
@@ -166,7 +167,9 @@ double crest_factor(std::span<const double> x) {
     sum_of_squares += value * value;
   }
   if (!(sum_of_squares > 0.))
-    throw UserError("crest factor: the signal is empty or zero throughout, so it has none");
+    throw UserError(
+        "crest factor: the signal is empty or zero at every sample; its crest factor is not "
+        "defined");
   return peak / std::sqrt(sum_of_squares / static_cast<double>(x.size()));
 }
 

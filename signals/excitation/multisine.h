@@ -10,11 +10,12 @@ namespace vibrissa::signals {
 enum class MultisinePhase {
   schroeder,  // phi_i = -pi i (i - 1) / n_lines, phi_1 = 0 (docs/theory.md, T11)
   random,     // uniform, from the seed
-  ascending,  // the paper's experiment: sines with phases in steps of 30 degrees, from -90 degrees
-  zero        // sines in phase: all -90 degrees
+  ascending,  // as in the experiment of the reference paper: phases in steps of 30 degrees, from
+              // -90 degrees
+  zero        // all phases -90 degrees: sines
 };
 
-/// A sum of cosines on whole lines of one period: sum_i amplitude_i cos(2 pi f_i t + phi_i).
+/// A sum of cosines at lines of one period: sum_i amplitude_i cos(2 pi f_i t + phi_i).
 struct Multisine {
   std::vector<double> frequency_hz;
   std::vector<double> amplitude;
@@ -24,16 +25,15 @@ struct Multisine {
   std::vector<double> sample(double sampling_rate_hz, std::size_t n_samples) const;
 };
 
-/// Flat multisine at the given frequencies with the given peak amplitude of the *sum* (measured
-/// over one period on 16 times oversampled time: the true peak is less than 0.5 % higher). Throws
-/// UserError for no line, a frequency that is not positive or given twice, frequencies without a
-/// common period, and a peak that is negative. Proven by
-/// tests/signals/excitation/multisine_test.cc.
+/// Flat multisine at the given frequencies with the given peak of the *sum* (over one period with
+/// 16 times oversampling: the true peak is less than 0.5 % higher). Throws UserError for no line, a
+/// frequency that is not positive or given twice, frequencies without a common period, and a
+/// negative peak. Proven by tests/signals/excitation/multisine_test.cc.
 Multisine make_multisine(std::span<const double> frequency_hz, double peak_amplitude,
                          MultisinePhase phase, std::uint64_t seed = 0);
 
-/// n_lines frequencies in [low, high] spread logarithmically and rounded to multiples of the
-/// resolution 1/period, without repeats; one line stands in the logarithmic middle. Throws
+/// n_lines frequencies in [low, high] with logarithmic spacing, rounded to multiples of the
+/// resolution 1/period, without repeats; a single line is in the logarithmic middle. Throws
 /// UserError when they do not fit.
 std::vector<double> multisine_lines(double low_hz, double high_hz, std::size_t n_lines,
                                     double resolution_hz);

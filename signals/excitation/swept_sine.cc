@@ -17,14 +17,14 @@ void check_sweep(const SweptSine& sweep, double sampling_rate_hz) {
                     " Hz is not positive and finite");
   for (const double f : {sweep.low_hz, sweep.high_hz})
     if (!(f > 0. && f < 0.5 * sampling_rate_hz))
-      throw UserError("swept sine: " + to_text(f) +
-                      " Hz is not above 0 and below half the rate of " + to_text(sampling_rate_hz) +
-                      " Hz");
+      throw UserError("swept sine: frequency " + to_text(f) +
+                      " Hz must be above 0 and below half the sampling rate of " +
+                      to_text(sampling_rate_hz) + " Hz");
   if (!(sweep.peak >= 0.) || !std::isfinite(sweep.peak))
     throw UserError("swept sine: peak " + to_text(sweep.peak) + " is negative or not finite");
   if (sweep.n_samples == 0 || sweep.fade_samples > sweep.n_samples / 2)
     throw UserError("swept sine: " + std::to_string(sweep.n_samples) +
-                    " samples do not hold two fades of " + std::to_string(sweep.fade_samples));
+                    " samples are too few for two fades of " + std::to_string(sweep.fade_samples));
 }
 
 double cycles(const SweptSine& sweep, double time_s, double duration_s) {

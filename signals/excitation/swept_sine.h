@@ -11,11 +11,12 @@ enum class SweepLaw {
 };
 
 struct SweptSine {
-  double low_hz = 0., high_hz = 0.;  // at the first sample and after the last; high may be below
+  double low_hz = 0.,
+         high_hz = 0.;  // at the first sample and after the last; high may be below low
   SweepLaw law = SweepLaw::logarithmic;
   double peak = 1.;
   std::size_t n_samples = 0;
-  std::size_t fade_samples = 0;  // at both ends, a quarter sine squared, so that no step is heard
+  std::size_t fade_samples = 0;  // at both ends, sine squared, so that there is no step
 };
 
 /// peak sin(phase(t)), phase' = 2 pi f(t), phase(0) = 0: f = low + (high - low) t / T, or

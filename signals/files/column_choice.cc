@@ -21,7 +21,7 @@ ScaledName scaled_column(const std::string& column, const std::string& needed_un
     return parse_scaled_name(column, needed_unit);
   } catch (const UnitError& error) {
     refuse(choice, std::string(error.what()) + ". The channel is in " + needed_unit +
-                       "; a factor can bring its own unit, as in base_moment=B[uT]*0.18[N m/T]");
+                       "; a factor may have a unit, as in base_moment=B[uT]*0.18[N m/T]");
   } catch (const UserError& error) {
     refuse(choice, error.what());
   }
@@ -32,7 +32,7 @@ ScaledName scaled_column(const std::string& column, const std::string& needed_un
 ColumnChoice parse_column_choice(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos)
-    refuse(text, "expected channel=column, channel=column[unit] or channel=column*scale");
+    refuse(text, "write channel=column, channel=column[unit] or channel=column*scale");
   const std::string name(trimmed(std::string_view(text).substr(0, equals)));
   const std::string channel = full_channel_name(name);
   if (channel.empty()) refuse(text, unknown_name("channel", name, known_channels()));

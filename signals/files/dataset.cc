@@ -20,7 +20,7 @@ const std::vector<std::string> record_keys{
     "file",    "excitation",    "period_samples", "split",      "setup", "sampling_rate_hz",
     "readout", "clock_start_s", "columns",        "remove_mean"};
 
-/// Of the whole; those that records share as well.
+/// Entries of the whole dataset, including those that its records may also have.
 const std::vector<std::string> file_keys{
     "schema", "records", "sampling_rate_hz", "columns", "remove_mean", "readout", "setup"};
 
@@ -28,7 +28,7 @@ bool holds(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-/// Where an entry of dataset.json stands, and what is wrong with it.
+/// Throws UserError with the place of an entry of dataset.json and the error.
 [[noreturn]] void refuse_dataset(const std::string& where, const std::string& reason) {
   throw UserError(where + ": " + reason);
 }
@@ -36,7 +36,7 @@ bool holds(const std::vector<std::string>& keys, const std::string& key) {
 std::string text_of(const json& object, const std::string& key, const std::string& where,
                     const std::string& fallback) {
   if (!object.contains(key)) return fallback;
-  if (!object[key].is_string()) refuse_dataset(where + "/" + key, "is no text");
+  if (!object[key].is_string()) refuse_dataset(where + "/" + key, "must be a string");
   return object[key];
 }
 
@@ -64,7 +64,7 @@ std::size_t period_of(const json& entry, const std::string& where) {
   if (!entry.contains("period_samples")) return 0;
   const json& period = entry["period_samples"];
   if (!period.is_number_unsigned())
-    refuse_dataset(where + "/period_samples", "is no count of samples");
+    refuse_dataset(where + "/period_samples", "must be a whole number of samples, 0 or more");
   return period.get<std::size_t>();
 }
 
@@ -72,13 +72,13 @@ double clock_start_of(const json& entry, const std::string& where) {
   if (!entry.contains("clock_start_s")) return 0.;
   const json& start = entry["clock_start_s"];
   if (!start.is_number() || start.get<double>() < 0.)
-    refuse_dataset(where + "/clock_start_s", "is no time in seconds from 0 on");
+    refuse_dataset(where + "/clock_start_s", "must be a time in seconds, 0 or more");
   return start.get<double>();
 }
 
 BenchSetup setup_of(const json& document, const json& entry, const std::string& where) {
   if (entry.contains("setup")) return read_bench_setup(entry["setup"], where + "/setup");
-  return document.contains("setup") ? read_bench_setup(document["setup"], where + " of /setup")
+  return document.contains("setup") ? read_bench_setup(document["setup"], where + ", from /setup")
                                     : BenchSetup{};
 }
 
@@ -89,10 +89,12 @@ const json* either(const json& document, const json& entry, const std::string& k
 }
 
 std::vector<ColumnChoice> columns_of(const json& chosen, const std::string& where) {
-  if (!chosen.is_object()) refuse_dataset(where, "is no object of channels and their columns");
+  if (!chosen.is_object())
+    refuse_dataset(where, "must be an object that names the column of each channel");
   std::vector<ColumnChoice> choices;
   for (const auto& [channel, column] : chosen.items()) {
-    if (!column.is_string()) refuse_dataset(where + "/" + channel, "names no column");
+    if (!column.is_string())
+      refuse_dataset(where + "/" + channel, "must be a string that names a column");
     try {
       choices.push_back(parse_column_choice(channel + "=" + column.get<std::string>()));
     } catch (const UserError& error) {
@@ -103,10 +105,10 @@ std::vector<ColumnChoice> columns_of(const json& chosen, const std::string& wher
 }
 
 std::vector<std::string> names_of(const json& list, const std::string& where) {
-  if (!list.is_array()) refuse_dataset(where, "is no list of channels");
+  if (!list.is_array()) refuse_dataset(where, "must be an array of channel names");
   std::vector<std::string> names;
   for (const json& name : list) {
-    if (!name.is_string()) refuse_dataset(where, "is no list of channels");
+    if (!name.is_string()) refuse_dataset(where, "must be an array of channel names");
     names.push_back(name);
   }
   return names;
@@ -116,7 +118,7 @@ ReadOptions options_of(const json& document, const json& entry, const std::strin
                        const ReadOptions& given) {
   ReadOptions options = given;
   if (const json* const rate = either(document, entry, "sampling_rate_hz")) {
-    if (!rate->is_number()) refuse_dataset(where + "/sampling_rate_hz", "is no number");
+    if (!rate->is_number()) refuse_dataset(where + "/sampling_rate_hz", "must be a number");
     options.sampling_rate_hz = rate->get<double>();
   }
   if (const json* const columns = either(document, entry, "columns"))
@@ -126,13 +128,15 @@ ReadOptions options_of(const json& document, const json& entry, const std::strin
   return options;
 }
 
-/// Entries that mean nothing may stand beside those of the whole, but for those that would have
-/// meant something: of a record alone, or misspelt.
+/// Unknown entries of the whole dataset are allowed, except entries that belong to a record and
+/// misspelt entries.
 void refuse_misplaced(const json& document, const std::string& name) {
   for (const auto& item : document.items()) {
     if (holds(file_keys, item.key())) continue;
     if (holds(record_keys, item.key()))
-      refuse_dataset(name + ": /" + item.key(), "is told of each record, not of the whole dataset");
+      refuse_dataset(
+          name + ": /" + item.key(),
+          "belongs to each record, not to the whole dataset; move it into the entries of /records");
     if (!nearest_name(item.key(), file_keys).empty())
       refuse_dataset(name, unknown_name("entry", item.key(), file_keys));
   }
@@ -140,12 +144,13 @@ void refuse_misplaced(const json& document, const std::string& name) {
 
 DatasetRecord read_entry(const fs::path& folder, const json& document, const json& entry,
                          const std::string& where, const ReadOptions& given) {
-  if (!entry.is_object()) refuse_dataset(where, "is no object");
+  if (!entry.is_object()) refuse_dataset(where, "must be an object");
   for (const auto& item : entry.items())
     if (!holds(record_keys, item.key()))
       refuse_dataset(where, unknown_name("entry", item.key(), record_keys));
   const std::string file = text_of(entry, "file", where, "");
-  if (file.empty()) refuse_dataset(where, "names no file");
+  if (file.empty())
+    refuse_dataset(where, "the entry 'file' is missing or empty; name the file of the record");
   const std::string readout = text_of(document, "readout", where, "moment");
   DatasetRecord result{
       .name = fs::path(file).stem().string(),
@@ -179,8 +184,8 @@ Dataset read_described(const fs::path& folder, const fs::path& file, const ReadO
   return dataset;
 }
 
-/// No larger than the noise of a small accelerometer, and white as noise is: no lag up to ten is
-/// correlated (Box and Pierce, 1970).
+/// Whether the signal is as small as the noise of a small accelerometer, and white: no correlation
+/// up to lag ten (Box and Pierce, 1970).
 bool is_accelerometer_noise(const std::span<const double> values) {
   constexpr double most_m_s2 = 0.1, chance_of_a_thousandth = 29.6;  // chi-squared of 10
   constexpr std::size_t n_lags = 10;
@@ -203,7 +208,7 @@ bool moves(const Record& record, const std::string& channel) {
   return channel != channel::base_acceleration || !is_accelerometer_noise(values);
 }
 
-// Sound files are drives: what a sensor measured is in the other formats.
+// Sound files contain drives; measured records have the other formats.
 bool may_be_a_record(const fs::path& file) {
   const std::string extension = formats::extension_of(file);
   const auto& known = formats::file_formats();
@@ -217,7 +222,10 @@ std::vector<fs::path> record_files(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (may_be_a_record(entry.path())) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  if (files.empty()) throw UserError(folder.string() + ": holds neither dataset.json nor a record");
+  if (files.empty())
+    throw UserError(
+        folder.string() +
+        ": contains neither dataset.json nor a record; name a record or a folder with records");
   return files;
 }
 
@@ -250,7 +258,7 @@ std::string to_string(const Excitation& excitation) {
 }
 
 Dataset read_dataset(const fs::path& source, const ReadOptions& options) {
-  if (!fs::exists(source)) throw UserError(source.string() + ": is not there");
+  if (!fs::exists(source)) throw UserError(source.string() + ": does not exist");
   const fs::path description = source / "dataset.json";
   Dataset dataset = !fs::is_directory(source) ? guess({source}, options)
                     : fs::exists(description) ? read_described(source, description, options)

@@ -11,7 +11,7 @@
 
 namespace vibrissa::signals {
 
-/// What moved the sensor during a record.
+/// What excited the sensor during a record.
 struct Excitation {
   bool base = false;
   bool wind = false;
@@ -20,7 +20,7 @@ struct Excitation {
 /// none, base, wind or base+wind.
 std::string to_string(const Excitation& excitation);
 
-/// fit: may be used to fit, choose and tune. held_out: only to score.
+/// fit: used to fit and to select. held_out: only used to score.
 enum class Split { fit, held_out };
 
 /// moment: the base moment itself. rotation: a statically calibrated Hall element over the
@@ -28,33 +28,33 @@ enum class Split { fit, held_out };
 enum class Readout { moment, rotation };
 
 struct DatasetRecord {
-  std::string name;  // of the file, without extension
+  std::string name;  // file name without extension
   Record record;
   Excitation excitation;
   std::size_t period_samples = 0;  // 0: not periodic; else periodic and in steady state
   Split split = Split::fit;
   Readout readout = Readout::moment;
   BenchSetup setup{};
-  /// How long both clocks had run when the record began: of a piece cut from a longer one [s].
+  /// Time that both clocks had run when the record began, for a part of a longer record [s].
   double clock_start_s = 0.;
 };
 
-/// Records of one sensor, as docs/records.md describes the folder.
+/// Records of one sensor; docs/records.md describes the folder.
 struct Dataset {
   std::vector<DatasetRecord> records;
-  /// What had to be guessed because the folder does not say it; empty when it does.
+  /// Assumptions about what the folder does not state; empty when it states everything.
   std::vector<std::string> guesses;
 };
 
-/// Reads FOLDER/dataset.json ("vibrissa-dataset-1") and its records. Without dataset.json: every
-/// record file of the folder, or the one file that is named, excitation guessed from the columns
-/// that move (an acceleration that is white and below 0.1 m/s2 rms is noise), the last third of
-/// each record held out. dataset.json may say, for all records or for one, "columns":
-/// {"base_acceleration": "ax[g]"} and "remove_mean": ["base_acceleration"]; where it does not, the
-/// options given here hold. Throws UserError with file and entry for: nothing there, no records, a
-/// wrong schema or entry (lists the known words), a rate that contradicted_by time_s, a period
-/// longer than its record, a record without a base moment, and whatever read_record refuses. Proven
-/// by tests/signals/files/dataset_test.cc.
+/// Reads FOLDER/dataset.json ("vibrissa-dataset-1") and its records. Without dataset.json it reads
+/// every record file of the folder, or the one given file; the excitation is guessed from the
+/// channels that vary (a white acceleration below 0.1 m/s2 rms is noise), and the last third of
+/// each record is held out. dataset.json may contain, for all records or for one, "columns":
+/// {"base_acceleration": "ax[g]"} and "remove_mean": ["base_acceleration"]; otherwise the given
+/// options apply. Throws UserError with file and entry for: a missing source, no records, a wrong
+/// schema or entry (lists the known words), a rate that contradicts time_s, a period longer than
+/// its record, a record without a base moment, and all errors of read_record. Proven by
+/// tests/signals/files/dataset_test.cc.
 Dataset read_dataset(const std::filesystem::path& source, const ReadOptions& options = {});
 
 }  // namespace vibrissa::signals

@@ -36,10 +36,10 @@ void write_record(const std::filesystem::path& file, const Record& record) {
   const bool is_text = ending.empty() || ending == ".txt" || ending == ".dat";
   if (!format.has(ending) && !is_text)
     throw UserError(file.string() + ": '" + ending +
-                    "' is no format that is written; write .csv, .mat, .h5, .npy or .uff");
+                    "' cannot be written as a record; use .csv, .mat, .h5, .npy or .uff");
   if (!format.write)
     throw UserError(file.string() +
-                    ": a record has units and a start, which a sound file cannot hold; write .csv, "
+                    ": a sound file cannot store the units and the start of a record; use .csv, "
                     ".mat, .h5, .npy or .uff");
   format.write(file, record);
 }

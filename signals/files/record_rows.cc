@@ -22,19 +22,19 @@ void convert(const RecordTable& file, const Source& source, const std::size_t fi
     if (std::isfinite(values[i])) continue;
     throw UserError(file.place(first_row + i) + "column '" + file.columns()[source.column] +
                     "': '" + file.text(first_row + i, source.column) + "' is not finite" +
-                    (std::isfinite(raw) ? " once scaled" : "") +
-                    "; missing samples are never filled in: choose rows without any");
+                    (std::isfinite(raw) ? " after scaling" : "") +
+                    "; missing samples are never filled in: choose rows without missing samples");
   }
 }
 
-// A column of time in thousandths or millionths of a second, called seconds.
+// Hint for a time column in ms or us that is declared in seconds.
 std::string time_unit_hint(const double ratio) {
   const auto near = [&](const double factor) { return std::abs(ratio / factor - 1.) < 1e-2; };
   if (near(1e3)) return "; the column seems to be in ms";
   return near(1e6) ? "; the column seems to be in us" : "";
 }
 
-// Of the times in a column; a rate that is known beside them must agree and is then the one taken.
+// Time axis of a time column; a rate that is also given must agree and is then used.
 TimeAxis axis_of_column(const RecordTable& file, const std::string& path, const Source& time,
                         const std::vector<double>& times_s, const TimeDigits& digits,
                         const ReadOptions& options) {
@@ -52,11 +52,11 @@ TimeAxis axis_of_column(const RecordTable& file, const std::string& path, const 
                                                : std::nullopt;
   if (!known) return axis;
   if (std::abs(*known - axis.sampling_rate_hz) > 1e-3 * axis.sampling_rate_hz)
-    throw UserError(path + ": the rate " + to_text(*known) +
-                    " Hz that was given contradicted_by column '" + file.columns()[time.column] +
-                    "', which says " + to_text(axis.sampling_rate_hz) +
-                    " Hz; correct it (--rate, or sampling_rate_hz in dataset.json or in the file) "
-                    "or the column" +
+    throw UserError(path + ": the given sampling rate " + to_text(*known) +
+                    " Hz contradicts column '" + file.columns()[time.column] + "', which gives " +
+                    to_text(axis.sampling_rate_hz) +
+                    " Hz; correct the rate (--rate, or sampling_rate_hz in dataset.json or in the "
+                    "file) or the column" +
                     time_unit_hint(*known / axis.sampling_rate_hz));
   axis.sampling_rate_hz = *known;
   return axis;
@@ -78,14 +78,14 @@ void check(const ReadOptions& options) {
 
 std::size_t number_of_rows(const RecordTable& file, const ReadOptions& options) {
   const std::size_t there = file.n_rows();
-  if (options.first_row == 0) throw UserError("the first row is row 1, not row 0");
+  if (options.first_row == 0) throw UserError("the first row has the number 1, not 0");
   const std::size_t skipped = options.first_row - 1;
   const std::size_t left = there - std::min(there, skipped);
   const std::size_t count = options.n_rows.value_or(left);
   if (skipped > there || count > left)
     throw UserError(file.place(there) + "rows " + std::to_string(options.first_row) + " to " +
                     (options.n_rows ? std::to_string(skipped + count) : "the last") +
-                    " are asked for, but the file has " + std::to_string(there) + " rows");
+                    " are requested, but the file has " + std::to_string(there) + " rows");
   if (count < least_samples)
     throw UserError(file.place(there) + "only " + std::to_string(count) +
                     " samples; a record needs at least " + std::to_string(least_samples));

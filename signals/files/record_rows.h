@@ -12,15 +12,15 @@ namespace vibrissa::signals {
 
 inline constexpr std::size_t least_samples = 64;
 
-/// Throws UserError for a rate that is no positive number.
+/// Throws UserError for a rate that is not a positive number.
 void check(const ReadOptions& options);
 
-/// How many rows the options ask for. Throws UserError when there are fewer, or too few for a
-/// record.
+/// Number of rows that the options request. Throws UserError when the file has fewer rows, or when
+/// the rows are too few for a record.
 std::size_t number_of_rows(const formats::RecordTable& file, const ReadOptions& options);
 
-/// So many rows from options.first_row on as a record, converted and checked as read_record says;
-/// path is the file in messages.
+/// Reads n_rows rows from options.first_row on as a record, converted and checked as in
+/// read_record; path is the file name in messages.
 Record read_rows(const formats::RecordTable& file, const std::string& path, const Sources& sources,
                  const ReadOptions& options, std::size_t n_rows);
 

@@ -22,7 +22,7 @@ std::string without_spaces(std::string text) {
   return text;
 }
 
-// By its name or, where a header holds units, by name and unit.
+// Finds a column by its name or, when a header contains units, by name and unit.
 std::size_t column_of(const formats::RecordTable& file, const ColumnChoice& choice) {
   if (const auto column = find_column(file, choice.column)) return *column;
   const std::string with_unit = without_spaces(choice.column_with_unit);
@@ -38,7 +38,7 @@ Sources chosen_sources(const formats::RecordTable& file, const std::vector<Colum
     const Source source = {choice.channel, column_of(file, choice), choice.scale, choice.offset};
     const auto same = [&](const Source& other) { return other.channel == source.channel; };
     if (sources.time && source.channel == time_channel)
-      throw UserError("two columns are chosen for time");
+      throw UserError("two columns are chosen for time; keep one");
     if (std::any_of(sources.channels.begin(), sources.channels.end(), same))
       throw UserError("two columns are chosen for channel '" + source.channel + "'; keep one");
     if (source.channel == time_channel)
@@ -49,7 +49,8 @@ Sources chosen_sources(const formats::RecordTable& file, const std::vector<Colum
   return sources;
 }
 
-/// Those that were not chosen, of columns that were not; other measured columns where none was.
+/// Adds the channels that were not chosen, from columns that were not chosen; when nothing was
+/// chosen, also other measured columns.
 void add_channels_by_name(const formats::RecordTable& file, Sources& sources) {
   const std::vector<Source> chosen = sources.channels;
   for (std::size_t i = 0; i < file.columns().size(); ++i) {
@@ -78,16 +79,17 @@ Sources find_sources(const formats::RecordTable& file, const ReadOptions& option
   if (const auto time = find_column(file, time_channel); time && !sources.time)
     sources.time = {time_channel, *time};
   if (sources.channels.empty())
-    throw UserError(file.place(0) +
-                    "no column has the name of a channel (quantity_unit); say which columns to "
-                    "take and in which unit, as in --column 'base_moment=hall[mN mm]' or "
-                    "base_moment=hall_mT*1.8e-4. Columns: " +
-                    listed(file.columns()));
+    throw UserError(
+        file.place(0) +
+        "no column has the name of a channel (quantity_unit); name the columns and their units, as "
+        "in --column 'base_moment=hall[mN mm]' or base_moment=hall_mT*1.8e-4. Columns: " +
+        listed(file.columns()));
   if (!sources.time && !options.sampling_rate_hz && !file.clock())
-    throw UserError(file.place(0) +
-                    "no column time_s, so the sampling rate is unknown: give --rate in Hz, or the "
-                    "column of time as in --column 'time=t[ms]'. Columns: " +
-                    listed(file.columns()));
+    throw UserError(
+        file.place(0) +
+        "the sampling rate is unknown, because the file has no column time_s: give --rate in Hz, "
+        "or name the time column, as in --column 'time=t[ms]'. Columns: " +
+        listed(file.columns()));
   return sources;
 }
 

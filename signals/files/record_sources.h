@@ -19,11 +19,11 @@ struct Source {
 
 struct Sources {
   std::vector<Source> channels;
-  std::optional<Source> time;  // else the clock is the file's own, or given
+  std::optional<Source> time;  // without it the clock is stated in the file or in the options
 };
 
-/// Which columns of a file become which channels. Throws UserError as read_record does for columns
-/// that are not there, chosen twice, or missing.
+/// Finds which columns of a file become which channels. Throws UserError as read_record does for
+/// columns that do not exist, are chosen twice, or are missing.
 Sources find_sources(const formats::RecordTable& file, const ReadOptions& options);
 
 }  // namespace vibrissa::signals

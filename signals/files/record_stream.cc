@@ -18,7 +18,9 @@ constexpr std::size_t block_samples = std::size_t{1} << 14;
 RecordStream::RecordStream(const std::filesystem::path& file, const ReadOptions& options)
     : file_(file), options_(options), table_(formats::open_table(file)) {
   if (!options.remove_mean.empty())
-    throw UserError("--remove-mean needs the whole record, which a stream never holds");
+    throw UserError(
+        "--remove-mean needs the whole record, but a stream reads one block after the other; leave "
+        "the option out");
   check(options);
   sources_ = find_sources(*table_, options_);
   n_rows_ = number_of_rows(*table_, options_);
@@ -31,7 +33,7 @@ Record RecordStream::read(const std::size_t first, const std::size_t count) cons
   return read_rows(*table_, file_.string(), sources_, part, count);
 }
 
-// The rate that the first block tells, unless the last sample says otherwise by a sample or more.
+// The rate of the first block, unless the time of the last sample contradicts it.
 TimeAxis RecordStream::axis_of_all() const {
   const std::size_t few = std::min(block_samples, n_rows_);
   const Record first = read(0, few);
@@ -52,14 +54,14 @@ void RecordStream::check_joins(const Record& block, const std::size_t first) con
   constexpr double allowed_samples = 0.45;
   if (std::abs(block.time_s(0) - expected_s) * axis_.sampling_rate_hz <= allowed_samples) return;
   throw UserError(table_->place(options_.first_row + first) + "time jumps to " +
-                  to_text(block.time_s(0)) + " s where " + to_text(expected_s) +
-                  " s follows; samples are never filled in or left out");
+                  to_text(block.time_s(0)) + " s, but " + to_text(expected_s) +
+                  " s was expected; samples are never added or removed");
 }
 
 std::optional<Record> RecordStream::next() {
   if (n_read_ == n_rows_) return std::nullopt;
   std::size_t count = std::min(block_samples, n_rows_ - n_read_);
-  // A last block too short to tell its rate goes with the one before.
+  // A last block that is too short to determine its rate is joined to the previous block.
   if (n_rows_ - n_read_ - count < least_samples) count = n_rows_ - n_read_;
   Record block = read(n_read_, count);
   check_joins(block, n_read_);

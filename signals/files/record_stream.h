@@ -11,20 +11,21 @@
 
 namespace vibrissa::signals {
 
-/// A record file as one block after the other: of a CSV file no more than a block is held, of other
-/// formats the whole. Each block is checked as read_record checks a record, and must begin where
-/// the one before ended. Proven by tests/apps/stream_test.cc.
+/// Reads a record file block by block. Of a CSV file only one block is in memory; of other formats
+/// the whole file is. Each block is checked as in read_record, and must begin where the previous
+/// block ended. Proven by tests/apps/stream_test.cc.
 class RecordStream {
  public:
-  /// Throws UserError as read_record does, and for a mean that is to be removed, which takes the
-  /// whole record.
+  /// Throws UserError as read_record does, and for options.remove_mean, which needs the whole
+  /// record.
   explicit RecordStream(const std::filesystem::path& file, const ReadOptions& options = {});
 
   double sampling_rate_hz() const { return axis_.sampling_rate_hz; }
   double start_s() const { return axis_.start_s; }
   std::size_t n_samples() const { return n_rows_; }
 
-  /// Nothing behind the last block. Throws UserError for samples that read_record would refuse.
+  /// The next block; nothing after the last block. Throws UserError for samples that read_record
+  /// would refuse.
   std::optional<Record> next();
 
  private:

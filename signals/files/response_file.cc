@@ -111,8 +111,8 @@ void write_response(const std::filesystem::path& file, const FrequencyResponse& 
   if (format_of(file).has(".mat")) return write_mat(file, response, convention);
   if (extension_of(file) == ".csv") return write_csv(file, response);
   throw UserError(file.string() +
-                  ": a frequency response is written as .uff, .unv, .uf58 (Universal File, type "
-                  "58), .mat or .csv; name the file so");
+                  ": a frequency response can be written as .uff, .unv, .uf58 (Universal File, "
+                  "type 58), .mat or .csv; use one of these endings");
 }
 
 }  // namespace vibrissa::signals::formats

@@ -10,43 +10,44 @@
 namespace vibrissa::signals::formats {
 
 /// A frequency response base acceleration -> base moment [N m s^2/m], one-sided, over frequencies
-/// in Hz, with the sign of exp(+j w t): a moment that lags has a negative phase. Every file says
-/// so.
+/// in Hz, with the convention exp(+j w t): a moment that lags has a negative phase. Every file
+/// states this convention.
 
-/// What the second line of a function of type 0 says that holds standard deviations.
+/// Second line of a function of type 0 that contains standard deviations.
 inline const std::string deviation_title = "standard deviation of the response";
 
-/// For programs of modal analysis: a function of type 4 (frequency response), on even frequencies
-/// when the response has them, whose exact start and step stand in the fourth line (others keep six
-/// digits, as the format has it). Behind it, where they are known, functions between the same
-/// degrees of freedom: one of type 6 (coherence) and one of type 0 (standard deviation).
+/// Functions for programs of modal analysis. The first is a function of type 4 (frequency
+/// response); when the frequencies are uniform, its fourth line contains their exact start and step
+/// (the format itself keeps six digits). After it follow, when they are known, functions between
+/// the same degrees of freedom: type 6 (coherence) and type 0 (standard deviation).
 std::vector<Uff58Function> uff58_of(const FrequencyResponse& response, const std::string& name);
 
-/// Which values of a file are its response, and what they are in.
+/// Which values of a file are the response, and their unit.
 struct ResponseChoice {
-  /// NAME[unit]*FACTOR[unit]..., as parse_scaled_name takes it, all of it optional: "H[mN mm/g]",
-  /// "[uT/g]*0.18[N m/T]", "3" for the third function of a Universal File.
+  /// NAME[unit]*FACTOR[unit]..., in the form of parse_scaled_name; each part is optional: "H[mN
+  /// mm/g]", "[uT/g]*0.18[N m/T]", "3" for the third function of a Universal File.
   std::string as{};
 };
 
-/// Reads a frequency response from what modal analysis and this program write. Universal Files: a
-/// complex function of type 4, by its number or first line where there are several, in the units
-/// that the file says, and what stands behind it as write_response() puts it. Every other format:
-/// columns frequency_hz (or frequency, freq, f) and NAME with real and imaginary part as NAME_real
-/// and NAME_imaginary (a complex array of a .mat is both) or, for one response, real and imaginary,
-/// or magnitude... and phase_deg (or phase_rad); standard_deviation... and coherence where they
-/// are. NAME is response, frf, H, or as given. Lines at zero frequency, or at that of the line
-/// before, are left out. Throws UserError for what is missing (lists what there is), frequencies
-/// that fall, units that are no moment per acceleration, and what opening the file throws. Proven
-/// by tests/signals/formats/response_reader_test.cc and tests/apps/exchange.py.
+/// Reads a frequency response that a modal analysis program or this program wrote. Universal File:
+/// a complex function of type 4 in the units of the file, selected by its number or first line when
+/// there are several; coherence and standard deviation as write_response() stores them. Other
+/// formats: columns frequency_hz (or frequency, freq, f) and NAME with real and imaginary part as
+/// NAME_real and NAME_imaginary (a complex array of a .mat is both) or, for one response, real and
+/// imaginary, or magnitude... and phase_deg (or phase_rad); and optionally standard_deviation...
+/// and coherence. NAME is response, frf, H, or the given name. Lines at 0 Hz, or at the frequency
+/// of the previous line, are ignored. Throws UserError for missing columns or functions (lists the
+/// available ones), decreasing frequencies, units that are not a moment per acceleration, and what
+/// opening the file throws. Proven by tests/signals/formats/response_reader_test.cc and
+/// tests/apps/exchange.py.
 FrequencyResponse read_response(const std::filesystem::path& file,
                                 const ResponseChoice& choice = {});
 
-/// Known by the end of its name: .uff, .unv, .uf58 as above; .mat as frequency_hz, response
-/// (complex), convention and, where they are known, coherence and standard_deviation; .csv as
-/// response_real and response_imaginary, behind a line that starts with # and states the
-/// convention. Throws UserError for any other end, which lists these. Proven by
-/// tests/signals/formats/response_file_test.cc and tests/apps/exchange.py.
+/// Writes a frequency response in the format of the file's ending: .uff, .unv, .uf58 with
+/// uff58_of(); .mat with frequency_hz, response (complex), convention and, when they are known,
+/// coherence and standard_deviation; .csv with response_real and response_imaginary, after a
+/// comment line that states the convention. Throws UserError for any other ending (lists these).
+/// Proven by tests/signals/formats/response_file_test.cc and tests/apps/exchange.py.
 void write_response(const std::filesystem::path& file, const FrequencyResponse& response,
                     const std::string& name);
 

@@ -29,8 +29,8 @@ ScaledName scaled_name(const ResponseChoice& choice) {
     return parse_scaled_name(choice.as, moment_per_acceleration);
   } catch (const UnitError& error) {
     throw UserError("response '" + choice.as + "': " + error.what() +
-                    ". A response is a moment per acceleration; a factor can bring its own unit, "
-                    "as in '[uT/g]*0.18[N m/T]'");
+                    ". The unit of a response is moment per acceleration; a factor may have a "
+                    "unit, as in '[uT/g]*0.18[N m/T]'");
   } catch (const UserError& error) {
     throw UserError("response '" + choice.as + "': " + error.what());
   }
@@ -66,7 +66,7 @@ class Columns {
     return table_.read({wanted, 1, table_.n_rows()}).columns.front();
   }
   [[noreturn]] void refuse(const std::string& what) const {
-    throw UserError(table_.place(0) + what + "; the file has: " + listed(table_.columns()));
+    throw UserError(table_.place(0) + what + "; columns of the file: " + listed(table_.columns()));
   }
 
  private:
@@ -76,7 +76,7 @@ class Columns {
 Values frequencies(const Columns& columns) {
   for (const char* const name : {"frequency_hz", "frequency", "freq", "f"})
     if (const auto column = columns.find(name)) return columns.values(*column);
-  columns.refuse("no column of frequencies (frequency_hz, frequency, freq or f)");
+  columns.refuse("no frequency column (frequency_hz, frequency, freq or f)");
 }
 
 using Complex = std::vector<std::complex<double>>;
@@ -119,8 +119,8 @@ Complex responses(const Columns& columns, const std::string& name) {
     if (auto value = by_parts(columns, "real", "imaginary")) return *value;
     if (auto value = by_magnitude(columns)) return *value;
     columns.refuse(
-        "no response (response_real and response_imaginary, real and imaginary, or magnitude or "
-        "magnitude_dB and phase_deg)");
+        "no response columns (response_real and response_imaginary, real and imaginary, or "
+        "magnitude or magnitude_dB and phase_deg)");
   }
   columns.refuse("no columns '" + name + "_real' and '" + name + "_imaginary'");
 }
@@ -159,32 +159,33 @@ std::string numbered_titles(const std::vector<Uff58Function>& functions, const P
   return text;
 }
 
-/// The place of the response of that number, counted among responses, or first line.
+/// Index of the response with this number (counted among responses) or first line.
 std::size_t chosen(const std::vector<Uff58Function>& functions, const std::string& name,
                    const std::string& file) {
   const Places places = responses_in(functions);
   if (places.empty())
-    throw UserError(file + ": holds no complex frequency response (function of type 4)");
+    throw UserError(file + ": contains no complex frequency response (function of type 4)");
   if (name.empty() && places.size() == 1) return places.front();
-  const std::string known = ": holds the responses " + numbered_titles(functions, places) +
-                            "; choose one by its number or first line";
-  if (name.empty()) throw UserError(file + known);
+  const std::string known = "the file contains the responses " +
+                            numbered_titles(functions, places) +
+                            "; choose one by its number or its first line";
+  if (name.empty()) throw UserError(file + ": " + known);
   if (const auto number = to_number(name)) {
     const auto n = static_cast<double>(places.size());
     if (!(*number >= 1. && *number <= n && *number == std::floor(*number)))
-      throw UserError(file + ": has no response " + name + known.substr(1));
+      throw UserError(file + ": has no response " + name + "; " + known);
     return places[static_cast<std::size_t>(*number) - 1];
   }
   for (const std::size_t place : places)
     if (functions[place].id_lines[0] == name) return place;
-  throw UserError(file + ": has no response '" + name + "'" + known.substr(1));
+  throw UserError(file + ": has no response '" + name + "'; " + known);
 }
 
 bool is_told(const std::string& unit) {
   return !unit.empty() && unit != "NONE";
 }
 
-/// What the file's own units take to become moments per acceleration.
+/// Factor from the units of the file to moment per acceleration.
 double scale_of(const Uff58Function& function, const std::string& file) {
   const std::string &above = function.ordinate_axis.unit, &below = function.denominator_axis.unit;
   if (!is_told(above) || !is_told(below)) return 1.;
@@ -192,7 +193,7 @@ double scale_of(const Uff58Function& function, const std::string& file) {
     return convert_unit(above, "N m").scale / convert_unit(below, "m/s2").scale;
   } catch (const UnitError& error) {
     throw UserError(file + ": the response is in " + above + " per " + below + ": " + error.what() +
-                    ". Say what it takes, as in '[uT/g]*0.18[N m/T]'");
+                    ". Give the conversion factor, as in '[uT/g]*0.18[N m/T]'");
   }
 }
 
@@ -213,8 +214,8 @@ bool is_beside(const Uff58Function& a, const Uff58Function& b) {
          a.reference_node == b.reference_node && a.reference_direction == b.reference_direction;
 }
 
-/// Values of the first function of that kind between the same degrees of freedom, rather behind the
-/// response than before it.
+/// Values of the first function of that type between the same degrees of freedom, searched first
+/// after the response, then before it.
 std::vector<double> beside(const std::vector<Uff58Function>& functions, const std::size_t response,
                            const std::function<bool(const Uff58Function&)>& is_wanted) {
   for (std::size_t i = 1; i < functions.size(); ++i) {
@@ -249,11 +250,12 @@ void check_frequencies(const Values& frequency_hz, const std::string& file) {
     if (!(frequency_hz[i] >= 0.) || !std::isfinite(frequency_hz[i]) ||
         (i > 0 && frequency_hz[i] < frequency_hz[i - 1]))
       throw UserError(file + ": frequency " + std::to_string(i + 1) + " (" +
-                      std::to_string(frequency_hz[i]) +
-                      " Hz) is negative, not finite or below the one before");
+                      to_text(frequency_hz[i]) +
+                      " Hz) is negative, not finite or below the frequency before it");
 }
 
-// Two lines may fall together: a Universal File has six digits of uneven frequencies.
+// Two lines may have the same frequency: a Universal File keeps six digits of non-uniform
+// frequencies.
 FrequencyResponse rising_lines(const FrequencyResponse& response) {
   FrequencyResponse lines;
   for (std::size_t i = 0; i < response.value.size(); ++i) {
@@ -278,9 +280,9 @@ FrequencyResponse read_response(const std::filesystem::path& file, const Respons
   check_frequencies(response.frequency_hz, file.string());
   FrequencyResponse lines = rising_lines(response);
   if (lines.value.empty())
-    throw UserError(file.string() +
-                    ": holds no line of a frequency response above zero frequency; write at least "
-                    "one");
+    throw UserError(
+        file.string() +
+        ": contains no line of a frequency response above 0 Hz; at least one line is needed");
   return lines;
 }
 

@@ -21,8 +21,8 @@ FileBytes open_bytes(const std::filesystem::path& file) {
 constexpr std::size_t everything = std::numeric_limits<std::size_t>::max();
 constexpr const char* blanks = " \t\r\n";
 
-// Where the field that starts at `at` ends: its comma, or the end of the line. Quotes hide commas
-// only in a field that starts with one.
+// End of the field that starts at `at`: its comma, or the end of the line. Only a field that starts
+// with a quote may contain commas.
 std::size_t field_end(const std::string_view line, const std::size_t at) {
   const auto start = line.find_first_not_of(" \t", at);
   if (start == std::string_view::npos || line[start] != '"')
@@ -108,7 +108,7 @@ bool CsvFile::is_blank_from(const std::size_t start) const {
   return true;
 }
 
-// Blank lines at the end are none.
+// Ignores blank lines at the end.
 void CsvFile::find_end() {
   LineReader lines(bytes_, first_row_at_, everything);
   std::size_t n_lines = 0;
@@ -134,10 +134,11 @@ void CsvFile::read_names(const std::string_view line) {
     if (columns_.size() == 1 && trimmed(line).find(separator) != std::string_view::npos)
       throw UserError(place(line_of_names_) + "the columns are separated by " +
                       (separator == ';' ? "semicolons" : "tabs") +
-                      "; write them with commas, and numbers with points");
+                      "; separate them by commas, and write numbers with a decimal point");
   if (holds_numbers(line))
-    throw UserError(place(line_of_names_) +
-                    "the first line holds numbers; put a line with column names before");
+    throw UserError(
+        place(line_of_names_) +
+        "the first line contains numbers; insert a line with the column names before it");
   for (std::size_t i = 0; i < columns_.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (columns_[i] == columns_[j] && !columns_[i].empty())
@@ -164,7 +165,7 @@ void CsvFile::for_each_row(const std::size_t first, const std::size_t count,
   std::string_view line;
   const auto go_on = [&](const std::size_t row) {
     if (!lines.next(line))
-      throw UserError(place(line_of(row)) + "the file ended while it was read");
+      throw UserError(place(line_of(row)) + "the file ended unexpectedly while it was read");
   };
   for (std::size_t row = from.row; row < first; ++row) go_on(row);
   std::vector<std::string_view> fields;
@@ -179,9 +180,9 @@ void CsvFile::for_each_row(const std::size_t first, const std::size_t count,
 }
 
 void CsvFile::refuse_row(const std::size_t line, const std::size_t n_fields) const {
-  if (n_fields == 0) throw UserError(place(line) + "a blank line among the data; remove it");
+  if (n_fields == 0) throw UserError(place(line) + "blank line between the data; remove it");
   throw UserError(place(line) + std::to_string(n_fields) + (n_fields == 1 ? " field" : " fields") +
-                  " where the first line names " + std::to_string(columns_.size()) +
+                  ", but the first line names " + std::to_string(columns_.size()) +
                   (columns_.size() == 1 ? " column" : " columns"));
 }
 

@@ -12,32 +12,35 @@
 
 namespace vibrissa::signals {
 
-/// A comma-separated text file: column names in its first line, then one row a line. Lines that
-/// start with # before them are comments; where numbers follow, the last of these with as many
-/// fields holds the names. Takes Unix and Windows line ends, a UTF-8 byte order mark, blank lines
-/// at the end, spaces around fields and fields in quotes (which may hold commas, not line breaks).
-/// What the fields mean is not its affair, so text in a column that nobody reads does no harm. The
-/// file is not held in memory but read again for each visit. Not for use by several threads at a
-/// time. Proven by tests/signals/formats/csv_file_test.cc.
+/// A comma-separated text file: column names in the first line, then one row in each line. Lines
+/// that start with # before the names are comments; when numbers follow the comments directly, the
+/// last comment with the same number of fields contains the names. The reader accepts Unix and
+/// Windows line ends, a UTF-8 byte order mark, blank lines at the end, spaces around fields, and
+/// fields in quotes (which may contain commas, but no line breaks). It does not interpret the
+/// fields, so text in an unused column is allowed. The file is not kept in memory; each visit reads
+/// it again. Only one thread may use an object at a time. Proven by
+/// tests/signals/formats/csv_file_test.cc.
 class CsvFile {
  public:
-  /// One row: its line in the file, counted from 1, and one field a column; valid during the call.
+  /// Receives one row: its line in the file, counted from 1, and one field for each column; valid
+  /// during the call.
   using RowReader = std::function<void(std::size_t line, std::span<const std::string_view> fields)>;
 
-  /// Throws UserError for a file that cannot be read or is empty, a first line that holds numbers
-  /// or other separators, a name that is repeated.
+  /// Throws UserError for a file that cannot be read or is empty, a first line with numbers or
+  /// other separators, and a repeated name.
   explicit CsvFile(const std::filesystem::path& file);
 
   const std::vector<std::string>& columns() const { return columns_; }
   std::size_t n_rows() const { return n_rows_; }
-  /// The line that row is in, both counted from 1; of row 0 that with the names.
+  /// The line of a row, both counted from 1; row 0 is the line with the names.
   std::size_t line_of(std::size_t row) const { return line_of_names_ + row; }
   bool has(const std::string& column) const;
-  /// Throws UserError that lists the columns there are.
+  /// Throws UserError that lists the available columns.
   std::size_t index_of(const std::string& column) const;
 
-  /// Visits rows first ... first + count - 1, counted from 1; others are not looked at. Throws
-  /// UserError with file and line for a row whose number of fields is not the number of columns.
+  /// Visits the rows first ... first + count - 1, counted from 1, and checks only them. Throws
+  /// UserError with file and line for a row whose number of fields differs from the number of
+  /// columns.
   void for_each_row(std::size_t first, std::size_t count, const RowReader& read) const;
 
   /// "<file>:<line>: ", the start of a message about that line; the first line is line 1.
@@ -57,8 +60,8 @@ class CsvFile {
   std::string name_;
   FileBytes bytes_;
   std::size_t line_of_names_ = 1, first_row_at_ = 0, n_rows_ = 0;
-  std::size_t end_ = 0;  // behind the last row
-  /// Where the last visit ended, so that one part after the other is not searched for anew.
+  std::size_t end_ = 0;  // end of the last row
+  /// End of the last visit, so that consecutive parts need no new search.
   mutable Place last_;
   std::vector<std::string> columns_;
 };

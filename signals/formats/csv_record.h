@@ -9,12 +9,12 @@
 
 namespace vibrissa::signals::formats {
 
-/// time_s and every channel, numbers in the shortest form that reads back to the same double.
+/// Writes time_s and every channel, with the shortest texts that read back to the same double.
 /// Proven by tests/signals/files/record_io_test.cc.
 void write_csv(const std::filesystem::path& file, const Record& record);
 
-/// The same piece by piece: the names, then the rows of one block after the other, whose first
-/// sample is number first_sample of the whole record.
+/// The same block by block: first the names, then the rows of each block; first_sample is the
+/// number of its first sample in the whole record.
 void write_csv_header(std::ostream& out, const Record& block);
 void write_csv_rows(std::ostream& out, const Record& block, const TimeAxis& axis,
                     std::size_t first_sample);

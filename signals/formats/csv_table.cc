@@ -27,7 +27,7 @@ ColumnValues CsvTable::read(const ColumnRange& range) const {
       if (!number)
         throw UserError(
             file_.place(line) + "column '" + file_.columns()[range.columns[c]] + "': " +
-            (field.empty() ? "the field is empty" : "'" + shortened(field) + "' is no number"));
+            (field.empty() ? "the field is empty" : "'" + shortened(field) + "' is not a number"));
       values.columns[c][i] = *number;
     }
     if (range.time_column) values.time_digits.see(fields[*range.time_column]);

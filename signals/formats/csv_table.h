@@ -5,7 +5,7 @@
 
 namespace vibrissa::signals::formats {
 
-/// A CSV file as a table: fields become numbers when they are read. Proven by
+/// A CSV file as a table: fields are converted to numbers when they are read. Proven by
 /// tests/signals/files/record_io_test.cc.
 class CsvTable : public RecordTable {
  public:

@@ -17,8 +17,9 @@ std::vector<NumericColumn> all_columns(const Hdf5Reader& file, const std::string
   std::size_t n_numbers = 0;
   for (const Hdf5Reader::Array& array : file.arrays()) {
     if (array.size() > most_numbers - n_numbers)
-      throw UserError(name + ": '" + array.path + "' claims " + std::to_string(array.size()) +
-                      " numbers; at most " + std::to_string(most_numbers) + " are read of a file");
+      throw UserError(name + ": '" + array.path + "' declares " + std::to_string(array.size()) +
+                      " numbers; at most " + std::to_string(most_numbers) +
+                      " are read from one file");
     n_numbers += array.size();
     if (array.size() == 0) continue;
     for (NumericColumn& column :

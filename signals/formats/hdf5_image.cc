@@ -14,7 +14,7 @@ namespace vibrissa::signals {
 
 namespace {
 
-/// What the library calls a handle, given back at the end.
+/// A handle of the library, closed at the end of its lifetime.
 class Handle {
  public:
   Handle(const hid_t id, herr_t (*const close)(hid_t), const std::string& what)
@@ -38,7 +38,7 @@ void require(const herr_t status, const std::string& what) {
   if (status < 0) throw std::runtime_error("HDF5 cannot " + what);
 }
 
-/// Its own account of errors on the terminal is of no use to anyone who has an exception.
+/// Turns off the error output of the library on the terminal: exceptions replace it.
 void silence_library() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -58,9 +58,9 @@ Handle create_file() {
 Handle open_file(const std::string& image) {
   silence_library();
   const Handle access = in_memory();
-  // The library copies the image, though it asks for one that it could change.
+  // The library copies the image, although its parameter is not const.
   require(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()),
-          "take over a file");
+          "open a file in memory");
   return {H5Fopen("in memory", H5F_ACC_RDONLY, access), H5Fclose, "read it: the file is damaged"};
 }
 
@@ -125,10 +125,10 @@ void Hdf5Writer::describe(const std::string& attribute, const std::string& text)
 std::string Hdf5Writer::image() {
   require(H5Fflush(file_->handle, H5F_SCOPE_GLOBAL), "finish a file");
   const ssize_t size = H5Fget_file_image(file_->handle, nullptr, 0);
-  if (size <= 0) throw std::runtime_error("HDF5 cannot give a file's image");
+  if (size <= 0) throw std::runtime_error("HDF5 cannot copy the bytes of a file");
   std::string image(static_cast<std::size_t>(size), '\0');
   if (H5Fget_file_image(file_->handle, image.data(), image.size()) != size)
-    throw std::runtime_error("HDF5 cannot give a file's image");
+    throw std::runtime_error("HDF5 cannot copy the bytes of a file");
   return image;
 }
 
@@ -193,7 +193,7 @@ std::size_t product(const std::span<const Number> lengths) {
   return n;
 }
 
-/// Numbers in a chunk of a set whose creation this list tells.
+/// Number of values in a chunk of a data set, from its creation property list.
 std::size_t chunk_size(const hid_t list) {
   std::array<hsize_t, H5S_MAX_RANK> chunk{};
   const int rank = H5Pget_chunk(list, static_cast<int>(chunk.size()), chunk.data());
@@ -201,26 +201,27 @@ std::size_t chunk_size(const hid_t list) {
       std::span<const hsize_t>(chunk).first(static_cast<std::size_t>(std::max(rank, 0))));
 }
 
-/// Are there bytes for what a set of n numbers, or one of its chunks, claims to hold? What was
-/// never written is a fill value, in moderation.
+/// Checks that the file has enough bytes for the declared n numbers of a data set, or for one of
+/// its chunks. A limited amount of unwritten data (fill values) is allowed.
 void check_stored(const hid_t set, const std::size_t number_size, const std::size_t n,
                   const std::string& path) {
   constexpr std::size_t most_unwritten = 1u << 20, longest_number = 16;
   if (number_size == 0 || number_size > longest_number)
-    throw std::runtime_error("'" + path + "' claims numbers of " + std::to_string(number_size) +
+    throw std::runtime_error("'" + path + "' declares numbers of " + std::to_string(number_size) +
                              " bytes");
   const std::size_t stored = H5Dget_storage_size(set);
   const Handle list(H5Dget_create_plist(set), H5Pclose, "read the layout of '" + path + "'");
   const H5D_layout_t layout = H5Pget_layout(list);
   const std::size_t claimed = layout == H5D_CHUNKED ? std::max(n, chunk_size(list)) : n;
-  // The library reads beyond a set that is not as long as its shape. Only a compact one, which lies
-  // in its own header, is there before anything is written.
+  // The library would read beyond a data set that is shorter than its shape. Only a compact data
+  // set, which is stored in its header, exists before it is written.
   const bool is_written = stored != 0 || layout == H5D_COMPACT;
   const bool is_cut = layout != H5D_CHUNKED && is_written && stored / number_size < n;
-  const bool is_hollow = claimed > most_unwritten && claimed / most_swollen > stored / number_size;
+  const bool is_hollow =
+      claimed > most_unwritten && claimed / largest_expansion > stored / number_size;
   if (is_cut || is_hollow)
-    throw std::runtime_error("'" + path + "' claims " + std::to_string(claimed) + " numbers in " +
-                             std::to_string(stored) + " bytes");
+    throw std::runtime_error("'" + path + "' declares " + std::to_string(claimed) +
+                             " numbers, but has only " + std::to_string(stored) + " bytes");
 }
 
 }  // namespace

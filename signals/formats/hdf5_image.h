@@ -7,19 +7,19 @@
 
 namespace vibrissa::signals {
 
-/// An HDF5 file in memory, of arrays of doubles and texts under paths such as "vectors/velocity";
-/// any HDF5 tool reads it. Proven by tests/fem/motion/checkpoint_test.cc and
-/// tests/apps/exchange.py.
+/// Writes an HDF5 file in memory, with arrays of doubles and texts at paths such as
+/// "vectors/velocity". Every HDF5 tool can read it. Proven by tests/fem/motion/checkpoint_test.cc
+/// and tests/apps/exchange.py.
 class Hdf5Writer {
  public:
   Hdf5Writer();
   ~Hdf5Writer();
   void add(const std::string& path, std::span<const double> values);
   void add(const std::string& path, const std::string& text);
-  /// A text that belongs to the whole file.
+  /// Adds a text that describes the whole file.
   void describe(const std::string& attribute, const std::string& text);
-  /// The whole file. It may stand behind a block of 512 bytes of the writer's own: HDF5 looks for
-  /// its beginning there, too.
+  /// Bytes of the whole file. A block of 512 other bytes may precede them: HDF5 also searches for
+  /// the start there.
   std::string image();
 
  private:
@@ -27,16 +27,16 @@ class Hdf5Writer {
   std::unique_ptr<File> file_;
 };
 
-/// Reads such an image. Throws std::runtime_error that names the path when it is not there, has
-/// another kind, or the image is damaged.
+/// Reads an HDF5 file in memory. Throws std::runtime_error with the path when it does not exist,
+/// has another type, or the file is damaged.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::string& image);
   ~Hdf5Reader();
   std::vector<double> numbers(const std::string& path) const;
   std::string text(const std::string& path) const;
-  bool has(const std::string& path) const;  // at the top
-  /// What a group holds, in alphabetical order.
+  bool has(const std::string& path) const;  // at the top level
+  /// Names of the members of a group, in alphabetical order.
   std::vector<std::string> names(const std::string& group) const;
 
   /// An array of real numbers anywhere in the file.
@@ -46,7 +46,7 @@ class Hdf5Reader {
     bool single_precision = false;
     std::size_t size() const;  // saturates
   };
-  /// All of them, in alphabetical order of their paths; other kinds are left out.
+  /// All arrays of real numbers, in alphabetical order of their paths.
   std::vector<Array> arrays() const;
 
  private:

@@ -73,7 +73,7 @@ bool is_array(const matvar_t& variable) {
   return variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64;
 }
 
-// A complex array is its two parts.
+// A complex array gives two real arrays.
 std::vector<NamedArray> arrays_of(const matvar_t& variable, const std::string& name) {
   const std::vector<std::size_t> shape(variable.dims, variable.dims + variable.rank);
   const bool is_single = variable.class_type == MAT_C_SINGLE;
@@ -87,7 +87,7 @@ std::vector<NamedArray> arrays_of(const matvar_t& variable, const std::string& n
 void add_columns(const matvar_t& variable, const std::string& name,
                  std::vector<NumericColumn>& columns) {
   if (variable.class_type == MAT_C_STRUCT && n_values(variable) == 1) {
-    // matio's own signature takes no const.
+    // The function of matio takes no const pointer.
     auto& fields = const_cast<matvar_t&>(variable);
     const unsigned n_fields = Mat_VarGetNumberOfFields(&fields);
     char* const* const names = Mat_VarGetStructFieldnames(&variable);
@@ -102,7 +102,7 @@ void add_columns(const matvar_t& variable, const std::string& name,
     for (NumericColumn& column : columns_of(std::move(array))) columns.push_back(std::move(column));
 }
 
-// What a variable with all its fields claims to hold.
+// Declared number of values of a variable with all its fields.
 std::size_t claimed(const matvar_t& variable) {
   std::size_t n = n_values(variable);
   if (variable.class_type != MAT_C_STRUCT || n != 1) return n;
@@ -116,26 +116,28 @@ std::size_t claimed(const matvar_t& variable) {
 }
 
 void check_claims(mat_t* const file, const std::size_t n_bytes, const std::string& name) {
-  // A number has a byte at least.
-  const std::size_t most = std::min(most_numbers, most_swollen * n_bytes);
+  // A number has at least one byte.
+  const std::size_t most = std::min(most_numbers, largest_expansion * n_bytes);
   std::size_t left = most;
   while (const Variable variable{Mat_VarReadNextInfo(file)}) {
     const std::size_t n = claimed(*variable);
     if (n > left)
-      throw UserError(name + ": variable '" + (variable->name ? variable->name : "") + "' claims " +
-                      std::to_string(n) + " numbers; at most " + std::to_string(most) +
-                      " are read of a file of this size");
+      throw UserError(name + ": variable '" + (variable->name ? variable->name : "") +
+                      "' declares " + std::to_string(n) + " numbers; at most " +
+                      std::to_string(most) + " are read from a file of this size");
     left -= n;
   }
 }
 
-// matio writes by name only: into a folder of its own first.
+// matio can write only to a file name: a temporary folder is used first.
 class ScratchFile {
  public:
   ScratchFile() {
     std::string name = (std::filesystem::temp_directory_path() / "vibrissa-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
-      throw ResourceError(name + ": no folder for unfinished files can be made");
+      throw ResourceError(
+          name +
+          ": this temporary folder cannot be created; set TMPDIR to a folder that can be written");
     folder_ = name;
   }
   ~ScratchFile() {
@@ -167,8 +169,8 @@ std::optional<MatHeader> header_of(const std::string& bytes) {
   return MatHeader{number_at<std::uint16_t>(&bytes[version_at], order), order};
 }
 
-// The elements of a version 5 file fill it to its last byte; matio takes what is left of one that
-// was cut, and does not notice a full disk.
+// The elements of a version 5 file fill it to its last byte; matio reads a truncated file without
+// an error, and does not notice a full disk.
 void check_is_whole(const std::string& bytes, const std::string& name) {
   constexpr std::size_t tag = 8;
   const auto header = header_of(bytes);
@@ -177,11 +179,11 @@ void check_is_whole(const std::string& bytes, const std::string& name) {
   while (at + tag <= bytes.size())
     at += tag + number_at<std::uint32_t>(&bytes[at + 4], header->order);
   if (at != bytes.size())
-    throw UserError(name + ": is damaged: its variables do not end where the file does");
+    throw UserError(name + ": is damaged: its last variable does not end at the end of the file");
 }
 
-// matio asks for what the headers of a version 4 file claim before it sees that the file is
-// shorter.
+// matio allocates the size that the headers of a version 4 file declare before it notices that the
+// file is shorter.
 void check_version_4(const std::string& bytes, const std::string& name) {
   constexpr std::size_t header = 20;
   constexpr std::uint32_t largest_type = 4052;
@@ -235,7 +237,7 @@ void put(mat_t* const file, const std::string& name, const Variable& variable) {
     throw InternalError("'" + name + "' cannot be written as a MATLAB variable");
 }
 
-// matio only reads what it is given here, though it does not say so.
+// matio only reads this data, although its parameter is not const.
 void* readable(const void* const data) {
   return const_cast<void*>(data);
 }
@@ -268,13 +270,15 @@ void add(mat_t* const file, const std::string& name, const std::string& text) {
                              readable(text.data()), MAT_F_DONT_COPY_DATA)));
 }
 
-/// Makes the file aside, checks that it is whole and holds at least what fill says it wrote.
+/// Writes a temporary file, and checks that it is complete and has at least the size that `fill`
+/// returns.
 void write_aside(const std::filesystem::path& file, const bool is_v5,
                  const std::function<std::size_t(mat_t*)>& fill) {
   const ScratchFile scratch;
   std::size_t least_bytes = 0;
   {
-    // A header of its own, because matio's holds the time of day: equal records give equal files.
+    // Own header, because the default header of matio contains the time: equal records must give
+    // equal files.
     const char* const header = is_v5 ? "MATLAB 5.0 MAT-file, written by vibrissa"
                                      : "MATLAB 7.3 MAT-file, written by vibrissa";
     const MatFile made(
@@ -284,12 +288,11 @@ void write_aside(const std::filesystem::path& file, const bool is_v5,
   }
   const std::string bytes = read_bytes(scratch.name());
   check_is_whole(bytes, scratch.name());
-  // On a full disk matio may also leave out values and close the file as if there were no more.
+  // On a full disk matio may also omit values and close the file without an error.
   if (bytes.size() < least_bytes)
-    throw ResourceError(
-        scratch.name() + ": only " + std::to_string(bytes.size()) +
-        " bytes of a MATLAB file could be written; make room, or name a roomier folder "
-        "in TMPDIR");
+    throw ResourceError(scratch.name() + ": only " + std::to_string(bytes.size()) +
+                        " bytes of a MATLAB file could be written; free disk space, or set TMPDIR "
+                        "to a folder with more space");
   write_bytes(file, bytes);
 }
 

@@ -52,8 +52,8 @@ NumberType type_of(const std::string& text, const std::string& name) {
   std::smatch found;
   if (!std::regex_match(text, found, form) || found.str(2) + found.str(3) == "f1" ||
       found.str(2) + found.str(3) == "f2")
-    refuse(name, "holds numbers of type '" + text.substr(0, 20) +
-                     "'; columns are made of real numbers (f4, f8, i1 to i8, u1 to u8)");
+    refuse(name, "contains numbers of type '" + text.substr(0, 20) +
+                     "'; columns need real numbers (f4, f8, i1 to i8, u1 to u8)");
   const std::endian order = found.str(1) == ">"   ? std::endian::big
                             : found.str(1) == "<" ? std::endian::little
                                                   : std::endian::native;
@@ -105,13 +105,13 @@ std::vector<Field> fields_of(const std::string& text, const std::string& name) {
     fields.push_back({found->str(1), type_of(found->str(2), name)});
   const auto n_open = static_cast<std::size_t>(std::count(list.begin(), list.end(), '('));
   if (fields.empty() || fields.size() != n_open)
-    refuse(name, "its fields are not all single real numbers");
+    refuse(name, "each of its fields must be a single real number");
   return fields;
 }
 
 Header read_header(const std::string& bytes, const std::string& name) {
   if (!bytes.starts_with(magic) || bytes.size() < 12)
-    refuse(name, "is no NumPy array file (does not begin with \\x93NUMPY)");
+    refuse(name, "is not a NumPy array file (it does not begin with \\x93NUMPY)");
   const int version = bytes[6];
   const std::size_t length_bytes = version == 1 ? 2 : 4;
   std::size_t length = 0;
@@ -152,11 +152,11 @@ std::size_t checked_count(const Header& header, const std::size_t n_bytes,
   std::size_t count = 1;
   for (const std::size_t length : header.shape)
     if (__builtin_mul_overflow(count, length, &count) || count > most_numbers)
-      refuse(name, "claims more than the " + std::to_string(most_numbers) +
-                       " numbers that are read of a file");
+      refuse(name, "declares more than " + std::to_string(most_numbers) +
+                       " numbers, the most that are read from one file");
   if (count * header.row_size() != n_bytes)
-    refuse(name, "its header tells of " + std::to_string(count * header.row_size()) +
-                     " bytes, it has " + std::to_string(n_bytes));
+    refuse(name, "its header declares " + std::to_string(count * header.row_size()) +
+                     " bytes of data, but the file has " + std::to_string(n_bytes));
   return count;
 }
 

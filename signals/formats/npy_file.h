@@ -8,16 +8,17 @@
 
 namespace vibrissa::signals::formats {
 
-/// A NumPy array file (NEP 1, versions 1 to 3): a vector or matrix of reals, whose columns are
-/// column_1, column_2 and so on, or a vector of a structured type, whose fields are the columns.
-/// Throws UserError for another file, another type, and a size that is not the file's.
+/// Reads a NumPy array file (NEP 1, versions 1 to 3): a vector or matrix of real numbers with the
+/// columns column_1, column_2 and so on, or a vector of a structured type, whose fields are the
+/// columns. Throws UserError for another file type, another number type, and a declared size that
+/// differs from the size of the file.
 std::unique_ptr<RecordTable> read_npy(const std::filesystem::path& file);
-/// The same from its bytes; name stands for the file in messages.
+/// The same from the bytes of a file; name is the file name in messages.
 std::unique_ptr<RecordTable> parse_npy(const std::string& bytes, const std::string& name);
 
-/// A vector of a structured type: time_s and the channels, doubles to the last bit. Its format has
-/// no room for the clock, which is read from time_s.
-/// Proven by tests/signals/formats/round_trip_test.cc, tests/apps/exchange.py.
+/// Writes a vector of a structured type: time_s and the channels as doubles, without rounding. The
+/// format cannot store the sampling rate; it is read from time_s. Proven by
+/// tests/signals/formats/round_trip_test.cc, tests/apps/exchange.py.
 void write_npy(const std::filesystem::path& file, const Record& record);
 
 }  // namespace vibrissa::signals::formats

@@ -10,8 +10,8 @@ namespace vibrissa::signals::formats {
 static_assert(std::endian::native == std::endian::little ||
               std::endian::native == std::endian::big);
 
-/// The number whose bytes stand here in this order. Proven by tests/signals/formats, which read
-/// both orders.
+/// The number that is stored at this address in this byte order. Proven by tests/signals/formats,
+/// which read both orders.
 template <typename Number>
 Number number_at(const char* const from, const std::endian order) {
   std::array<char, sizeof(Number)> bytes;

@@ -53,12 +53,12 @@ NumericTable::NumericTable(std::string file, std::vector<NumericColumn> arrays,
     : file_(std::move(file)), clock_(clock ? clock : stated_clock(arrays)) {
   const std::size_t length = usual_length(arrays);
   if (length == 0)
-    throw UserError(file_ + ": holds no column of real numbers; a record is made of such columns");
+    throw UserError(file_ + ": contains no column of real numbers; a record needs such columns");
   std::set<std::string> known;
   for (NumericColumn& array : arrays) {
     if (array.values.size() != length) continue;
     if (!known.insert(array.name).second)
-      throw UserError(file_ + ": two columns have the name '" + array.name + "'");
+      throw UserError(file_ + ": two columns have the name '" + array.name + "'; rename one");
     names_.push_back(array.name);
     columns_.push_back(std::move(array));
   }

@@ -7,24 +7,24 @@
 
 namespace vibrissa::signals::formats {
 
-/// One column as binary formats hold it.
+/// One column of a binary format.
 struct NumericColumn {
   std::string name;
   std::vector<double> values;
-  bool single_precision = false;  // the file has 24 binary digits of each value
+  bool single_precision = false;  // the file stores values in single precision (24 bits)
 };
 
-/// Most numbers that a file may hold or claim: 1 GiB of doubles. What a damaged or hostile file
-/// says of its size is checked against it before memory is asked for.
+/// Largest number of values that a file may contain or declare: 1 GiB of doubles. The declared size
+/// of a damaged or hostile file is checked against it before memory is allocated.
 inline constexpr std::size_t most_numbers = std::size_t{1} << 27;
 
-/// Columns that are in memory. Proven by tests/signals/formats/numeric_table_test.cc.
+/// Table of columns in memory. Proven by tests/signals/formats/numeric_table_test.cc.
 class NumericTable : public RecordTable {
  public:
-  /// Arrays of one file are its columns when they are equally long. Of several lengths the one that
-  /// most arrays have is taken (the longer of two as frequent), the others are left out; a scalar
-  /// named sampling_rate_hz, fs, Fs or sample_rate is the clock's rate, start_s its start. Throws
-  /// UserError when nothing is left, or a name is repeated.
+  /// The columns are the arrays of the most frequent length (the longer one when two lengths are
+  /// equally frequent); other arrays are ignored. A scalar with the name sampling_rate_hz, fs, Fs
+  /// or sample_rate gives the sampling rate, start_s the start. Throws UserError when there is no
+  /// column, or a name is repeated.
   NumericTable(std::string file, std::vector<NumericColumn> arrays,
                std::optional<TimeAxis> clock = {});
 

@@ -7,7 +7,7 @@
 namespace vibrissa::signals::formats {
 
 std::vector<std::string> channels_in_writing_order(const Record& record) {
-  // The rarer known channels stand among the others: that is how files have been written.
+  // The less usual known channels are sorted among the others, as in existing files.
   const std::vector<std::string> leading = {channel::base_acceleration, channel::cross_acceleration,
                                             channel::wind_speed, channel::base_moment};
   std::vector<std::string> names;

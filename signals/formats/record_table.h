@@ -14,15 +14,16 @@ namespace vibrissa::signals::formats {
 struct ColumnRange {
   std::span<const std::size_t> columns;  // numbers in RecordTable::columns()
   std::size_t first_row = 1, n_rows = 0;
-  std::optional<std::size_t> time_column = {};  // the one of them whose digits are wanted
+  std::optional<std::size_t> time_column = {};  // the column whose printed digits are evaluated
 };
 
 struct ColumnValues {
-  std::vector<std::vector<double>> columns;  // as asked for; they may hold NaN and infinity
-  TimeDigits time_digits;                    // how finely the column of time is printed
+  std::vector<std::vector<double>>
+      columns;             // the requested columns; they may contain NaN and infinity
+  TimeDigits time_digits;  // resolution of the printed time column
 };
 
-/// Named columns of numbers, as a file gives them, whatever its format.
+/// Named columns of numbers of a file of any format.
 class RecordTable {
  public:
   virtual ~RecordTable() = default;
@@ -32,17 +33,17 @@ class RecordTable {
   /// Start of a message about a row, counted from 1, or (row 0) about the names of the columns:
   /// "<file>:<line>: " or "<file>: row 7: ".
   virtual std::string place(std::size_t row) const = 0;
-  /// How people find a row of the file: row r is "<word> <r + offset>".
+  /// How messages name a row of the file: row r is "<word> <r + offset>".
   struct RowNames {
     std::string word = "row";
     std::size_t offset = 0;
   };
   virtual RowNames row_names() const { return {}; }
-  /// The clock that the file states beside its columns.
+  /// The sampling rate and start that the file states in addition to its columns.
   virtual std::optional<TimeAxis> clock() const { return std::nullopt; }
-  /// Throws UserError with the place of what is no number.
+  /// Throws UserError with the place of a text that is not a number.
   virtual ColumnValues read(const ColumnRange& range) const = 0;
-  /// One value as the file spells it, for messages.
+  /// One value with the spelling of the file, for messages.
   virtual std::string text(std::size_t row, std::size_t column) const = 0;
 };
 

@@ -16,7 +16,7 @@ namespace vibrissa::signals {
 
 namespace {
 
-// A file in memory, so that reading and writing files stays in one place (file_bytes.h).
+// A file in memory; only file_bytes.h reads and writes files.
 struct MemoryFile {
   std::string bytes;
   sf_count_t position = 0;
@@ -69,17 +69,20 @@ using SoundFile = std::unique_ptr<SNDFILE, Closer>;
 
 void check_drive(const std::filesystem::path& file, const WavDrive& drive) {
   const std::string start = file.string() + ": ";
-  if (drive.samples.empty()) throw UserError(start + "a sound file needs a sample at least");
+  if (drive.samples.empty()) throw UserError(start + "a sound file needs at least one sample");
   const double rate = drive.sampling_rate_hz;
   if (!(rate >= 1. && rate <= 1e7) || rate != std::floor(rate))
-    throw UserError(start + "a sound file has a whole number of hertz as sampling rate, not " +
-                    to_text(rate) + "; choose such a rate");
+    throw UserError(start +
+                    "the sampling rate of a sound file must be a whole number of hertz, not " +
+                    to_text(rate));
   if (!(drive.full_scale > 0.) || !std::isfinite(drive.full_scale))
-    throw UserError(start + "full scale " + to_text(drive.full_scale) + " is not positive");
+    throw UserError(start + "full scale " + to_text(drive.full_scale) +
+                    " must be positive and finite");
   for (std::size_t i = 0; i < drive.samples.size(); ++i)
     if (!(std::abs(drive.samples[i]) <= drive.full_scale * (1. + 1e-12)))
-      throw UserError(start + "sample " + std::to_string(i) + ", " + to_text(drive.samples[i]) +
-                      ", is beyond the full scale of " + to_text(drive.full_scale));
+      throw UserError(start + "sample " + std::to_string(i) + " (" + to_text(drive.samples[i]) +
+                      ") exceeds the full scale of " + to_text(drive.full_scale) +
+                      "; raise the full scale");
 }
 
 std::string scale_text(const WavDrive& drive) {
@@ -98,7 +101,7 @@ std::string wav_bytes(const std::filesystem::path& file, const WavDrive& drive) 
                .seekable = 0};
   SoundFile sound(sf_open_virtual(&io, SFM_WRITE, &info, &target));
   if (!sound) throw InternalError(file.string() + ": " + sf_strerror(nullptr));
-  // The peak chunk holds the time of day: equal drives would give unequal files.
+  // The peak chunk contains the time: equal drives would give different files.
   sf_command(sound.get(), SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
   sf_command(sound.get(), SFC_SET_CLIPPING, nullptr, SF_TRUE);
   sf_set_string(sound.get(), SF_STR_COMMENT, scale_text(drive).c_str());
@@ -111,7 +114,7 @@ std::string wav_bytes(const std::filesystem::path& file, const WavDrive& drive) 
   return std::move(target.bytes);
 }
 
-// By blocks until nothing comes: the length that a damaged header states may be anything.
+// Reads blocks until the end, because the length in a damaged header may be wrong.
 std::vector<std::vector<double>> read_channels(SNDFILE* sound, std::size_t n_channels,
                                                const std::string& name) {
   constexpr std::size_t frames_a_block = 4096;
@@ -142,8 +145,8 @@ SoundFile open_sound(MemoryFile& source, SF_INFO& info) {
   return SoundFile(sf_open_virtual(&io, SFM_READ, &info, &source));
 }
 
-// libsndfile 1.2 can search for ever behind a chunk that claims to be longer than its surroundings.
-// Only the samples may be cut short, as they are when a recorder loses power.
+// libsndfile 1.2 can search without end after a chunk that declares more bytes than its parent has.
+// Only the samples may be truncated, as when a recorder loses power.
 void check_chunks(const std::string& bytes, std::size_t position, std::size_t end,
                   const std::string& name) {
   constexpr std::size_t header = 8, list_type = 4;
@@ -154,8 +157,8 @@ void check_chunks(const std::string& bytes, std::size_t position, std::size_t en
     if (size > end - first) {
       if (kind == "data") return;
       throw UserError(name + ": is damaged: the chunk at byte " + std::to_string(position) +
-                      " states " + std::to_string(size) + " bytes, " + std::to_string(end - first) +
-                      " are left");
+                      " declares " + std::to_string(size) + " bytes, but only " +
+                      std::to_string(end - first) + " are left");
     }
     if (kind == "LIST" && size >= list_type)
       check_chunks(bytes, first + list_type, first + size, name);
@@ -171,11 +174,11 @@ void write_wav(const std::filesystem::path& file, const WavDrive& drive) {
 }
 
 WavContent parse_wav(std::string bytes, const std::string& name) {
-  // libsndfile knows many containers; only this one is promised and tested.
+  // libsndfile reads many containers; only this one is documented and tested.
   if (bytes.size() < 12 || bytes.compare(0, 4, "RIFF") != 0 || bytes.compare(8, 4, "WAVE") != 0)
-    throw UserError(name + ": is no WAV file (does not begin with RIFF .. WAVE)");
+    throw UserError(name + ": is not a WAV file (it does not begin with RIFF .. WAVE)");
   check_chunks(bytes, 12, bytes.size(), name);
-  // libsndfile 1.2 can search for ever in lists of a kind that it does not know, too.
+  // libsndfile 1.2 can also search without end in lists of an unknown type.
   rehearse(name, bytes.size(), [&] {
     MemoryFile source{bytes};
     SF_INFO info{};
@@ -188,12 +191,13 @@ WavContent parse_wav(std::string bytes, const std::string& name) {
   constexpr int most_channels = 64;
   if (info.channels < 1 || info.channels > most_channels || info.samplerate < 1)
     throw UserError(name + ": has " + std::to_string(info.channels) + " channels at " +
-                    std::to_string(info.samplerate) + " Hz; needs 1 to 64 and a positive rate");
+                    std::to_string(info.samplerate) +
+                    " Hz; 1 to 64 channels and a positive sampling rate are needed");
   WavContent content{
       .sampling_rate_hz = static_cast<double>(info.samplerate),
       .channels = read_channels(sound.get(), static_cast<std::size_t>(info.channels), name),
       .comment = {}};
-  if (content.channels.front().empty()) throw UserError(name + ": holds no sample");
+  if (content.channels.front().empty()) throw UserError(name + ": contains no samples");
   if (const char* comment = sf_get_string(sound.get(), SF_STR_COMMENT)) content.comment = comment;
   return content;
 }

@@ -20,7 +20,7 @@ std::vector<double> base_velocity(const std::span<const double> acceleration_m_s
   const auto spectrum = fft.spectrum();
   for (std::size_t k = 0; k < spectrum.size(); ++k) {
     const double f = static_cast<double>(k) * sampling_rate_hz / static_cast<double>(n);
-    // The line at half the rate has no phase to be turned.
+    // The line at half the rate is real, so its phase cannot be shifted.
     const bool moves = f > slowest_base_motion_hz && 2 * k != n;
     spectrum[k] = moves ? spectrum[k] / std::complex<double>(0., 2. * std::numbers::pi * f) : 0.;
   }

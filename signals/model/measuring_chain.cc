@@ -35,7 +35,7 @@ class StructureLink : public Link {
         .wind_speed = channel_or_empty(record, channel::wind_speed)};
     if (input.base_acceleration.empty() && input.cross_acceleration.empty() &&
         input.wind_speed.empty())
-      throw UserError(name() + ": the record has nothing that moves the sensor; it needs " +
+      throw UserError(name() + ": the record has no input that moves the sensor; it needs " +
                       channel::base_acceleration + ", " + channel::cross_acceleration + " or " +
                       channel::wind_speed);
     ReducedOutput output = simulate_band_limited(model_, input);

@@ -11,17 +11,18 @@ namespace vibrissa::signals {
 /// for the scaled state Q = q / h^2, P = q' / h:
 ///   Q1 = Q + (qq Q + qp P + q_old f0 + q_new f1),  P1 = P + (pq Q + pp P + p_old f0 + p_new f1),
 ///   w^2 q + 2 zeta w q' = stiffness Q + damping P.
-/// Changes instead of new values, so that steps much shorter than a period lose no digits.
-/// Any zeta >= 0 and w h > 0; proven by tests/signals/model/oscillator_step_test.cc against closed
-/// forms.
+/// The equations give the changes instead of the new values, so that steps much shorter than a
+/// period keep all digits. Any zeta >= 0 and w h > 0; proven by
+/// tests/signals/model/oscillator_step_test.cc against closed forms.
 struct OscillatorStep {
   double qq, qp, pq, pp;
   double q_old, q_new, p_old, p_new;
   double stiffness, damping;  // (w h)^2, 2 zeta w h
 };
 
-/// From w h [rad] and zeta. The answers of the oscillator at rest to a ramp, a step and an impulse
-/// are summed as power series over a step so short that nothing cancels, then the step is doubled.
+/// From w h [rad] and zeta. The responses of the oscillator at rest to a ramp, a step and an
+/// impulse are power series over a step that is short enough to avoid cancellation; then the step
+/// is doubled repeatedly.
 inline OscillatorStep make_oscillator_step(double angle, double damping_ratio) {
   assert(angle > 0. && damping_ratio >= 0.);
   const double excess = std::max(0., damping_ratio * damping_ratio - 1.);
@@ -32,7 +33,7 @@ inline OscillatorStep make_oscillator_step(double angle, double damping_ratio) {
   double x = std::ldexp(angle, -n_doublings);
   double beta = 2. * damping_ratio * x;
 
-  // r'' + beta r' + x^2 r = t; its derivatives are the answers to a step and an impulse.
+  // r'' + beta r' + x^2 r = t; its derivatives are the responses to a step and an impulse.
   constexpr int n_terms = 24;
   std::array<double, n_terms> r{};
   double ramp = 0., step = 0., impulse = 0.;

@@ -21,7 +21,7 @@ double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// The model seen along the axial and the cross direction, each with the axis of its moment.
+/// The model in the axial and the cross direction, each with its moment axis.
 struct Plane {
   explicit Plane(const ReducedModel& model)
       : axial(model.axial_direction),
@@ -38,7 +38,7 @@ double rigid_moment(const ReducedModel& model, const Vector& axis, const Vector&
   return sum;
 }
 
-/// Where a speed falls in the wind table: between two rows, at a share of the way to the second.
+/// Position of a speed in the wind table: between two rows, at a fraction of the interval.
 struct WindSample {
   std::size_t row = 0, next_row = 0;
   double share = 0.;
@@ -64,8 +64,7 @@ double wind_moment(const WindLoad& wind, const WindSample& sample, const Vector&
   return (low + sample.share * (high - low)) * sample.square;
 }
 
-/// Eight modes side by side, so that the processor steps them at once. Lanes without a mode stay
-/// zero.
+/// Eight modes in parallel (SIMD). Lanes without a mode stay zero.
 constexpr std::size_t n_lanes = 8;
 using Lanes = Eigen::Array<double, n_lanes, 1>;
 
@@ -116,8 +115,7 @@ struct ModeBlock {
   }
 };
 
-/// Motion that has died away becomes zero: subnormal numbers would slow the processor a
-/// hundredfold.
+/// Decayed motion becomes zero: subnormal numbers are about a hundred times slower.
 void clear_negligible(Lanes& state) {
   constexpr double negligible = 1e-150;
   state = (state.abs() < negligible).select(0., state);
@@ -138,7 +136,7 @@ void add_modal_moment(const ModeBlock& modes, const ReducedInput& input,
       clear_negligible(p);
     }
     if (i > 0) {
-      // The forces come first, so that little lies between one state and the next.
+      // The forces are computed first, to shorten the dependency between two states.
       const Lanes q_forced = modes.q_old * old_force + modes.q_new * force;
       const Lanes p_forced = modes.p_old * old_force + modes.p_new * force;
       const Lanes q_change = modes.qq * q + (modes.qp * p + q_forced);
@@ -174,12 +172,13 @@ void add_static_moment(const ReducedModel& model, const ReducedInput& input,
   throw UserError("reduced model '" + model.name + "': " + what);
 }
 
-/// Empty in still air.
+/// Empty without wind.
 std::vector<WindSample> wind_samples(const ReducedModel& model, std::span<const double> speed_m_s) {
   if (std::ranges::all_of(speed_m_s, [](double u) { return u == 0.; })) return {};
   if (model.wind.speed_m_s.empty())
     refuse(model,
-           "the wind blows, but the model has no wind load; compute one or leave the wind out");
+           "the input has wind, but the model has no wind load; compute the model with a wind "
+           "load, or leave the wind out");
   std::vector<WindSample> samples;
   samples.reserve(speed_m_s.size());
   for (const double u : speed_m_s) samples.push_back(locate(model.wind, u));
@@ -240,7 +239,8 @@ std::vector<std::complex<double>> base_response(const ReducedModel& model,
 
 double steady_wind_moment(const ReducedModel& model, double speed_m_s) {
   check(model);
-  if (model.wind.speed_m_s.empty()) refuse(model, "has no wind load, so no steady wind moment");
+  if (model.wind.speed_m_s.empty())
+    refuse(model, "has no wind load, so it has no steady wind moment");
   return wind_moment(model.wind, locate(model.wind, speed_m_s), model.moment_axis());
 }
 

@@ -19,9 +19,9 @@ namespace vibrissa::signals {
 struct ReducedMode {
   double frequency_hz = 0.;
   double damping_ratio = 0.;
-  /// Gamma_d = phi^T M r_d, r_d the unit translation along d [kg^1/2].
+  /// Gamma_d = phi^T M r_d, r_d the unit translation along d [√kg].
   std::array<double, 3> participation{};
-  /// L_d = rot_d^T M phi, rot_d the unit rotation about axis d through the base centre [kg^1/2 m].
+  /// L_d = rot_d^T M phi, rot_d the unit rotation about axis d through the base centre [√kg·m].
   std::array<double, 3> moment_participation{};
 };
 
@@ -31,12 +31,12 @@ struct ReducedMode {
 /// constant.
 struct WindLoad {
   std::vector<double> speed_m_s;                          // ascending, may be negative
-  std::vector<std::vector<double>> modal_coefficient;     // [speed][mode], kg^1/2 / m
+  std::vector<std::vector<double>> modal_coefficient;     // [speed][mode], √kg/m
   std::vector<std::array<double, 3>> moment_coefficient;  // [speed], N m / (m/s)^2
 };
 
-/// Relative change of every figure of the model for a relative change of one physical parameter,
-/// d(figure)/figure per d(parameter)/parameter.
+/// Relative change of each property of the model for a relative change of one physical parameter,
+/// d(property)/property per d(parameter)/parameter.
 struct Sensitivity {
   std::string parameter;  // e.g. "silicone_modulus"
   double nominal_value = 0.;
@@ -69,8 +69,8 @@ struct ReducedModel {
   std::array<double, 3> moment_axis() const;
 };
 
-/// Throws UserError that names the entry when a figure is not finite or out of range, a list has
-/// the wrong length, the wind speeds do not ascend, or the axial direction is no unit vector in the
+/// Throws UserError that names the entry when a value is not finite or out of range, a list has the
+/// wrong length, the wind speeds do not ascend, or the axial direction is not a unit vector in the
 /// xy-plane.
 void check(const ReducedModel& model);
 
@@ -99,7 +99,8 @@ struct ReducedOutput {
 /// Proven by tests/signals/model/reduced_model_test.cc.
 ReducedOutput simulate(const ReducedModel& model, const ReducedInput& input);
 
-/// M / a (axial) at the given frequencies [N m s^2/m]; an undamped mode is infinite at its own.
+/// M / a (axial) at the given frequencies [N m s^2/m]; infinite at the frequency of an undamped
+/// mode.
 std::vector<std::complex<double>> base_response(const ReducedModel& model,
                                                 std::span<const double> frequency_hz);
 
@@ -107,10 +108,11 @@ std::vector<std::complex<double>> base_response(const ReducedModel& model,
 /// has no wind load.
 double steady_wind_moment(const ReducedModel& model, double speed_m_s);
 
-/// Schema "vibrissa-model-1": every figure with its unit in its key, reads back to identical bits.
+/// Schema "vibrissa-model-1": each key ends in the unit of its value; the file reads back to
+/// identical bits.
 nlohmann::json to_json(const ReducedModel& model);
-/// Throws UserError with the file and the entry (JSON pointer) that is missing or of the wrong
-/// kind, or with what check() says. Proven by tests/signals/model/reduced_model_json_test.cc.
+/// Throws UserError with the file and the entry (JSON pointer) when an entry is missing or has the
+/// wrong type, and what check() throws. Proven by tests/signals/model/reduced_model_json_test.cc.
 ReducedModel read_reduced_model(const std::filesystem::path& file);
 void write_reduced_model(const std::filesystem::path& file, const ReducedModel& model);
 

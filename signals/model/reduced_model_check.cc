@@ -15,7 +15,7 @@ namespace {
   throw UserError("reduced model '" + model.name + "': " + what);
 }
 
-/// Checks of one model; the entry's name is only put together when there is something to say.
+/// Checks of one model; the name of an entry is built only for an error.
 class Checker {
  public:
   explicit Checker(const ReducedModel& model) : model_(model) {}
@@ -76,8 +76,8 @@ void check_sensitivities(const ReducedModel& model, const Checker& checker) {
   const std::size_t n_modes = model.modes.size();
   for (std::size_t i = 0; i < model.sensitivities.size(); ++i) {
     const Sensitivity& entry = model.sensitivities[i];
-    const auto finite = [&](double value, const char* figure) {
-      checker.require(std::isfinite(value), value, "is not finite", "sensitivities", i, figure);
+    const auto finite = [&](double value, const char* entry_name) {
+      checker.require(std::isfinite(value), value, "is not finite", "sensitivities", i, entry_name);
     };
     finite(entry.nominal_value, ".nominal_value");
     finite(entry.static_base_moment, ".static_base_moment");

@@ -18,7 +18,7 @@ using nlohmann::json;
 }
 
 double number_of(const json& value, const std::string& where, const std::string& key) {
-  if (!value.is_number()) refuse(where, key, "is no number");
+  if (!value.is_number()) refuse(where, key, "must be a number");
   return value.get<double>();
 }
 
@@ -43,7 +43,7 @@ Stage stage_of(const json& value, const std::string& where) {
 }  // namespace
 
 BenchSetup read_bench_setup(const json& entry, const std::string& where) {
-  if (!entry.is_object()) throw UserError(where + ": is no object");
+  if (!entry.is_object()) throw UserError(where + ": must be an object");
   BenchSetup setup;
   for (const auto& [key, value] : entry.items()) {
     if (key == "added_mass_kg")

@@ -12,7 +12,7 @@
 namespace vibrissa::signals {
 namespace {
 
-// How the names of known channels end, and what UDUNITS calls that. Longer ends come first.
+// Endings of the names of known channels, and their units for UDUNITS. Longer endings come first.
 constexpr auto known_ends =
     std::to_array<std::pair<std::string_view, std::string_view>>({{"_m_s2", "m/s2"},
                                                                   {"_m_s", "m/s"},

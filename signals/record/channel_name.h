@@ -15,13 +15,13 @@ inline const std::string time_channel = "time_s";
 /// tests/signals/files/column_choice_test.cc.
 std::string full_channel_name(const std::string& name);
 
-/// The same for a name that a user gave. Throws UserError that lists the known channels.
+/// As full_channel_name, for a name from the user. Throws UserError that lists the known channels.
 std::string known_channel(const std::string& name);
 
-/// Unit of a known channel as UDUNITS reads it: "base_moment_N_m" -> "N m".
+/// Unit of a known channel in the spelling of UDUNITS: "base_moment_N_m" -> "N m".
 std::string unit_of_channel(const std::string& channel);
 
-/// Whether the name ends in a unit ("hall_mT"), as those of measured quantities do and the text or
+/// Whether the name ends in a unit ("hall_mT"). Names of measured quantities do; a text column or a
 /// counter of a logger does not.
 bool ends_with_unit(const std::string& name);
 

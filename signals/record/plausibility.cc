@@ -45,10 +45,10 @@ std::vector<std::string> implausible_magnitudes(const Record& record) {
   std::vector<std::string> remarks;
   constexpr double slowest_hz = 2., longest_s = 600.;
   if (record.sampling_rate_hz() < slowest_hz && record.duration_s() > longest_s)
-    remarks.push_back("its " + rounded(record.duration_s()) + " s at " +
+    remarks.push_back("the record would last " + rounded(record.duration_s()) + " s at " +
                       rounded(record.sampling_rate_hz()) +
-                      " Hz look like a time in ms: give the column its unit, as in --column "
-                      "'time=t[ms]'");
+                      " Hz, so its time is probably in ms: give the time column its unit, as in "
+                      "--column 'time=t[ms]'");
   for (const std::string& name : record.channel_names()) {
     const auto values = record.channel(name);
     if (name.ends_with("_m_s2")) check_acceleration(name, values, remarks);
@@ -57,10 +57,10 @@ std::vector<std::string> implausible_magnitudes(const Record& record) {
       remarks.push_back(name + " reaches " + rounded(peak) +
                         " m/s: give the column its unit, as in --column 'wind_speed=v[km/h]'");
     if (name.ends_with("_N_m") && peak > most_moment_n_m)
-      remarks.push_back(name + " reaches " + rounded(peak) +
-                        " N m, which looks like a smaller unit or the sensor's own: give the "
-                        "column its unit, as in --column 'base_moment=M[mN mm]' or "
-                        "'base_moment=B[uT]*0.18[N m/T]'");
+      remarks.push_back(
+          name + " reaches " + rounded(peak) +
+          " N m, which looks like a smaller unit or the sensor's raw unit: give the column its "
+          "unit, as in --column 'base_moment=M[mN mm]' or 'base_moment=B[uT]*0.18[N m/T]'");
   }
   return remarks;
 }

@@ -7,10 +7,10 @@
 
 namespace vibrissa::signals {
 
-/// Magnitudes that no whisker or airflow sensor on a bench has, and what the unit then probably is:
-/// a mean acceleration of 1 (gravity in g), an acceleration beyond 2000 m/s2, a wind faster than
-/// 120 m/s, a moment beyond 10 N m, more than 600 s below 2 Hz (time in ms). One line each; empty
-/// when all is well. Proven by tests/signals/record/plausibility_test.cc.
+/// Remarks on magnitudes that no whisker or airflow sensor on a bench has, with the probable unit:
+/// a mean acceleration of 1 (gravity in g), an acceleration above 2000 m/s2, a wind speed above 120
+/// m/s, a moment above 10 N m, more than 600 s at less than 2 Hz (time in ms). One text for each;
+/// empty when all magnitudes are plausible. Proven by tests/signals/record/plausibility_test.cc.
 std::vector<std::string> implausible_magnitudes(const Record& record);
 
 }  // namespace vibrissa::signals

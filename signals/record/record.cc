@@ -42,7 +42,7 @@ std::vector<std::string> Record::channel_names() const {
 Record Record::slice(const std::size_t first, const std::size_t count) const {
   if (count == 0 || first >= n_samples_ || count > n_samples_ - first)
     throw UserError("a slice of " + std::to_string(count) + " samples from sample " +
-                    std::to_string(first) + " on is not within a record of " +
+                    std::to_string(first) + " on does not fit into a record of " +
                     std::to_string(n_samples_) + " samples");
   Record part(sampling_rate_hz_, count, time_s(first));
   for (const auto& [name, values] : channels_) {

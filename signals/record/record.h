@@ -17,13 +17,13 @@ inline const std::string wind_speed = "wind_speed_m_s";
 /// motion; positive for wind in +x.
 inline const std::string base_moment = "base_moment_N_m";
 inline const std::string cross_moment = "cross_moment_N_m";
-/// The share of the base moment that is the wind's, where a simulation or a rig tells it.
+/// The part of the base moment that the wind causes, when a simulation or a rig gives it.
 inline const std::string wind_moment = "wind_moment_N_m";
 }  // namespace channel
 
-/// Uniformly sampled channels on one clock: sample i is at start + i / sampling_rate. SI units.
-/// A channel that is absent was not measured; it is never taken as zero.
-/// Proven by tests/signals/record/record_test.cc.
+/// Uniformly sampled channels on one clock: sample i is at start + i / sampling_rate. SI units. An
+/// absent channel was not measured; it is never assumed to be zero. Proven by
+/// tests/signals/record/record_test.cc.
 class Record {
  public:
   /// Throws UserError unless the rate is positive and finite and n_samples > 0.
@@ -37,14 +37,14 @@ class Record {
   double duration_s() const { return static_cast<double>(n_samples_) / sampling_rate_hz_; }
 
   bool has(const std::string& name) const { return channels_.count(name) != 0; }
-  /// Throws UserError that lists the channels there are.
+  /// Throws UserError that lists the available channels.
   std::span<const double> channel(const std::string& name) const;
   /// Adds or replaces a channel; throws UserError when the length differs from n_samples.
   void set_channel(const std::string& name, std::vector<double> values);
   std::vector<std::string> channel_names() const;
 
-  /// Samples [first, first + count) of every channel; times are kept. Throws UserError unless
-  /// there are that many, and at least one.
+  /// Samples [first, first + count) of every channel, at unchanged times. Throws UserError when the
+  /// record has fewer samples or count is 0.
   Record slice(std::size_t first, std::size_t count) const;
 
  private:

@@ -15,7 +15,8 @@ namespace vibrissa::signals {
 namespace {
 
 constexpr double jitter_periods = 1e-3;
-// A lost sample puts some time at least half a period off every even grid; less must be allowed.
+// A lost sample moves some time by at least half a period from every uniform grid; less must be
+// allowed.
 constexpr double largest_tolerance_periods = 0.45;
 
 double rounding_s(const PrintedTimes& times, const std::size_t i) {
@@ -31,17 +32,18 @@ std::string between(const PrintedTimes& times, const std::size_t i) {
   return " between " + moment(times, i - 1) + " and " + moment(times, i);
 }
 
-// Of lost or doubled samples: what stands in their place is for the user to say.
+// Advice for lost or doubled samples: only the user can decide what replaces them.
 std::string never_filled(const PrintedTimes& times) {
   return "; column '" + times.column +
-         "': samples are never filled in or left out, use the rows before or those after";
+         "': samples are never added or removed; use only the rows before this place or only the "
+         "rows after it";
 }
 
 void check_runs_forward(const PrintedTimes& times) {
   for (std::size_t i = 1; i < times.times_s.size(); ++i) {
     const double step = times.times_s[i] - times.times_s[i - 1];
     if (step > 0.) continue;
-    throw UserError(times.file + ": time " + (step < 0. ? "runs backward" : "stands still") +
+    throw UserError(times.file + ": time " + (step < 0. ? "decreases" : "does not increase") +
                     between(times, i) + never_filled(times));
   }
 }
@@ -54,8 +56,8 @@ double median_step(const std::span<const double> times_s) {
   return *middle;
 }
 
-// The sample that lies furthest off the even grid through the first and the last, if any lies
-// further off than jitter and rounding explain; else zero.
+// The sample with the largest distance from the uniform grid through the first and the last sample,
+// if the distance exceeds jitter and rounding; else zero.
 std::size_t worst_off_grid(const PrintedTimes& times, const double period) {
   const auto t = times.times_s;
   const double end_rounding = std::max(rounding_s(times, 0), rounding_s(times, t.size() - 1));
@@ -83,18 +85,18 @@ double with_significant_digits(const double value, const int n_digits) {
   return rounded;
 }
 
-// A difference of times carries rounding that would only confuse in a message.
+// Without the rounding errors of a difference, for messages.
 std::string difference_text(const double difference_s) {
   return to_text(with_significant_digits(difference_s, 6));
 }
 
-// Where a period is about a unit of the last digit, rounding looks like a lost sample.
+// When a period is about one unit of the last digit, rounding looks like a lost sample.
 std::string digits_advice(const PrintedTimes& times, const std::size_t i, const double error_s) {
   const double last_digit_s = 2. * rounding_s(times, i);
   const double most_by_rounding_s = 1.01 * last_digit_s;
   if (std::abs(error_s) > most_by_rounding_s) return {};
-  return "; its last digit stands for " + difference_text(last_digit_s) +
-         " s, too coarse to tell: print time with more digits";
+  return "; its last digit is " + difference_text(last_digit_s) +
+         " s, which is too coarse: write the time with more digits";
 }
 
 void refuse_gap(const PrintedTimes& times, const double usual_step) {
@@ -105,9 +107,10 @@ void refuse_gap(const PrintedTimes& times, const double usual_step) {
   if (n_gaps == 0) return;
   const double step = t[first] - t[first - 1];
   const std::string more =
-      n_gaps == 1 ? "" : " (" + std::to_string(n_gaps - 1) + " more further on)";
+      n_gaps == 1 ? "" : " (" + std::to_string(n_gaps - 1) + " more gaps follow)";
   throw UserError(times.file + ": gap in time" + between(times, first) + ": " +
-                  to_text(std::round(step / usual_step)) + " samples where 1 was expected" + more +
+                  to_text(std::round(step / usual_step)) +
+                  " sampling intervals where 1 was expected" + more +
                   digits_advice(times, first, step - usual_step) + never_filled(times));
 }
 
@@ -117,7 +120,7 @@ void refuse_crowding(const PrintedTimes& times, const double usual_step) {
     const double step = t[i] - t[i - 1];
     if (step < 0.5 * usual_step)
       throw UserError(times.file + ": only " + difference_text(step) + " s" + between(times, i) +
-                      " where " + difference_text(usual_step) + " s were expected" +
+                      ", but " + difference_text(usual_step) + " s were expected" +
                       digits_advice(times, i, step - usual_step));
   }
 }
@@ -128,10 +131,11 @@ void refuse_crowding(const PrintedTimes& times, const double usual_step) {
       times.times_s[worst] - times.times_s[0] - static_cast<double>(worst) * period;
   const double percent = with_significant_digits(100. * std::abs(offset) / period, 2);
   throw UserError(times.file + ": time is not uniform: " + moment(times, worst) + " lies " +
-                  to_text(percent) + " % of a period off the even grid from first to last line" +
+                  to_text(percent) +
+                  " % of a period away from the uniform grid between the first and the last time" +
                   digits_advice(times, worst, offset) +
-                  "; if the samples were taken evenly and only their stamps are not, take the time "
-                  "column out and give --rate; else resample the recording");
+                  "; if the sampling is uniform and only the time stamps are not, remove the time "
+                  "column and give --rate; otherwise resample the recording");
 }
 
 double simplest_rate(const double period, const double relative_uncertainty) {

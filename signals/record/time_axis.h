@@ -7,20 +7,20 @@
 
 namespace vibrissa::signals {
 
-/// How finely a column of times is printed: the most decimals and the most significant digits that
-/// any of them has. Trailing zeros may have been cut, so one value alone does not tell.
+/// Resolution of a printed time column: the largest number of decimals and of significant digits of
+/// its values. One value is not enough, because trailing zeros may be missing.
 class TimeDigits {
  public:
-  /// Looks at one more time; text is a number as printed in the file.
+  /// Adds one time; text is the number as it is printed in the file.
   void see(std::string_view text);
-  /// Half a unit of the last digit of this time, in the column's own unit.
+  /// Half a unit of the last digit of this time, in the unit of the column.
   double rounding(double time) const;
 
  private:
   int decimals_ = 0, significant_ = 1;
 };
 
-/// Times as a file gives them. Sample i is in line (or row) first_line + i.
+/// Times of a file. Sample i is in line (or row) first_line + i.
 struct PrintedTimes {
   std::span<const double> times_s;
   TimeDigits digits;
@@ -36,11 +36,11 @@ struct TimeAxis {
   double sampling_rate_hz;
 };
 
-/// The even grid on which the times lie to within 1e-3 of a period and the rounding of their
-/// printed digits. Of the rates that agree with the digits it takes the one that, or whose period,
-/// has the fewest digits. Needs two times. Throws UserError with file and line for time that runs
-/// backward or stands still, a gap, a crowded sample, a grid that is not even. Proven by
-/// tests/signals/record/time_axis_test.cc.
+/// Finds the uniform grid of the times, within 1e-3 of a sampling interval and the rounding of the
+/// printed digits. Several rates may agree with the digits; the result is the rate that has, or
+/// whose period has, the fewest digits. Needs at least two times. Throws UserError with file and
+/// line when time decreases or repeats, for a gap, for an interval that is too short, and for a
+/// grid that is not uniform. Proven by tests/signals/record/time_axis_test.cc.
 TimeAxis find_time_axis(const PrintedTimes& times);
 
 }  // namespace vibrissa::signals

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "signals/base/error.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::signals {
 
@@ -12,7 +13,7 @@ namespace {
 
 void check_realisations(std::span<const PeriodAverage> realisations) {
   if (realisations.size() < 2)
-    throw UserError("robust method: needs two realisations at least, got " +
+    throw UserError("robust method: at least two realisations are needed, got " +
                     std::to_string(realisations.size()) +
                     "; measure more, or use the fast method on a random-odd grid");
   const PeriodAverage& first = realisations.front();
@@ -22,7 +23,7 @@ void check_realisations(std::span<const PeriodAverage> realisations) {
       throw UserError("robust method: realisations have periods of " +
                       std::to_string(first.period_samples) + " and " +
                       std::to_string(other.period_samples) +
-                      " samples, or different rates; all must agree");
+                      " samples, or different sampling rates; all realisations need the same");
 }
 
 std::vector<std::size_t> common_lines(std::span<const PeriodAverage> realisations) {
@@ -40,10 +41,10 @@ void check_lines(const PeriodAverage& average, const std::vector<std::size_t>& l
   for (const std::size_t k : lines) {
     if (k < 1 || k > average.n_lines())
       throw UserError("best linear approximation: line " + std::to_string(k) +
-                      " is not among 1 .. " + std::to_string(average.n_lines()));
+                      " is not one of the lines 1 .. " + std::to_string(average.n_lines()));
     if (!(std::norm(average.input[k - 1]) > 0.))
       throw UserError("best linear approximation: the input is zero at line " + std::to_string(k) +
-                      " (" + std::to_string(average.frequency_hz(k)) + " Hz)");
+                      " (" + to_text(average.frequency_hz(k)) + " Hz)");
   }
 }
 
@@ -73,7 +74,7 @@ std::vector<DetectedOutput> detection_lines(const PeriodAverage& average,
   for (std::size_t k = excited.front(); k <= excited.back(); ++k) {
     const auto next = std::ranges::lower_bound(excited, k);
     if (*next == k) continue;
-    // The input leaks through the mean of the responses at the excited neighbours.
+    // The share of the input is computed with the mean response at the excited neighbours.
     const std::size_t below = *(next - 1), above = *next;
     const double share = static_cast<double>(k - below) / static_cast<double>(above - below);
     const auto response = (1. - share) * average.response(below) + share * average.response(above);
@@ -122,13 +123,14 @@ std::vector<std::size_t> checked_excited(const PeriodAverage& average, const Fas
   std::ranges::sort(excited);
   check_lines(average, excited);
   if (average.n_periods < 2)
-    throw UserError("fast method: needs two periods at least to tell noise from distortion, got 1");
+    throw UserError(
+        "fast method: at least two periods are needed to separate noise from distortion, got 1");
   for (const std::size_t k : excited)
     if (k % 2 == 0)
       throw UserError("fast method: even line " + std::to_string(k) +
-                      " is excited; it needs a random-odd grid (full grids need the robust "
-                      "method). If only noise made it look excited, average more periods or drive "
-                      "harder");
+                      " is excited, but the method needs a random-odd grid (use the robust method "
+                      "for a full grid). If only noise makes this line look excited, average more "
+                      "periods or raise the excitation level");
   return excited;
 }
 
@@ -136,8 +138,8 @@ void check_count(const std::vector<DetectedOutput>& lines, std::size_t n_average
                  const std::string& role) {
   if (n_averaged == 0 || lines.size() < n_averaged)
     throw UserError("fast method: " + std::to_string(lines.size()) + " " + role +
-                    " detection lines, " + std::to_string(n_averaged) +
-                    " to be averaged; average fewer (at least 1) or take a longer period");
+                    " detection lines are available, but " + std::to_string(n_averaged) +
+                    " are to be averaged; average fewer (at least 1) or take a longer period");
 }
 
 }  // namespace

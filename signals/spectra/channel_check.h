@@ -5,12 +5,12 @@
 
 namespace vibrissa::signals {
 
-/// Throws UserError, which begins with the task, unless the sampling rate is positive and the
-/// channel finite.
+/// Throws UserError that begins with the task unless the sampling rate is positive and the channel
+/// finite.
 void check_channel(const std::string& task, std::span<const double> x, const std::string& name,
                    double sampling_rate_hz);
 
-/// Throws UserError, which begins with the task, unless the sampling rate is positive and both
+/// Throws UserError that begins with the task unless the sampling rate is positive and both
 /// channels are equally long and finite. Proven by tests/signals/spectra/local_polynomial_test.cc.
 void check_channels(const std::string& task, std::span<const double> input,
                     std::span<const double> output, double sampling_rate_hz);

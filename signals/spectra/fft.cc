@@ -16,7 +16,7 @@ namespace vibrissa::signals {
 
 namespace {
 
-// FFTW plans may be executed by any thread, but its planner is shared by all of them.
+// Any thread may execute FFTW plans, but all threads share the planner.
 std::mutex& planner_mutex() {
   static std::mutex mutex;
   return mutex;
@@ -26,8 +26,8 @@ struct Free {
   void operator()(void* memory) const { std::free(memory); }
 };
 
-// On a border of the widest vector: code that works on the buffers by vectors then splits them the
-// same way, and so rounds the same way, in every object. FFTW's own allocator promises less.
+// Aligned to the widest SIMD register: vectorised code then splits the buffers, and rounds, equally
+// in every object. The allocator of FFTW guarantees less.
 template <typename T>
 std::unique_ptr<T, Free> aligned_buffer(std::size_t n) {
   constexpr std::size_t border = 64;
@@ -45,8 +45,8 @@ std::size_t checked_length(std::size_t n) {
   return n;
 }
 
-/// A forward and an inverse plan between two buffers of their own. The planner only estimates:
-/// measured plans vary from run to run in their last digits, and equal input must give equal
+/// A forward and an inverse plan between two own buffers. The plans are estimated, not measured:
+/// measured plans give different last digits from run to run, but equal input must give equal
 /// output.
 template <typename Time>
 struct PlanPair {

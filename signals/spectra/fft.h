@@ -9,11 +9,10 @@
 namespace vibrissa::signals {
 
 /// Real discrete Fourier transform of a fixed length n with its own aligned buffers (FFTW).
-/// Forward: X[k] = sum_i x[i] exp(-2 pi j k i / n), k = 0 .. n/2, unscaled.
-/// Inverse: x[i] = (1/n) sum ..., so inverse(forward(x)) = x.
-/// No allocation after construction; one object serves one thread, several objects any number.
-/// Equal input gives equal bits in every run. Throws UserError unless 0 < n < 2^31.
-/// Proven by tests/signals/spectra/fft_test.cc.
+/// Forward: X[k] = sum_i x[i] exp(-2 pi j k i / n), k = 0 .. n/2, unscaled. Inverse: x[i] = (1/n)
+/// sum ..., so inverse(forward(x)) = x. No allocation after construction; one object may be used by
+/// one thread at a time, different objects by different threads. Equal input gives equal bits in
+/// every run. Throws UserError unless 0 < n < 2^31. Proven by tests/signals/spectra/fft_test.cc.
 class RealFft {
  public:
   explicit RealFft(std::size_t n);
@@ -59,7 +58,7 @@ class ComplexFft {
   std::unique_ptr<Plans> plans_;
 };
 
-/// One-off forward transform of any length, scaled as RealFft.
+/// A single forward transform of any length, scaled as RealFft.
 std::vector<std::complex<double>> real_fft(std::span<const double> x);
 
 }  // namespace vibrissa::signals

@@ -53,8 +53,8 @@ struct SpectralSums {
   std::vector<double> input_power, output_power;
 };
 
-// Lines at half the sampling rate and at zero are left out: the first is its own alias, the second
-// holds the sensors' offsets.
+// Zero frequency and half the sampling rate are excluded: the first contains the offsets of the
+// sensors, the second is its own alias.
 std::size_t n_usable_lines(std::size_t n) {
   return (n + 1) / 2;
 }
@@ -87,7 +87,7 @@ std::vector<std::size_t> excited_lines(const SpectralSums& sums, std::size_t per
   for (const auto& line : sums.input) total += std::norm(line);
   for (std::size_t k = 1; k < n_usable_lines(period_samples); ++k)
     largest = std::max(largest, std::norm(sums.input[k]));
-  // What the rounding of a constant leaves in the other lines is no excitation.
+  // Rounding errors of a constant are not an excitation.
   if (!(largest > 1e-26 * total))
     throw UserError("frequency response: the input excites no line of the period of " +
                     std::to_string(period_samples) + " samples");
@@ -97,7 +97,7 @@ std::vector<std::size_t> excited_lines(const SpectralSums& sums, std::size_t per
   return lines;
 }
 
-// Of the mean over periods: E|error|^2 = scatter / (n (n - 1)).
+// Deviation of the mean over periods: E|error|^2 = scatter / (n (n - 1)).
 double deviation_between_periods(const PeriodSpectra& spectra, std::size_t line,
                                  std::complex<double> response, double mean_input) {
   const auto n = static_cast<double>(spectra.input.size());
@@ -124,10 +124,10 @@ class Segments {
       : length_(checked_length(options)), hop_(length_ / 2), window_(hann(length_)), fft_(length_) {
     n_segments_ = n_samples < length_ ? 0 : 1 + (n_samples - length_) / hop_;
     if (n_segments_ < n_needed)
-      throw UserError("Welch: " + std::to_string(n_samples) + " samples hold " +
+      throw UserError("Welch: " + std::to_string(n_samples) + " samples contain " +
                       std::to_string(n_segments_) + " segments of " + std::to_string(length_) +
-                      ", at least " + std::to_string(n_needed) +
-                      " needed; take shorter segments or a longer record");
+                      " samples, but at least " + std::to_string(n_needed) +
+                      " segments are needed; take shorter segments or a longer record");
   }
 
   std::size_t n_segments() const { return n_segments_; }
@@ -146,7 +146,7 @@ class Segments {
     return fft_.spectrum();
   }
 
-  /// Number of independent segments that would scatter as little (Welch 1967, for white noise).
+  /// Equivalent number of independent segments (Welch 1967, for white noise).
   double n_effective() const {
     const double overlap = std::inner_product(window_.begin() + static_cast<std::ptrdiff_t>(hop_),
                                               window_.end(), window_.begin(), 0.) /
@@ -159,7 +159,7 @@ class Segments {
   static std::size_t checked_length(const WelchOptions& options) {
     if (options.segment_samples < 8)
       throw UserError("Welch: segment_samples = " + std::to_string(options.segment_samples) +
-                      " is less than 8");
+                      " must be at least 8");
     return options.segment_samples;
   }
 
@@ -180,10 +180,10 @@ FrequencyResponse periodic_response(std::span<const double> input, std::span<con
   check_channels("frequency response", input, output, sampling_rate_hz);
   if (period_samples == 0 || input.size() < period_samples)
     throw UserError("frequency response: " + std::to_string(input.size()) +
-                    " samples hold no whole period of " + std::to_string(period_samples));
+                    " samples contain no whole period of " + std::to_string(period_samples));
   if (!(excitation_threshold > 0. && excitation_threshold <= 1.))
     throw UserError("frequency response: excitation threshold " + to_text(excitation_threshold) +
-                    " is not above 0 and up to 1");
+                    " must be above 0 and at most 1");
 
   const PeriodSpectra spectra = spectra_of_periods(input, output, period_samples);
   SpectralSums sums(spectra.input.front().size());

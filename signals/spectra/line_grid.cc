@@ -17,11 +17,11 @@ void check_band(const GridBand& band) {
       !(band.resolution_hz > 0.) || !std::isfinite(band.resolution_hz))
     throw UserError("excitation band " + to_text(band.low_hz) + " .. " + to_text(band.high_hz) +
                     " Hz at a resolution of " + to_text(band.resolution_hz) +
-                    " Hz: needs 0 < low <= high and a positive resolution");
+                    " Hz: 0 < low <= high and a positive resolution are needed");
   if (band.high_hz / band.resolution_hz > most_lines)
-    throw UserError("excitation band: up to " + to_text(band.high_hz) + " Hz at a resolution of " +
-                    to_text(band.resolution_hz) + " Hz are more than " + to_text(most_lines) +
-                    " lines; take a shorter period");
+    throw UserError("excitation band: the band up to " + to_text(band.high_hz) +
+                    " Hz at a resolution of " + to_text(band.resolution_hz) + " Hz has more than " +
+                    to_text(most_lines) + " lines; take a shorter period");
 }
 
 std::vector<GridLine> lines_in(LineGrid grid, const GridBand& band) {
@@ -37,8 +37,8 @@ std::vector<GridLine> lines_in(LineGrid grid, const GridBand& band) {
   }
   if (orders_of(lines, LineRole::excited).empty())
     throw UserError("excitation band " + to_text(band.low_hz) + " .. " + to_text(band.high_hz) +
-                    " Hz holds no line of the " + name_of(grid) + " grid at a resolution of " +
-                    to_text(band.resolution_hz) + " Hz; widen it or take a longer period");
+                    " Hz contains no line of the " + name_of(grid) + " grid at a resolution of " +
+                    to_text(band.resolution_hz) + " Hz; widen the band or take a longer period");
   return lines;
 }
 
@@ -48,9 +48,9 @@ void leave_out_one_of_each_group(std::vector<GridLine>& lines, const GridBand& b
     if (line.role == LineRole::excited) odd.push_back(&line);
   if (band.group_size < 2 || odd.size() < band.group_size)
     throw UserError("random-odd grid: " + std::to_string(odd.size()) +
-                    " odd lines in the band, groups of " + std::to_string(band.group_size) +
-                    "; needs groups of 2 at least and one whole group: widen the band or take a "
-                    "longer period");
+                    " odd lines in the band for groups of " + std::to_string(band.group_size) +
+                    "; at least one whole group of at least 2 lines is needed: widen the band or "
+                    "take a longer period");
   std::mt19937_64 random(band.seed);
   for (std::size_t start = 0; start + band.group_size <= odd.size(); start += band.group_size)
     odd[start + random() % band.group_size]->role = LineRole::odd_detection;
@@ -85,15 +85,15 @@ std::string revelation(LineGrid grid, LineRole role) {
   }
   switch (grid) {
     case LineGrid::full:
-      return "the response; noise by the scatter between periods; even and odd distortion together "
-             "by the scatter between realisations";
+      return "the response; noise, from the scatter between periods; even and odd distortion "
+             "together, from the scatter between realisations";
     case LineGrid::odd:
-      return "the response; noise by the scatter between periods; odd distortion by the scatter "
-             "between realisations";
+      return "the response; noise, from the scatter between periods; odd distortion, from the "
+             "scatter between realisations";
     case LineGrid::random_odd:
       break;
   }
-  return "the response; noise by the scatter between periods";
+  return "the response; noise, from the scatter between periods";
 }
 
 std::string name_of(LineGrid grid) {

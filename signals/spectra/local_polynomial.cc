@@ -22,8 +22,8 @@ using Eigen::VectorXcd;
 
 constexpr double undefined_value = std::numeric_limits<double>::quiet_NaN();
 
-// Lines 1 .. below half the sampling rate, as amplitudes. The offset is taken off first: only
-// rounding of it would be left in these lines.
+// Lines 1 .. below half the sampling rate, as amplitudes. The offset is removed first, because it
+// would add only rounding errors to these lines.
 VectorXcd line_amplitudes(std::span<const double> x) {
   const double n = static_cast<double>(x.size());
   const double mean = std::accumulate(x.begin(), x.end(), 0.) / n;
@@ -46,7 +46,7 @@ Window window_of(const LocalPolynomialOptions& options) {
   if (options.order > largest_order || options.half_width > largest_half_width)
     throw UserError("local polynomial: order " + std::to_string(options.order) +
                     " with half width " + std::to_string(options.half_width) +
-                    "; orders go to 8, half widths to 10000");
+                    "; the order is at most 8, the half width at most 10000");
   const auto n_unknowns = static_cast<Index>(2 * (options.order + 1));
   constexpr Index freedom_wanted = 4;
   const auto half = options.half_width > 0 ? static_cast<Index>(options.half_width)
@@ -54,7 +54,7 @@ Window window_of(const LocalPolynomialOptions& options) {
   if (2 * half + 1 <= n_unknowns)
     throw UserError("local polynomial: " + std::to_string(2 * half + 1) + " lines for " +
                     std::to_string(n_unknowns) +
-                    " unknowns leave no degree of freedom; widen half_width");
+                    " unknowns leave no degree of freedom; raise half_width");
   return {n_unknowns / 2, 2 * half + 1};
 }
 

@@ -16,21 +16,21 @@ struct LocalPolynomialOptions {
 
 struct LocalPolynomialResponse {
   FrequencyResponse response;
-  /// E|noise|^2 of the output at each line, as squared amplitude (a cos(w t) has a^2): from what
-  /// the polynomials leave.
+  /// E|noise|^2 of the output at each line, as squared amplitude (a cos(w t) has a^2): from the
+  /// residual of the polynomials.
   std::vector<double> noise_variance;
 };
 
-/// Frequency response of an arbitrary record: about every line the response and the leakage (the
-/// transient of the record's ends) are smooth, hence polynomials in frequency, fitted by least
-/// squares to Y = G U + T in a window of lines (Pintelon & Schoukens, System Identification, 2nd
-/// ed., chapter 7; Schoukens, Vandersteen, Barbe & Pintelon 2009). Near the ends of the band the
-/// window is one-sided. At every line of the record without zero frequency and half the sampling
-/// rate; NaN where the input does not determine the fit. The stated deviation holds for noise at
-/// the output; input noise biases as in every H1 estimate. Throws UserError for channels of
-/// unequal length, samples that are not finite, a rate that is not positive, a window without a
-/// degree of freedom, or a record shorter than one window.
-/// Proven by tests/signals/spectra/local_polynomial_test.cc.
+/// Frequency response of an arbitrary record. Near each line the response G and the leakage T (the
+/// transient of the ends of the record) are smooth functions of frequency; polynomials are fitted
+/// to them by least squares, Y = G U + T in a window of lines (Pintelon & Schoukens, System
+/// Identification, 2nd ed., chapter 7; Schoukens, Vandersteen, Barbe & Pintelon 2009). Near the
+/// ends of the band the window is one-sided. The result has every line of the record except zero
+/// frequency and half the sampling rate; NaN where the input does not determine the fit. The
+/// deviation is valid for output noise; input noise causes a bias, as in every H1 estimate. Throws
+/// UserError for channels of unequal length, samples that are not finite, a rate that is not
+/// positive, a window without a degree of freedom, or a record shorter than one window. Proven by
+/// tests/signals/spectra/local_polynomial_test.cc.
 LocalPolynomialResponse local_polynomial_response(std::span<const double> input,
                                                   std::span<const double> output,
                                                   double sampling_rate_hz,

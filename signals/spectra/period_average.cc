@@ -20,8 +20,8 @@ using Spectra = std::vector<std::vector<std::complex<double>>>;  // [period][lin
 void check_periods(std::size_t n_samples, std::size_t period_samples) {
   if (period_samples < 4 || n_samples < period_samples)
     throw UserError("period average: " + std::to_string(n_samples) +
-                    " samples hold no whole period of " + std::to_string(period_samples) +
-                    " (4 at least)");
+                    " samples contain no whole period of " + std::to_string(period_samples) +
+                    " samples (a period has at least 4)");
 }
 
 Spectra amplitudes_of_periods(std::span<const double> x, std::size_t period_samples) {
@@ -47,8 +47,8 @@ std::vector<std::complex<double>> mean_of(const Spectra& spectra) {
   return mean;
 }
 
-// Of the means: the scatter of n periods is n - 1 times the variance of one, n (n - 1) times that
-// of their mean.
+// Variances of the means: the scatter of n periods is n - 1 times the variance of one period, n (n
+// - 1) times the variance of their mean.
 void add_scatter(PeriodAverage& average, const Spectra& input, const Spectra& output) {
   const auto n = static_cast<double>(average.n_periods);
   const double share = n > 1. ? 1. / (n * (n - 1.)) : std::numeric_limits<double>::quiet_NaN();
@@ -79,7 +79,7 @@ double PeriodAverage::residual_variance(std::size_t order, std::complex<double> 
   const std::size_t k = order - 1;
   const double variance = output_variance[k] + std::norm(response) * input_variance[k] -
                           2. * (std::conj(response) * covariance[k]).real();
-  // Rounding may take what is zero below it; std::max would swallow a NaN.
+  // Rounding may make zero negative; std::max would hide a NaN.
   return variance < 0. ? 0. : variance;
 }
 
@@ -108,7 +108,7 @@ PeriodAverage average_periods(std::span<const double> input, std::span<const dou
 std::vector<std::size_t> excited_orders(const PeriodAverage& average, double threshold) {
   if (!(threshold > 0. && threshold <= 1.))
     throw UserError("excited lines: threshold " + to_text(threshold) +
-                    " is not above 0 and up to 1");
+                    " must be above 0 and at most 1");
   double largest = 0.;
   for (const auto& value : average.input) largest = std::max(largest, std::norm(value));
   if (!(largest > 0.))

@@ -7,16 +7,17 @@
 
 namespace vibrissa::signals {
 
-/// Mean spectra of two periodic channels, both noisy, with the covariance of their noise: all that
-/// a fit with errors in both variables needs (Pintelon & Schoukens, System Identification, 2nd ed.,
+/// Mean spectra of two noisy periodic channels, with the covariance of their noise, as a fit with
+/// errors in both variables needs them (Pintelon & Schoukens, System Identification, 2nd ed.,
 /// section 2.5). Entry i belongs to line i + 1 of the period; zero frequency and half the sampling
-/// rate are left out. Spectra are amplitudes: a cos(w t + p) has a exp(j p).
+/// rate are excluded. Spectra are amplitudes: a cos(w t + p) has a exp(j p).
 struct PeriodAverage {
   double sampling_rate_hz = 0.;
   std::size_t period_samples = 0;
   std::size_t n_periods = 0;
   std::vector<std::complex<double>> input, output;  // means over the periods
-  // Of the errors e of these means, from the scatter between periods (NaN for a single period):
+  // Variances of the errors e of these means, from the scatter between periods (NaN for a single
+  // period):
   std::vector<double> input_variance, output_variance;  // E|e_u|^2, E|e_y|^2
   std::vector<std::complex<double>> covariance;         // E e_y conj(e_u)
 
@@ -28,18 +29,18 @@ struct PeriodAverage {
   /// (E|e_y|^2 + |G|^2 E|e_u|^2 - 2 Re(conj(G) E e_y conj(e_u))) / |U|^2. Order from 1.
   std::complex<double> response(std::size_t order) const;
   double response_variance(std::size_t order) const;
-  /// E|e_y - G e_u|^2 for a given G: the output noise that both channels make together.
+  /// E|e_y - G e_u|^2 for a given G: the noise of both channels, expressed at the output.
   double residual_variance(std::size_t order, std::complex<double> response) const;
 };
 
-/// Of the last whole periods of a record in steady state. Throws UserError for channels of unequal
-/// length, samples that are not finite, a rate that is not positive, a period below 4 samples and
-/// less than one period. Proven by tests/signals/spectra/period_average_test.cc.
+/// Average over the last whole periods of a record in steady state. Throws UserError for channels
+/// of unequal length, samples that are not finite, a rate that is not positive, a period below 4
+/// samples and less than one period. Proven by tests/signals/spectra/period_average_test.cc.
 PeriodAverage average_periods(std::span<const double> input, std::span<const double> output,
                               double sampling_rate_hz, std::size_t period_samples);
 
 /// Orders of the lines whose input power is at least the threshold times the largest. Throws
-/// UserError when the input is zero or the threshold is not above 0 and up to 1.
+/// UserError when the input is zero or the threshold is not in (0, 1].
 std::vector<std::size_t> excited_orders(const PeriodAverage& average, double threshold = 1e-4);
 
 }  // namespace vibrissa::signals

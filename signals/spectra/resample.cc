@@ -15,7 +15,7 @@ namespace vibrissa::signals {
 namespace {
 
 constexpr long largest_term = 1000;
-// Rates that come from printed times carry rounding; this much drifts by a sample in 1e9.
+// Rates from printed times have rounding errors; this tolerance is a drift of one sample in 1e9.
 constexpr double ratio_tolerance = 1e-9;
 
 // up / down of the rates, in lowest terms.
@@ -53,7 +53,7 @@ Ratio ratio_of_rates(const double from_hz, const double to_hz) {
   if (ratio.up == 0 || ratio.down == 0 ||
       std::abs(value_of(ratio) * from_hz / to_hz - 1.) > ratio_tolerance)
     throw UserError("resampling from " + to_text(from_hz) + " Hz to " + to_text(to_hz) +
-                    " Hz: the rates are in no ratio of whole numbers up to " +
+                    " Hz: the ratio of the rates is not a ratio of whole numbers up to " +
                     std::to_string(largest_term) + "; choose another rate");
   return ratio;
 }
@@ -122,8 +122,8 @@ double mean_of(const std::span<const double> x) {
 std::vector<double> resample(const std::span<const double> x, const double from_hz,
                              const double to_hz, const double flat_to_share) {
   if (!(flat_to_share > 0. && flat_to_share < 1.))
-    throw UserError("resampling: flat up to " + to_text(flat_to_share) +
-                    " of half the rate cannot be; give a share between 0 and 1");
+    throw UserError("resampling: a flat band up to " + to_text(flat_to_share) +
+                    " of half the sampling rate is not possible; give a share between 0 and 1");
   const Ratio ratio = ratio_of_rates(from_hz, to_hz);
   if (x.empty() || (ratio.up == 1 && ratio.down == 1)) return {x.begin(), x.end()};
   const Kernel kernel(ratio, flat_to_share);
@@ -143,7 +143,8 @@ std::vector<double> resample(const std::span<const double> x, const double from_
 std::vector<double> remove_mean(const std::span<const double> x) {
   std::vector<double> result(x.begin(), x.end());
   if (x.empty()) return result;
-  // The mean of what is left removes the rounding of the first mean, large beside a large offset.
+  // The second mean removes the rounding error of the first mean, which is large for a large
+  // offset.
   for (int pass = 0; pass < 2; ++pass) {
     const double mean = mean_of(result);
     for (double& value : result) value -= mean;
@@ -159,7 +160,7 @@ std::vector<double> scale_to_range(const std::span<const double> x, const double
   const auto [smallest, largest] = std::minmax_element(x.begin(), x.end());
   if (*smallest == *largest)
     throw UserError("scaling to a range: all values are " + to_text(*smallest) +
-                    ", so they have no range");
+                    ", so they cannot be scaled");
   std::vector<double> result(x.size());
   for (std::size_t i = 0; i < x.size(); ++i)
     result[i] = std::lerp(low, high, (x[i] - *smallest) / (*largest - *smallest));

@@ -6,8 +6,8 @@
 
 namespace vibrissa::signals {
 
-/// What a packed byte unpacks to at most: deflate's bound, 1032, with room.
-inline constexpr std::size_t most_swollen = 1100;
+/// Largest ratio of unpacked to packed size that is accepted: the bound of deflate is 1032.
+inline constexpr std::size_t largest_expansion = 1100;
 
 /// The whole file. Throws UserError when it cannot be read.
 std::string read_bytes(const std::filesystem::path& file);

@@ -2,9 +2,9 @@
 
 namespace vibrissa::signals {
 
-/// While one lives, Ctrl-C and a polite request to end (SIGINT, SIGTERM) are noted in place of
-/// ending the program, so that long work can stop at a good place; the second time they end it as
-/// usual. One at a time. Proven by tests/signals/system/interruption_test.cc.
+/// During its lifetime, the first SIGINT (Ctrl-C) or SIGTERM sets a flag and does not end the
+/// program, so that long work can stop at a suitable point; the second one ends the program. Only
+/// one object may exist at a time. Proven by tests/signals/system/interruption_test.cc.
 class Interruption {
  public:
   Interruption();

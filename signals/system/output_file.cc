@@ -42,7 +42,7 @@ bool is_about_the_name(const std::error_code& error) {
   refuse_path(file, "cannot be written", {error, std::generic_category()});
 }
 
-// Keeps the system's reason when a write fails, which std::ofstream does not.
+// Keeps the reason of the system when a write fails; std::ofstream does not.
 class FileBuffer : public std::streambuf {
  public:
   explicit FileBuffer(const int descriptor) : descriptor_(descriptor) {
@@ -93,7 +93,7 @@ class FileBuffer : public std::streambuf {
 
 const std::string unfinished = ".unfinished-";  // then the process and a number
 
-// A new file beside another, removed unless it has got its final name.
+// A new file in the folder of another one, removed unless it was renamed to its final name.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& beside) {
@@ -130,17 +130,18 @@ void fill(FileBuffer& buffer, const fs::path& file,
   try {
     writer(out);
   } catch (...) {
-    // Libraries that notice a bad stream know no reason.
+    // Libraries that detect a bad stream do not know the reason.
     if (buffer.error() != 0) refuse(file, buffer.error());
     throw;
   }
   buffer.flush_to_disk();
   buffer.close();
   if (buffer.error() != 0) refuse(file, buffer.error());
-  if (!out) throw InternalError(file.string() + ": cannot be written: its writer failed");
+  if (!out)
+    throw InternalError(file.string() + ": cannot be written: the function that writes it failed");
 }
 
-// Where a file system has no permissions to copy, the default ones must do.
+// On a file system without permissions the default ones are used.
 void copy_permissions(const fs::path& from, const int to_descriptor) {
   struct ::stat old;
   if (::stat(from.c_str(), &old) == 0) ::fchmod(to_descriptor, old.st_mode & 07777);
@@ -165,7 +166,7 @@ void write_file(const fs::path& file, const std::function<void(std::ostream&)>& 
   std::error_code no_file;
   const fs::file_status status = fs::status(file, no_file);
   if (!file.has_filename() || fs::is_directory(status))
-    throw UserError(file.string() + ": cannot be written: this names a folder");
+    throw UserError(file.string() + ": cannot be written: this is a folder; name a file");
   // A name such as /dev/stdout must not be replaced by a file.
   if (fs::exists(status) && !fs::is_regular_file(status)) return write_in_place(file, writer);
   // A link stays; what it points to is replaced.
@@ -200,8 +201,8 @@ void refuse_what_is_not_empty(const fs::path& folder) {
                     "overwritten: name another folder, or remove this one");
 }
 
-/// Two runs that see the same empty folder must not both write into it: a lock on it is kept until
-/// this process ends. Where a file system has no locks the folder is taken without one.
+/// Two runs that see the same empty folder must not both write into it: this process locks the
+/// folder until it ends. On a file system without locks the folder is used without a lock.
 void claim(const fs::path& folder) {
   static std::set<std::pair<::dev_t, ::ino_t>> ours;
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -227,7 +228,7 @@ void make_new_folder(const fs::path& folder) {
     throw UserError(folder.string() + ": this is a file, not a folder; name another folder");
   if (fs::is_directory(status)) refuse_what_is_not_empty(folder);
   fs::create_directories(folder, error);
-  if (error) refuse_path(folder, "cannot be made", error);
+  if (error) refuse_path(folder, "cannot be created", error);
   claim(folder);
   refuse_what_is_not_empty(folder);
 }

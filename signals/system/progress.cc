@@ -48,7 +48,7 @@ void Progress::draw(const bool last) {
                      std::string(bar_width - filled, '.') + "] " +
                      std::to_string(static_cast<int>(100. * part)) + " %  ";
   if (last)
-    line += minutes_and_seconds(elapsed_s) + " in all";
+    line += minutes_and_seconds(elapsed_s) + " in total";
   else if (done_ > 0)
     line += minutes_and_seconds(elapsed_s * (1. - part) / part) + " left";
   const char* const clear_rest_of_line = "\033[K";

@@ -7,8 +7,8 @@
 
 namespace vibrissa::signals {
 
-/// Progress bar with time left on standard error; silent unless that is a terminal and show is
-/// true. Redraws at most ten times a second. Proven by
+/// Progress bar with the remaining time on standard error; draws only when standard error is a
+/// terminal and show is true. Redraws at most ten times a second. Proven by
 /// tests/signals/system/progress_test.cc.
 class Progress {
  public:

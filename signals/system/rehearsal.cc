@@ -31,30 +31,31 @@ long peak_resident_kb() {
 
 volatile long most_resident_kb = 0;  // of the child
 
-void end_if_swollen(int) {
+void end_if_memory_exceeded(int) {
   if (peak_resident_kb() > most_resident_kb) _exit(memory_exceeded);
 }
 
-/// Looks at the memory that is held at every hundredth of a second of work. A limit of the system's
-/// would make the library fail in a way that it does not when it reads in earnest.
+/// Checks the resident memory every 10 ms of CPU time. A memory limit of the operating system would
+/// make the library fail in another way than in the real reading.
 void bound_memory(const std::size_t n_bytes) {
   most_resident_kb = peak_resident_kb() + static_cast<long>(1024 * enough_mb(n_bytes));
   struct sigaction action {};
-  action.sa_handler = end_if_swollen;
+  action.sa_handler = end_if_memory_exceeded;
   action.sa_flags = SA_RESTART;
   sigaction(SIGPROF, &action, nullptr);
   const itimerval often{{0, 10'000}, {0, 10'000}};
   setitimer(ITIMER_PROF, &often, nullptr);
 }
 
-/// Dies of a crash as if nobody had asked to be told, without a core file or a word.
+/// Restores the default crash signals, limits the CPU time, and silences the process: no core file
+/// and no output.
 void set_crash_defaults(const std::size_t n_bytes) {
   for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
     std::signal(crash, SIG_DFL);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   const rlim_t enough_s = 2 + n_bytes / 100'000;
-  const rlimit cpu_time{enough_s, enough_s + 1};  // at the latter nothing is told any more
+  const rlimit cpu_time{enough_s, enough_s + 1};  // at the hard limit the process is killed
   setrlimit(RLIMIT_CPU, &cpu_time);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
@@ -69,8 +70,8 @@ void set_crash_defaults(const std::size_t n_bytes) {
     reading();
   } catch (...) {
   }
-  end_if_swollen(0);
-  // Not exit: what this process inherited is not its to flush or to tidy away.
+  end_if_memory_exceeded(0);
+  // _exit, not exit: the child must not flush or remove what it inherited from its parent.
   _exit(0);
 }
 
@@ -83,22 +84,23 @@ void rehearse(const std::string& file, const std::size_t n_bytes,
   if (child < 0) {
     const int reason = errno;
     throw ResourceError(
-        file + ": no process could be made to read it: " + std::generic_category().message(reason));
+        file + ": cannot start a process to read it: " + std::generic_category().message(reason));
   }
   int status = 0;
   pid_t ended = 0;
   do {
     ended = waitpid(child, &status, 0);
   } while (ended < 0 && errno == EINTR);
-  // Where somebody else has waited for all children, or ignores them, nothing is known.
+  // The result is unknown when other code has already waited for all children or ignores them.
   if (ended != child || status == 0) return;
   if (WIFEXITED(status) && WEXITSTATUS(status) == memory_exceeded)
-    throw UserError(file + ": takes more than " + std::to_string(enough_mb(n_bytes)) +
-                    " MB of memory to read its " + std::to_string(n_bytes) +
-                    " bytes, as damaged files do; write it anew, or give its columns as CSV");
+    throw UserError(
+        file + ": reading its " + std::to_string(n_bytes) + " bytes takes more than " +
+        std::to_string(enough_mb(n_bytes)) +
+        " MB of memory, so it is probably damaged; write it again, or give its columns as CSV");
   const std::string end = WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "an early exit";
-  throw UserError(file + ": is damaged: the library that reads such files breaks down on it (" +
-                  end + "); write it anew, or give its columns as CSV");
+  throw UserError(file + ": is damaged: the library that reads such files crashes on it (" + end +
+                  "); write it again, or give its columns as CSV");
 }
 
 }  // namespace vibrissa::signals

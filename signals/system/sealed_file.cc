@@ -22,14 +22,14 @@ struct FreeCipher {
 using Cipher = std::unique_ptr<EVP_CIPHER_CTX, FreeCipher>;
 
 void require(const int done) {
-  if (done != 1) throw InternalError("the library for encryption refuses to work");
+  if (done != 1) throw InternalError("the encryption library (OpenSSL) failed");
 }
 
 Bytes from_hex(const std::string& text, const std::string& what) {
   const auto digit = [&](char c) -> int {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    throw UserError(what + " holds a character that is no hexadecimal digit");
+    throw UserError(what + " contains a character that is not a hexadecimal digit");
   };
   if (text.size() % 2 != 0) throw UserError(what + " is cut off");
   Bytes out;
@@ -71,7 +71,7 @@ Seal seal(const std::string& text) {
 
 std::string unseal(const Seal& seal) {
   const Bytes key = from_hex(seal.key, "the key"), all = from_hex(seal.cipher, "the sealed text");
-  if (key.size() != key_size + salt_size) throw UserError("the key is none: it has another length");
+  if (key.size() != key_size + salt_size) throw UserError("this is not a key: its length is wrong");
   if (all.size() < nonce_size + tag_size) throw UserError("the sealed text is cut off");
   const Bytes salt(key.begin() + key_size, key.end());
   Bytes tag(all.end() - tag_size, all.end());
@@ -85,9 +85,9 @@ std::string unseal(const Seal& seal) {
       EVP_DecryptUpdate(cipher.get(), out, &n, all.data() + nonce_size, static_cast<int>(length)));
   require(EVP_CIPHER_CTX_ctrl(cipher.get(), EVP_CTRL_GCM_SET_TAG, tag_size, tag.data()));
   if (EVP_DecryptFinal_ex(cipher.get(), out + n, &n) != 1)
-    throw UserError("the sealed text does not open: the key is another's, or it was changed");
+    throw UserError("the sealed text cannot be opened: the key is wrong, or the text was changed");
   if (commitment_of(salt, text) != seal.commitment)
-    throw UserError("the sealed text is not the one that was committed to");
+    throw UserError("the sealed text differs from the text of the commitment");
   return text;
 }
 

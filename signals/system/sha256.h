@@ -8,10 +8,10 @@
 
 namespace vibrissa::signals {
 
-/// Bytes as hexadecimal digits, two a byte, lower case.
+/// Bytes as hexadecimal digits, two for each byte, lower case.
 std::string to_hex(std::span<const unsigned char> bytes);
 
-/// SHA-256 (FIPS 180-4) of bytes that are given piece by piece. Proven by
+/// SHA-256 (FIPS 180-4) of bytes that are added piece by piece. Proven by
 /// tests/signals/system/sha256_test.cc.
 class Sha256 {
  public:
@@ -21,7 +21,7 @@ class Sha256 {
   Sha256& operator=(const Sha256&) = delete;
 
   void add(const void* bytes, std::size_t n);
-  /// Of all that was given; nothing can be added any more.
+  /// Digest of all added bytes; nothing can be added after this call.
   std::string hex();
 
  private:

@@ -6,9 +6,9 @@
 
 namespace vibrissa::signals {
 
-/// Time since it was started or restarted, of a clock that may be set back in between: the steady
-/// clock of a virtual machine that moves to another host is. Such a step counts as no time.
-/// Proven by tests/signals/system/stopwatch_test.cc.
+/// Elapsed time since the start or restart. A backward step of the clock counts as no time: the
+/// steady clock of a virtual machine can step back when the machine moves to another host. Proven
+/// by tests/signals/system/stopwatch_test.cc.
 class Stopwatch {
  public:
   using Clock = std::chrono::steady_clock;

@@ -83,7 +83,7 @@ TEST_F(BadCase, MeshWithAnInvertedCellIsRefusedWithItsPlace) {
       "4 3 2 2 2 1 2 6 5\n5 3 2 2 2 2 3 7 6\n6 3 2 2 2 3 4 8 7\n7 3 2 2 2 4 1 5 8\n"
       "$EndElements\n");
   refuse(case_with("Model", "Mesh file = " + mesh),
-         AllOf(HasSubstr("turned inside out or flat"), HasSubstr("z = ")));
+         AllOf(HasSubstr("inverted or degenerate cell"), HasSubstr("z = ")));
 }
 
 TEST_F(BadCase, LineAtOrAboveHalfTheSamplingRateIsRefused) {

@@ -189,7 +189,7 @@ TEST(Excite, RefusesBadInputAndWritesNothing) {
   const Folder folder;
   const std::map<std::string, std::string> refused{
       {"--kind chirp", "--kind: unknown choice 'chirp'"},
-      {"--high 250", "half the rate"},
+      {"--high 250", "half the sampling rate"},
       {"--resolution 0.3", "no whole number of samples"},
       {"--resolution 0.5 --period 1000", "give one of them"},
       {"--levels 1,1", "given twice"},

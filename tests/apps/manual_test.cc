@@ -121,7 +121,7 @@ TEST(Convert, UnitsAreConvertedAndImplausibleMagnitudesRemarked) {
   const ProgramResult wrong = vibrissa("convert '" + file + "' '" + folder.file("y.csv") + "'" +
                                        taken + " --column 'base_acceleration=ax[uT]'");
   EXPECT_EQ(wrong.status, 2);
-  EXPECT_THAT(wrong.errors, HasSubstr("does not measure"));
+  EXPECT_THAT(wrong.errors, HasSubstr("cannot be converted"));
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST_F(BadRecords, AreReadWhenTheyAreNotBad) {
 TEST_F(BadRecords, NaNIsNamedWithFileLineAndColumn) {
   damage([](Lines& lines) { lines[77].replace(lines[77].rfind(','), std::string::npos, ",nan"); });
   expect_refused({"base_high.csv:78: ", "column 'base_moment_N_m'", "'nan' is not finite",
-                  "choose rows without any"});
+                  "choose rows without missing samples"});
 }
 
 TEST_F(BadRecords, AnEmptyFieldIsNamedWithFileLineAndColumn) {
@@ -71,7 +71,8 @@ TEST_F(BadRecords, AnEmptyFieldIsNamedWithFileLineAndColumn) {
 TEST_F(BadRecords, AGapInTimeIsNamedWithFileLinesAndColumn) {
   damage([](Lines& lines) { lines.erase(lines.begin() + 301, lines.begin() + 401); });
   expect_refused({"base_high.csv: gap in time between line 301 ", "and line 302 ",
-                  "101 samples where 1 was expected", "column 'time_s'", "never filled"});
+                  "101 sampling intervals where 1 was expected", "column 'time_s'",
+                  "never filled"});
 }
 
 TEST_F(BadRecords, RowsTwiceAreNamedWithFileLinesAndColumn) {

@@ -325,7 +325,7 @@ TEST(WindParameters, EntriesThatDoNotFitEachOtherAreRefusedWithTheirNames) {
   refused("set Kind = sines\nset Sine frequencies =\nset Sine amplitudes =\nset Sine phases =",
           "Sine frequencies is empty");
   refused("set Mean speed = 0", "Mean speed is 0 m/s; it must be other than zero");
-  refused("set Mean speed = -5", "below Maximum speed, 4 m/s");
+  refused("set Mean speed = -5", "below Maximum speed (4 m/s)");
 }
 
 TEST(WindParameters, MeansThatTurbulenceCouldNotHaveAreFineForOtherWind) {

@@ -91,7 +91,7 @@ TEST(SensorMaterials, RelaxingBranchesAreReadInPairs) {
   EXPECT_TRUE(materials.wire.relaxation.branches().empty());
   EXPECT_THAT([] { parsed(entry("Fin", "Prony moduli = 0.3")); },
               ThrowsMessage<signals::UserError>(
-                  AllOf(HasSubstr("Materials/Fin"), HasSubstr("as many of each"))));
+                  AllOf(HasSubstr("Materials/Fin"), HasSubstr("the same number of both"))));
 }
 
 TEST(SensorMaterials, AValueOutOfRangeIsRefusedWithItsLineAndEntry) {

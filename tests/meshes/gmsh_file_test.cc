@@ -256,7 +256,7 @@ TEST_F(GmshFile, WithASurfaceGroupBetweenBodiesIsRefusedWithItsName) {
   TwoCubes cubes;
   cubes.elements.push_back("3 2 3 3 5 6 7 8");
   EXPECT_THAT(complaint_about(cubes.text()),
-              AllOf(HasSubstr(".msh:41: "), HasSubstr("'wire_surface' holds a face inside"),
+              AllOf(HasSubstr(".msh:41: "), HasSubstr("'wire_surface' contains a face inside"),
                     HasSubstr("(5e-04, 5e-04, 0.001) m")));
 }
 
@@ -275,7 +275,7 @@ TEST_F(GmshFile, WithoutClampOrWithOneElsewhereIsRefused) {
               HasSubstr("no outer face is in a physical surface 'clamp'"));
   cubes.elements[2] = "3 2 1 1 1 2 3 4";
   cubes.lowest = -1.;
-  EXPECT_THAT(complaint_about(cubes.text()), HasSubstr("'clamp' leaves the plane z = 0"));
+  EXPECT_THAT(complaint_about(cubes.text()), HasSubstr("'clamp' is not in the plane z = 0"));
 }
 
 TEST_F(GmshFile, OfBodiesThatShareNoFacesIsRefused) {
@@ -325,10 +325,10 @@ TEST_F(GmshFile, WithRepeatedCellsFacesOrNodesIsRefused) {
   EXPECT_THAT(complaint_about(cubes.text()), HasSubstr("uses a node twice"));
   cubes = TwoCubes();
   cubes.elements.push_back("5 2 1 1 5 6 7 8 1 2 3 9");
-  EXPECT_THAT(complaint_about(cubes.text()), HasSubstr("a third hexahedron shares one face"));
+  EXPECT_THAT(complaint_about(cubes.text()), HasSubstr("more than two hexahedra share one face"));
   cubes = TwoCubes();
   cubes.elements.push_back("3 2 3 3 1 2 7 8");
-  EXPECT_THAT(complaint_about(cubes.text()), HasSubstr("no face of a hexahedron"));
+  EXPECT_THAT(complaint_about(cubes.text()), HasSubstr("not a face of a hexahedron"));
   std::string text = TwoCubes().text();
   text.replace(text.find("\n2 0.001"), 2, "\n1");
   EXPECT_THAT(complaint_about(text), HasSubstr("node 1 is given twice"));

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view delimiter = "    -1";
 
-/// Walks over the lines of a file that may hold stretches of raw bytes.
+/// Reads the lines of a file that may contain blocks of raw bytes.
 class Lines {
  public:
   Lines(const std::string& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
@@ -47,7 +47,7 @@ class Lines {
   std::size_t at_ = 0, line_ = 0;
 };
 
-/// One line's fields at their places.
+/// Fixed-width fields of a line.
 class Fields {
  public:
   Fields(const std::string_view line, const Lines& lines) : line_(line), lines_(lines) {}
@@ -63,7 +63,7 @@ class Fields {
     const std::optional<double> value = to_number(field);
     constexpr double most = 2147483647.;
     if (!value || *value != std::floor(*value) || std::abs(*value) > most)
-      lines_.refuse("'" + std::string(field) + "' is no whole number");
+      lines_.refuse("'" + std::string(field) + "' is not a whole number");
     return static_cast<int>(*value);
   }
   // Fortran writes 1.0D-03 and, where the exponent needs three digits, 1.0-103.
@@ -78,7 +78,7 @@ class Fields {
       field.append(1, 'E').append(exponent);
     }
     const std::optional<double> value = field.empty() ? 0. : to_number(field);
-    if (!value) lines_.refuse("'" + field.substr(0, 40) + "' is no number");
+    if (!value) lines_.refuse("'" + field.substr(0, 40) + "' is not a number");
     return *value;
   }
   void skip(const std::size_t width) { at_ += width; }
@@ -104,7 +104,7 @@ Uff58Axis read_axis(Lines& lines) {
   return axis;
 }
 
-/// How the values of a function lie in the file.
+/// Storage of the values of a function in the file.
 struct Layout {
   int type = real_double;
   std::size_t n_points = 0;
@@ -136,10 +136,11 @@ Layout read_head(Lines& lines, Uff58Function& function) {
   function.abscissa_step = seventh.real(13);
   if (layout.type != real_single && layout.type != real_double && layout.type != complex_single &&
       layout.type != complex_double)
-    lines.refuse("ordinate data type " + std::to_string(layout.type) +
-                 " is none of 2, 4, 5 and 6 (real or complex, single or double precision)");
+    lines.refuse(
+        "ordinate data type " + std::to_string(layout.type) +
+        " is not supported; use 2, 4, 5 or 6 (real or complex, single or double precision)");
   if (n_points < 0 || std::size_t(n_points) > most_numbers / 3)
-    lines.refuse("claims " + std::to_string(n_points) + " points");
+    lines.refuse("the number of points " + std::to_string(n_points) + " is not possible");
   layout.n_points = static_cast<std::size_t>(n_points);
   function.is_complex = layout.type == complex_single || layout.type == complex_double;
   function.single_precision = layout.is_single();
@@ -168,7 +169,8 @@ std::vector<double> read_text_values(Lines& lines, const Layout& layout) {
   return values;
 }
 
-// The format has an abscissa of single precision; some programs write it as they write values.
+// The format defines an abscissa of single precision; some programs write it with the precision of
+// the values.
 std::vector<double> read_binary_values(Lines& lines, const Layout& layout, const std::endian order,
                                        const std::size_t n_bytes) {
   const std::size_t size = layout.is_single() ? sizeof(float) : sizeof(double);
@@ -176,8 +178,8 @@ std::vector<double> read_binary_values(Lines& lines, const Layout& layout, const
   const std::size_t narrow_bytes = layout.n_points * (sizeof(float) + (a_point - 1) * size);
   const bool has_narrow_abscissa = !layout.is_even && n_bytes == narrow_bytes;
   if (!has_narrow_abscissa && layout.n_points * a_point * size != n_bytes)
-    lines.refuse("its " + std::to_string(layout.n_points) + " points do not take the " +
-                 std::to_string(n_bytes) + " bytes that its first line says");
+    lines.refuse("its " + std::to_string(layout.n_points) + " points do not need the " +
+                 std::to_string(n_bytes) + " bytes that its first line declares");
   const std::string_view raw = lines.raw(n_bytes);
   std::vector<double> values;
   for (std::size_t at = 0; at < n_bytes;) {
@@ -210,7 +212,7 @@ Uff58Function read_function(Lines& lines, const std::string_view kind_line) {
   if (is_binary) kind.skip(12);
   const int n_bytes = is_binary ? kind.whole(12) : 0;
   if (is_binary && (floating_format != 2 || byte_order < 1 || byte_order > 2 || n_bytes < 0))
-    lines.refuse("its binary numbers are not those of IEEE 754");
+    lines.refuse("its binary numbers are not in the IEEE 754 format");
   const std::endian order = byte_order == 2 ? std::endian::big : std::endian::little;
   const Layout layout = read_head(lines, function);
   set_values(is_binary ? read_binary_values(lines, layout, order, std::size_t(n_bytes))
@@ -236,7 +238,7 @@ std::vector<Uff58Function> parse_uff58(const std::string& bytes, const std::stri
     skip_data_set(lines);
   }
   if (functions.empty())
-    throw UserError(name + ": holds no function of type 58 of the Universal File Format");
+    throw UserError(name + ": contains no function of type 58 of the Universal File Format");
   return functions;
 }
 

@@ -75,8 +75,8 @@ std::unique_ptr<RecordTable> read_uff58_table(const std::filesystem::path& file)
            !function.abscissa.empty() || !(function.abscissa_step > 0.);
   });
   if (functions.empty())
-    throw UserError(file.string() + ": holds no evenly sampled time response" +
-                    (has_response ? "; its frequency responses are read by identify and convert "
+    throw UserError(file.string() + ": contains no uniformly sampled time response" +
+                    (has_response ? "; to read its frequency responses, use identify or convert "
                                     "with --frequency-response"
                                   : ""));
   const Uff58Function first = functions.front();

@@ -8,12 +8,12 @@
 
 namespace vibrissa::signals::formats {
 
-/// The time responses of a file as columns: those that are as long and as finely sampled as the
-/// first. A column is called by the first line of its function, or, where that says nothing or the
-/// same for two, by the node and direction ("12+Z").
+/// Reads the time responses of a file as columns: those with the length and the sampling interval
+/// of the first one. The name of a column is the first line of its function or, when this line is
+/// empty or not unique, node and direction ("12+Z").
 std::unique_ptr<RecordTable> read_uff58_table(const std::filesystem::path& file);
 
-/// One time response a channel. The exact rate and start stand in its fourth line, for
+/// Writes one time response for each channel. The fourth line contains the exact rate and start for
 /// read_uff58_table. Proven by tests/signals/formats/uff58_file_test.cc.
 void write_uff58(const std::filesystem::path& file, const Record& record);
 

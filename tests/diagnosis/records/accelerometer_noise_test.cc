@@ -31,7 +31,7 @@ TEST(NoiseLines, AreAllOfAReadingThatRepeatsNothing) {
 
 /// The source's noise power lies below half the source's rate, so its density is higher by the
 /// ratio of the rates.
-TEST(NoiseLines, OfAPolledChannelAreItsSources) {
+TEST(NoiseLines, OfAHeldChannelAreItsSources) {
   constexpr std::size_t n = 5000;
   const std::vector<double> source = noise(n);
   std::vector<double> reading;

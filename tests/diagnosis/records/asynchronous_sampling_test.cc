@@ -63,17 +63,17 @@ TEST(EvenedSeries, IsNoneOfSamplesThatAreAsOldAsEachOther) {
       EXPECT_FALSE(evened_series(read_from(source_hz, phase), 500.).has_value());
 }
 
-TEST(SampleRepeat, IsNamedWhereTheAccelerometersSamplesHaveUnevenAges) {
+TEST(SampleRepeat, IsNamedWhereTheAccelerometerIsSampledAsynchronously) {
   test::OneModeRig rig = test::noisy_rig();
   // The rig reads at 4000 Hz; every eighth sample is evaluated.
   rig.rate_hz = 4000.;
-  const auto slower = [&](const signals::Record& fast, bool polled) {
+  const auto slower = [&](const signals::Record& fast, bool held) {
     const auto a = fast.channel(signals::channel::base_acceleration),
                m = fast.channel(signals::channel::base_moment);
     const std::size_t n = fast.n_samples() / 8;
     std::vector<double> read, moment;
     for (std::size_t k = 0; k < n; ++k) {
-      read.push_back(a[polled ? 8 * k / 5 * 5 : 8 * k]);
+      read.push_back(a[held ? 8 * k / 5 * 5 : 8 * k]);
       moment.push_back(m[8 * k]);
     }
     signals::Record out(500., n);
@@ -81,7 +81,7 @@ TEST(SampleRepeat, IsNamedWhereTheAccelerometersSamplesHaveUnevenAges) {
     out.set_channel(signals::channel::base_moment, std::move(moment));
     return out;
   };
-  for (const bool polled : {true, false}) {
+  for (const bool held : {true, false}) {
     signals::Dataset real;
     unsigned seed = 5;
     for (const double level : {0., 1., 4.}) {
@@ -89,13 +89,13 @@ TEST(SampleRepeat, IsNamedWhereTheAccelerometersSamplesHaveUnevenAges) {
       const signals::Record fast =
           rig.record(8 * 1024, 4.096, drive, test::no_signal, seed++, false);
       real.records.push_back({"level " + std::to_string(level),
-                              slower(fast, polled),
+                              slower(fast, held),
                               {level > 0., false},
                               level > 0. ? 512u : 0u});
     }
     const Diagnosis answer =
         diagnose(test::nominal_of(test::OneModeRig{}, false), real, {.search = {.max_effects = 1}});
-    EXPECT_EQ(answer.verdict, polled ? "sample_repeat" : "none");
+    EXPECT_EQ(answer.verdict, held ? "sample_repeat" : "none");
   }
 }
 

@@ -56,14 +56,14 @@ TEST(UnknownAge, IsWhatTheRepeatsLeaveOpen) {
   EXPECT_EQ(unknown_age(slipping), 0.);
 }
 
-TEST(IsPolled, TakesNoConverterForASource) {
+TEST(IsHeld, TakesNoConverterForASource) {
   std::vector<double> x;
   for (int i = 0; i < 2000; ++i) x.push_back(0.25 * std::round(4. * tone(i / 500.)));
   EXPECT_GT(repeat_share(x), 0.08);
   EXPECT_FALSE(is_held(x));
 }
 
-TEST(SampleRepeat, IsNamedWhereTheAccelerometerIsPolledFromASlowerSource) {
+TEST(SampleRepeat, IsNamedWhereTheAccelerometerRepeatsASlowerSource) {
   const test::OneModeRig rig = test::noisy_rig();
   signals::Dataset real = test::rig_dataset(rig);
   for (signals::DatasetRecord& entry : real.records) {

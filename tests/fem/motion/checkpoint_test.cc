@@ -112,7 +112,7 @@ TEST_P(Checkpoint, AnotherRunsIsRefusedWithTheFirstEntryThatDiffers) {
   CheckpointOwner other = owner;
   other.case_text = "subsection Records\n  set Seed = 2\nend\n";
   expect_refusal(file, other,
-                 "in 'Records' it has 'set Seed = 1' where this run has 'set Seed = 2'");
+                 "in 'Records' it has 'set Seed = 1', but this run has 'set Seed = 2'");
   other = owner;
   other.digests["mesh"] = "n";
   expect_refusal(file, other, "its mesh differs");

@@ -67,7 +67,7 @@ TEST_P(SteadySensor, AWindThatNothingStandsIsRefusedWithTheSpeedReachedAndAdvice
       },
       testing::ThrowsMessage<signals::UserError>(testing::AllOf(
           testing::HasSubstr("no equilibrium in a steady wind of 50000 m/s"),
-          testing::HasSubstr("the last one found is at about "), testing::HasSubstr("weaker"))));
+          testing::HasSubstr("the last equilibrium is at about "), testing::HasSubstr("weaker"))));
 }
 
 TEST_P(SteadySensor, LoadsThatAreNotFiniteAreRefusedByName) {

@@ -73,7 +73,8 @@ TEST(WienerFilter, RefusesWhatItCannotSolve) {
     EXPECT_THAT([&] { wiener_filter(a, m, options); },
                 ThrowsMessage<UserError>(HasSubstr(message)));
   };
-  refuse(x, Signal(9, 1.), {.filter_length = 2}, "10 accelerations and 9 moments");
+  refuse(x, Signal(9, 1.), {.filter_length = 2},
+         "10 samples of acceleration, but 9 samples of moment");
   refuse(x, x, {.filter_length = 0}, "filter_length = 0");
   refuse(x, x, {.filter_length = 11}, "filter_length = 11");
   refuse(x, x, {.filter_length = 2, .regularisation = -1.}, "regularisation = -1");

@@ -180,7 +180,7 @@ TEST(IdentifyFrequency, RefusesWhatDoesNotDetermineAModel) {
   auto unordered = measured;
   std::swap(unordered.frequency_hz[1], unordered.frequency_hz[2]);
   EXPECT_THAT([&] { identify_frequency(unordered, {.order = 2}); },
-              ThrowsMessage<UserError>(HasSubstr("not above the one before")));
+              ThrowsMessage<UserError>(HasSubstr("not above the frequency before")));
   auto short_value = measured;
   short_value.value.pop_back();
   EXPECT_THAT([&] { identify_frequency(short_value, {.order = 2}); },

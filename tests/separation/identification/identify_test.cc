@@ -260,7 +260,7 @@ TEST(Identify, RefusesRecordsThatTellNothing) {
   refuse(held_record(truth, 20, 1), good, "too few for a model of order 2");
   refuse(good, good, "order = 3", {.order = 3});
   refuse(good, good, "order = 0", {.max_order = 0});
-  refuse(good, good, "hold no whole period of 4000", {.period_samples = 4000});
+  refuse(good, good, "contain no whole period of 4000", {.period_samples = 4000});
 }
 
 TEST(Identify, SaysWhenTheLinesAreTooFewForTheOrder) {

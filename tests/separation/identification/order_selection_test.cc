@@ -111,7 +111,7 @@ TEST(OrderSelection, IsNotFooledByTheNoiseOfAnAccelerometer) {
 
 TEST(OrderSelection, SaysWhatItFound) {
   EXPECT_THAT(select(measure(test::sensor(2, -2e-7), 8000, 0.03, 0., 1)).words,
-              HasSubstr("both ask for order 4"));
+              HasSubstr("both select order 4"));
 }
 
 TEST(OrderSelection, RefusesWhatCannotBeDone) {

@@ -109,7 +109,7 @@ TEST(OutputOnly, FindsNoModeInWhiteNoise) {
   for (int draw = 0; draw < 50; ++draw) {
     const auto found = identify_output_only(test::white_noise(5000, 1., 300 + draw), rate_hz);
     n_found += found.modes.size() + found.undamped_hz.size();
-    EXPECT_THAT(found.words, HasSubstr(found.modes.empty() ? "no resonance stands out" : ""));
+    EXPECT_THAT(found.words, HasSubstr(found.modes.empty() ? "no resonance was found" : ""));
   }
   EXPECT_LE(n_found, 1u);
 }
@@ -123,7 +123,7 @@ TEST(OutputOnly, SetsALineApartFromTheMode) {
     const auto found = identify_output_only(x, rate_hz);
     ASSERT_EQ(found.undamped_hz.size(), 1u) << draw;
     EXPECT_NEAR(found.undamped_hz[0].value, 50., 0.02);
-    EXPECT_THAT(found.words, HasSubstr("a line of the drive"));
+    EXPECT_THAT(found.words, HasSubstr("a line of the excitation"));
     ASSERT_EQ(found.modes.size(), 1u) << draw;
     const auto& mode = found.modes[0];
     EXPECT_NEAR(mode.frequency_hz.value, 31.47, 4. * mode.frequency_hz.standard_deviation);

@@ -96,10 +96,10 @@ TEST(ResidualTests, NoticeAMissingModeThatMakesATenthOfTheMoment) {
     noticed += !after_fit(1, 0.1, seed).independence.passed();
   EXPECT_GE(noticed, 99);
   EXPECT_THAT(after_fit(1, 0.1, 1).words,
-              AllOf(HasSubstr("the residual still follows the input at lags "),
+              AllOf(HasSubstr("the residual is correlated with the input at lags "),
                     HasSubstr("the order is too low")));
   EXPECT_THAT(after_fit(2, 0.1, 1).words,
-              AllOf(HasSubstr("does not follow the input"), Not(HasSubstr("too low"))));
+              AllOf(HasSubstr("uncorrelated with the input"), Not(HasSubstr("too low"))));
 }
 
 TEST(ResidualTests, NameTheLagAndItsSign) {
@@ -111,7 +111,8 @@ TEST(ResidualTests, NameTheLagAndItsSign) {
   }
   EXPECT_THAT(test_residual(later, input).independence.suspicious_lags, testing::ElementsAre(3));
   EXPECT_THAT(test_residual(sooner, input).independence.suspicious_lags, testing::ElementsAre(-3));
-  EXPECT_THAT(test_residual(sooner, input).words, HasSubstr("ahead of the input at lags -3:"));
+  EXPECT_THAT(test_residual(sooner, input).words,
+              HasSubstr("correlated with later input at lags -3:"));
 }
 
 TEST(ResidualTests, RefuseWhatTellsNothing) {

@@ -74,7 +74,7 @@ TEST(Srivc, RefusesWhatItCannotFit) {
   EXPECT_THAT([&] { fit(model, Signal(20, 1.), Signal(20, 1.)); },
               ThrowsMessage<UserError>(HasSubstr("20 samples are too few for 14 unknowns")));
   EXPECT_THAT([&] { fit(model, input, output, 300.); },
-              ThrowsMessage<UserError>(HasSubstr("beyond half the sampling rate")));
+              ThrowsMessage<UserError>(HasSubstr("above half the sampling rate")));
   EXPECT_THAT([&] { fit(model, input, output, -1.); },
               ThrowsMessage<UserError>(HasSubstr("rate -1")));
 }

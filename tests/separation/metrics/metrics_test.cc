@@ -130,7 +130,7 @@ TEST(Metrics, RefuseWhatTheyCannotMeasure) {
   refuse([&] { sdr_db(silence, silence); }, "not defined");
   refuse([&] { delay_samples(x, level, 5); }, "constant");
   refuse([&] { delay_samples(x, x, 100); }, "largest delay of 100");
-  refuse([&] { band_power(x, 500., {300., 400.}); }, "holds no line");
+  refuse([&] { band_power(x, 500., {300., 400.}); }, "contains no line");
   refuse([&] { band_power(x, 0., {1., 4.}); }, "rate 0");
   refuse([&] { convergence_time_s(x, 500., {.window_s = 1.}); }, "window_s = 1");
   refuse([&] { convergence_time_s(x, 500., {.final_fraction = 1.}); }, "final_fraction = 1");

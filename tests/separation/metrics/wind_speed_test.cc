@@ -94,7 +94,7 @@ TEST(WindSpeed, RefusesWhatHasNoInverse) {
     EXPECT_THAT(call, ThrowsMessage<UserError>(HasSubstr(message)));
   };
   refuse([] { DragCalibration([](double u) { return u * (2. - u); }, 3.); },
-         "does not rise at 1.002 m/s");
+         "does not increase at 1.002 m/s");
   refuse([] { DragCalibration([](double u) { return u + 1.; }, 3.); }, "gives 1 N m at rest");
   refuse([] { DragCalibration([](double u) { return u; }, 0.); }, "highest_speed_m_s = 0");
   refuse([] { DragCalibration([](double u) { return u; }, 1., -0.1); }, "relative_error = -0.1");

@@ -98,7 +98,7 @@ TEST(CHeader, RefusesWhatAMicrocontrollerCannotDo) {
     return c_header(model, options);
   };
   EXPECT_THAT([&] { with([](auto& o) { o.hold = Hold::band_limited; }); },
-              ThrowsMessage<UserError>(HasSubstr("looks ahead")));
+              ThrowsMessage<UserError>(HasSubstr("needs future samples")));
   EXPECT_THAT([&] { with([](auto& o) { o.sampling_rate_hz = 0.; }); },
               ThrowsMessage<UserError>(HasSubstr("sampling rate 0")));
   EXPECT_THAT([&] { with([](auto& o) { o.name = "my model"; }); },

@@ -70,12 +70,12 @@ TEST(BvrmJson, NamesTheEntryThatIsWrong) {
   refusal([](json& j) { j["schema"] = "vibrissa-bvrm-0"; }, "'schema' must be \"vibrissa-bvrm-1\"");
   refusal([](json& j) { j.erase("direct_term_kg_m"); }, "'direct_term_kg_m' is missing");
   refusal([](json& j) { j["delai_s"] = 0.; }, "did you mean 'delay_s'?");
-  refusal([](json& j) { j["modes"] = 3; }, "'modes' must be a list");
+  refusal([](json& j) { j["modes"] = 3; }, "'modes' must be an array");
   refusal([](json& j) { j["modes"][1].erase("a0_per_s2"); },
           "modes[1]: entry 'a0_per_s2' is missing");
   refusal([](json& j) { j["modes"][0]["a1_per_s"] = "10"; }, "'a1_per_s' must be a finite number");
   refusal([](json& j) { j["modes"][0]["a1_per_s"] = -10; }, "'a1_per_s' must be positive");
-  refusal([](json& j) { j["modes"][0]["frequency_hz"] = 30; }, "a0_per_s2 and a1_per_s say 31.47");
+  refusal([](json& j) { j["modes"][0]["frequency_hz"] = 30; }, "a0_per_s2 and a1_per_s give 31.47");
   refusal([](json& j) { j["modes"][0] = 7; }, "modes[0]: must be an object");
 }
 

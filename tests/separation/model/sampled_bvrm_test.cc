@@ -47,7 +47,7 @@ TEST(BvrmFile, NamesTheFileThatIsMissingOrNoJson) {
   std::filesystem::remove(file);
   EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr(file.string())));
   std::ofstream(file) << "{\"schema\": ";
-  EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr("no valid JSON")));
+  EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr("not valid JSON")));
   std::ofstream(file) << "{\"delay_s\": 1e400}";  // beyond every double
   EXPECT_THAT([&] { read_bvrm(file); }, ThrowsMessage<UserError>(HasSubstr("1e400")));
   std::filesystem::remove(file);
@@ -61,7 +61,7 @@ TEST(BvrmFile, NamesAHoldThatIsNone) {
   EXPECT_THAT(read, ThrowsMessage<UserError>(
                         AllOf(HasSubstr("model.json: 'hold'"), HasSubstr("first_order"))));
   bad["hold"] = 1;
-  EXPECT_THAT(read, ThrowsMessage<UserError>(HasSubstr("'hold' must be a text")));
+  EXPECT_THAT(read, ThrowsMessage<UserError>(HasSubstr("'hold' must be a string")));
 }
 
 TEST(SampledBvrm, TakesTheInputAsToldElseAsItWasForTheFit) {

@@ -45,7 +45,8 @@ TEST(UnknownName, PrefersTheNearerOfTwoNearNames) {
 }
 
 TEST(UnknownName, SaysWhenThereIsNothingToChooseFrom) {
-  EXPECT_EQ(unknown_name("channel", "wind", {}), "unknown channel 'wind'; there is none");
+  EXPECT_EQ(unknown_name("channel", "wind", {}),
+            "unknown channel 'wind'; the list of known names is empty");
 }
 
 TEST(UnknownName, TakesAnyLengthOfInput) {

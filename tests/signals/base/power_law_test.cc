@@ -36,7 +36,7 @@ TEST(PowerLaw, LocalExponentsSpanTheBendOfASumOfTwoLaws) {
   EXPECT_LT(law.highest_local_exponent, 23. / 12.);
 }
 
-// 2000 fits: 95 % +- 1.5 %, four standard deviations and the quantile's own error.
+// 2000 fits: 95 % ± 1.5 %: four standard deviations and the error of the quantile.
 TEST(PowerLaw, TheIntervalHoldsTheExponentInNineteenOfTwentyNoisyFits) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0., 0.1);
@@ -67,8 +67,8 @@ TEST(PowerLaw, WhatHasNoExponentIsRefused) {
   };
   refused({1., 2.}, {1., 2.}, "three points");
   refused({0., 1., 2.}, {1., 2., 3.}, "positive, ascending");
-  refused({1., 3., 2.}, {1., 2., 3.}, "number 3 is 2");
-  refused({1., 2., 3.}, {1., 0., 3.}, "that to 2 is 0");
+  refused({1., 3., 2.}, {1., 2., 3.}, "value 3 is 2");
+  refused({1., 2., 3.}, {1., 0., 3.}, "the response to 2 is 0");
 }
 
 }  // namespace

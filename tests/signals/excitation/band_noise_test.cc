@@ -56,9 +56,10 @@ TEST(BandNoise, RefusesWhatCannotBeSampled) {
     return [=] { sample(noise, rate); };
   };
   EXPECT_THAT(make({0., 5., 1., 100, 1}), ThrowsMessage<UserError>(HasSubstr("0 < low")));
-  EXPECT_THAT(make({1., 250., 1., 100, 1}), ThrowsMessage<UserError>(HasSubstr("half the rate")));
+  EXPECT_THAT(make({1., 250., 1., 100, 1}),
+              ThrowsMessage<UserError>(HasSubstr("half the sampling rate")));
   EXPECT_THAT(make({1., 5., NAN, 100, 1}), ThrowsMessage<UserError>(HasSubstr("peak nan")));
-  EXPECT_THAT(make({1., 2., 1., 100, 1}), ThrowsMessage<UserError>(HasSubstr("hold no line")));
+  EXPECT_THAT(make({1., 2., 1., 100, 1}), ThrowsMessage<UserError>(HasSubstr("contain no line")));
   EXPECT_THAT(make({1., 2., 1., 0, 1}), ThrowsMessage<UserError>(HasSubstr("0 samples")));
   EXPECT_THAT(make({1., 2., 1., 100, 1}, 0.), ThrowsMessage<UserError>(HasSubstr("rate 0")));
 }

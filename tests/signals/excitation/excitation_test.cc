@@ -160,8 +160,9 @@ TEST(Excitation, IsWrittenInTheUnitOfItsChannel) {
 
 TEST(Excitation, RefusesADesignThatContradictsItself) {
   const auto design = [](ExcitationDesign wanted) { return [=] { design_excitation(wanted); }; };
-  EXPECT_THAT(design({.high_hz = 250.}),
-              ThrowsMessage<UserError>(AllOf(HasSubstr("250 Hz"), HasSubstr("half the rate"))));
+  EXPECT_THAT(
+      design({.high_hz = 250.}),
+      ThrowsMessage<UserError>(AllOf(HasSubstr("250 Hz"), HasSubstr("half the sampling rate"))));
   EXPECT_THAT(design({.sampling_rate_hz = 0.}), ThrowsMessage<UserError>(HasSubstr("rate 0 Hz")));
   EXPECT_THAT(design({.period_samples = 1}), ThrowsMessage<UserError>(HasSubstr("too short")));
   EXPECT_THAT(design({.peak = 0.}), ThrowsMessage<UserError>(HasSubstr("peak 0")));

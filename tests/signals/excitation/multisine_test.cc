@@ -77,7 +77,7 @@ double crest(MultisinePhase phase) {
   return crest_factor(make_multisine(experiment_tones_hz, 1., phase).sample(14848., 14848));
 }
 
-// Published figures of the reference study's six tones.
+// Published values of the six tones of the reference paper.
 TEST(Multisine, ExperimentTonesHaveTheKnownCrestFactors) {
   EXPECT_NEAR(crest(MultisinePhase::ascending), 3.45, 0.005);
   EXPECT_NEAR(crest(MultisinePhase::zero), 3.15, 0.005);
@@ -166,13 +166,13 @@ TEST(MultisineLines, RefusesLinesThatDoNotFit) {
   const auto lines = [](double low, double high, std::size_t n, double resolution) {
     return [=] { multisine_lines(low, high, n, resolution); };
   };
-  EXPECT_THAT(lines(1., 5., 6, 1.), ThrowsMessage<UserError>(HasSubstr("only 5 fit")));
-  EXPECT_THAT(lines(1.1, 1.9, 1, 1.), ThrowsMessage<UserError>(HasSubstr("only 0 fit")));
+  EXPECT_THAT(lines(1., 5., 6, 1.), ThrowsMessage<UserError>(HasSubstr("only 5 lines fit")));
+  EXPECT_THAT(lines(1.1, 1.9, 1, 1.), ThrowsMessage<UserError>(HasSubstr("only 0 lines fit")));
   EXPECT_THAT(lines(5., 1., 2, 1.), ThrowsMessage<UserError>(HasSubstr("low <= high")));
   EXPECT_THAT(lines(0., 1., 2, 1.), ThrowsMessage<UserError>(HasSubstr("0 < low")));
   EXPECT_THAT(lines(1., NAN, 2, 1.), ThrowsMessage<UserError>(HasSubstr("low <= high")));
   EXPECT_THAT(lines(1., 5., 2, 0.), ThrowsMessage<UserError>(HasSubstr("positive resolution")));
-  EXPECT_THAT(lines(1., 5., 0, 1.), ThrowsMessage<UserError>(HasSubstr("a line at least")));
+  EXPECT_THAT(lines(1., 5., 0, 1.), ThrowsMessage<UserError>(HasSubstr("at least one line")));
 }
 
 TEST(CrestFactor, IsPeakOverRootMeanSquare) {

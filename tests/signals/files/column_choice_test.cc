@@ -50,16 +50,16 @@ TEST(ParseColumnChoice, RefusesAScaleThatIsNoFiniteNumberOrZero) {
 
 TEST(ParseColumnChoice, RefusesFactorsWhoseProductIsNoNumber) {
   EXPECT_THAT([] { parse_column_choice("base_moment=M*1e200*1e200"); },
-              ThrowsMessage<UserError>(HasSubstr("the factors multiply to inf")));
+              ThrowsMessage<UserError>(HasSubstr("the product of the factors is inf")));
   EXPECT_THAT([] { parse_column_choice("base_moment=M*1e-200*1e-200"); },
-              ThrowsMessage<UserError>(HasSubstr("the factors multiply to 0")));
+              ThrowsMessage<UserError>(HasSubstr("the product of the factors is 0")));
   EXPECT_THAT([] { parse_column_choice("base_moment=M[GN.m]*1e300"); },
-              ThrowsMessage<UserError>(HasSubstr("the factors multiply to inf")));
+              ThrowsMessage<UserError>(HasSubstr("the product of the factors is inf")));
 }
 
 TEST(ParseColumnChoice, RefusesTextThatIsNoChoice) {
   EXPECT_THAT([] { parse_column_choice("base_moment"); },
-              ThrowsMessage<UserError>(HasSubstr("expected channel=column")));
+              ThrowsMessage<UserError>(HasSubstr("write channel=column")));
   for (const char* const text : {"base_moment=", "base_moment= ", "base_moment=*2"})
     EXPECT_THAT([&] { parse_column_choice(text); },
                 ThrowsMessage<UserError>(HasSubstr("the name of the column is missing")));
@@ -83,7 +83,7 @@ TEST(ParseColumnChoice, MultipliesFactorsAndTheirUnits) {
 
 TEST(ParseColumnChoice, RefusesUnitsThatDoNotMeasureWhatTheChannelDoes) {
   EXPECT_THAT([] { parse_column_choice("base_moment=B[uT]*1.8e-4"); },
-              ThrowsMessage<UserError>(AllOf(HasSubstr("'(uT)' does not measure what 'N m'"),
+              ThrowsMessage<UserError>(AllOf(HasSubstr("'(uT)' cannot be converted to 'N m'"),
                                              HasSubstr("0.18[N m/T]"))));
   EXPECT_THAT([] { parse_column_choice("base_acceleration=ax[furlong/x]"); },
               ThrowsMessage<UserError>(HasSubstr("is not known")));

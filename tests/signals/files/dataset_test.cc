@@ -93,9 +93,9 @@ TEST_F(DatasetFolder, RefusesASetUpThatIsNone) {
   const auto refused = [&](const std::string& setup, const std::string& why) {
     expect_refused(R"({"file": "a.csv", "excitation": "base", "setup": )" + setup + "}", why);
   };
-  refused("90", "/records/0/setup: is no object");
+  refused("90", "/records/0/setup: must be an object");
   refused(R"({"tilt": 90})", "tilt_deg");
-  refused(R"({"tilt_deg": "steep"})", "/setup/tilt_deg: is no number");
+  refused(R"({"tilt_deg": "steep"})", "/setup/tilt_deg: must be a number");
   refused(R"({"added_mass_kg": -1})", "must not be negative");
   refused(R"({"stage": "loose"})", "clamped");
   refused(R"({"magnet": 1})", "true or false");
@@ -137,9 +137,9 @@ TEST_F(DatasetFolder, TakesWhenThePieceOfALongerRecordBegan) {
   describe(R"({"file": "a.csv", "excitation": "base", "clock_start_s": 120.5})");
   EXPECT_EQ(read_dataset(folder_.path()).records[0].clock_start_s, 120.5);
   expect_refused(R"({"file": "a.csv", "excitation": "base", "clock_start_s": -1})",
-                 "/records/0/clock_start_s: is no time");
+                 "/records/0/clock_start_s: must be a time");
   expect_refused(R"({"file": "a.csv", "excitation": "base", "clock_start_s": "late"})",
-                 "/records/0/clock_start_s: is no time");
+                 "/records/0/clock_start_s: must be a time");
 }
 
 TEST_F(DatasetFolder, RefusesUnknownWordsAndListsTheKnown) {
@@ -152,7 +152,7 @@ TEST_F(DatasetFolder, RefusesUnknownWordsAndListsTheKnown) {
 TEST_F(DatasetFolder, RefusesBesideTheRecordsWhatWouldHaveMeantSomething) {
   const std::string entry = R"({"file": "a.csv", "excitation": "base"})";
   describe(entry, R"(, "period_samples": 64)");
-  expect_error("/period_samples: is told of each record");
+  expect_error("/period_samples: belongs to each record");
   describe(entry, R"(, "read_out": "rotation")");
   expect_error("did you mean 'readout'?");
   describe(entry, R"(, "comment": "on the stage", "author": "me")");
@@ -161,14 +161,14 @@ TEST_F(DatasetFolder, RefusesBesideTheRecordsWhatWouldHaveMeantSomething) {
 
 TEST_F(DatasetFolder, RefusesEntriesOfTheWrongKindAndSaysWhichOne) {
   expect_refused(R"("a.csv")", "/records/0");
-  expect_refused(R"({"excitation": "base"})", "names no file");
+  expect_refused(R"({"excitation": "base"})", "name the file");
   expect_refused(R"({"file": "a.csv"})", "excitation");
   expect_refused(R"({"file": "a.csv", "excitation": "base", "period_samples": -4})",
-                 "no count of samples");
+                 "must be a whole number of samples");
   expect_refused(R"({"file": "a.csv", "excitation": "base", "period_samples": 4096})",
                  "longer than the record");
   expect_refused(R"({"file": "a.csv", "excitation": "base", "sampling_rate_hz": "fast"})",
-                 "is no number");
+                 "must be a number");
   expect_refused("", "at least one record");
 }
 
@@ -184,7 +184,7 @@ TEST_F(DatasetFolder, RefusesAnotherSchemaAndWhatIsNoJson) {
   folder_.file("dataset.json", R"({"schema": "vibrissa-dataset-9", "records": []})");
   expect_error("vibrissa-dataset-1");
   folder_.file("dataset.json", "{\"schema\": ");
-  expect_error("no valid JSON");
+  expect_error("not valid JSON");
   folder_.file("dataset.json", "[1, 2]");
   expect_error("vibrissa-dataset-1");
 }

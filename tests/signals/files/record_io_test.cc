@@ -186,8 +186,8 @@ TEST_F(ReadRecord, AsksForTheRateWhenThereIsNoTime) {
   for (const auto& columns : {std::vector<ColumnChoice>{},
                               std::vector<ColumnChoice>{{"base_acceleration_m_s2", "z_mps2"}}})
     EXPECT_THAT(reading(content, {.columns = columns}),
-                ThrowsMessage<UserError>(
-                    AllOf(HasSubstr("r.csv:1: no column time_s"), HasSubstr("give --rate"))));
+                ThrowsMessage<UserError>(AllOf(HasSubstr("r.csv:1: the sampling rate is unknown"),
+                                               HasSubstr("give --rate"))));
 }
 
 TEST_F(ReadRecord, RefusesARateThatContradictsTime) {
@@ -195,8 +195,8 @@ TEST_F(ReadRecord, RefusesARateThatContradictsTime) {
   EXPECT_EQ(read(content, {.sampling_rate_hz = 500.4}).sampling_rate_hz(), 500.4);
   EXPECT_THAT(
       reading(content, {.sampling_rate_hz = 501.}),
-      ThrowsMessage<UserError>(AllOf(
-          HasSubstr("501 Hz"), HasSubstr("contradicted_by column 'time_s'"), HasSubstr("500 Hz"))));
+      ThrowsMessage<UserError>(AllOf(HasSubstr("501 Hz"), HasSubstr("contradicts column 'time_s'"),
+                                     HasSubstr("500 Hz"))));
 }
 
 TEST_F(ReadRecord, RecognizesTimeInMilliseconds) {
@@ -225,7 +225,7 @@ TEST_F(ReadRecord, NamesLineAndColumnOfTextThatIsNoNumber) {
     EXPECT_THAT(reading(with_field(field)),
                 ThrowsMessage<UserError>(
                     EndsWith(std::string("r.csv:17: column 'base_acceleration_m_s2': '") + field +
-                             "' is no number")));
+                             "' is not a number")));
   EXPECT_THAT(reading(with_field("")),
               ThrowsMessage<UserError>(EndsWith("'base_acceleration_m_s2': the field is empty")));
 }
@@ -244,7 +244,7 @@ TEST_F(ReadRecord, NamesLineAndColumnOfANumberThatIsNotFinite) {
 TEST_F(ReadRecord, CutsALongFieldShortInTheMessage) {
   EXPECT_THAT(
       reading(with_field(std::string(100000, 'x'))),
-      ThrowsMessage<UserError>(HasSubstr("'" + std::string(40, 'x') + "...' is no number")));
+      ThrowsMessage<UserError>(HasSubstr("'" + std::string(40, 'x') + "...' is not a number")));
 }
 
 TEST_F(ReadRecord, RefusesTimeThatIsNaN) {
@@ -266,9 +266,9 @@ TEST_F(ReadRecord, ReportsAGapInTimeWithItsLines) {
   });
   EXPECT_THAT(reading(content),
               ThrowsMessage<UserError>(EndsWith(
-                  "r.csv: gap in time between line 21 (0.038 s) and line 22 (0.052 s): 7 "
-                  "samples where 1 was expected; column 'time_s': samples are never filled "
-                  "in or left out, use the rows before or those after")));
+                  "r.csv: gap in time between line 21 (0.038 s) and line 22 (0.052 s): 7 sampling "
+                  "intervals where 1 was expected; column 'time_s': samples are never added or "
+                  "removed; use only the rows before this place or only the rows after it")));
   EXPECT_THAT(reading(content, {.first_row = 11}),
               ThrowsMessage<UserError>(HasSubstr("between line 21 ")));
   EXPECT_EQ(read(content, {.first_row = 21}).n_samples(), 80u);
@@ -306,13 +306,13 @@ TEST_F(ReadRecord, SaysHowManyRowsThereAreWhenMoreAreChosen) {
   const std::string content = csv(plain_header, plain);
   EXPECT_THAT(reading(content, {.first_row = 31, .n_rows = 71}),
               ThrowsMessage<UserError>(
-                  HasSubstr("rows 31 to 101 are asked for, but the file has 100 rows")));
+                  HasSubstr("rows 31 to 101 are requested, but the file has 100 rows")));
   EXPECT_THAT(reading(content, {.first_row = 102}),
               ThrowsMessage<UserError>(HasSubstr("the file has 100 rows")));
   EXPECT_THAT(reading(content, {.n_rows = std::numeric_limits<std::size_t>::max()}),
               ThrowsMessage<UserError>(HasSubstr("the file has 100 rows")));
   EXPECT_THAT(reading(content, {.first_row = 0}),
-              ThrowsMessage<UserError>(HasSubstr("first row is row 1")));
+              ThrowsMessage<UserError>(HasSubstr("first row has the number 1")));
 }
 
 TEST_F(WriteRecord, WritesTimeThenTheChannelsInTheirOrder) {

@@ -86,19 +86,19 @@ TEST_F(CsvFileTest, VisitsOnlyTheRowsAskedFor) {
 TEST_F(CsvFileTest, RefusesARowOfAnotherLengthWithItsLine) {
   EXPECT_THAT(
       [&] { all_rows("a,b\n1,2\n3\n"); },
-      ThrowsMessage<UserError>(EndsWith("r.csv:3: 1 field where the first line names 2 columns")));
+      ThrowsMessage<UserError>(EndsWith("r.csv:3: 1 field, but the first line names 2 columns")));
   EXPECT_THAT(
       [&] { all_rows("a,b\n1,2,3\n"); },
-      ThrowsMessage<UserError>(EndsWith("r.csv:2: 3 fields where the first line names 2 columns")));
+      ThrowsMessage<UserError>(EndsWith("r.csv:2: 3 fields, but the first line names 2 columns")));
   EXPECT_THAT([&] { all_rows("a,b\n\"1,2\n"); },
               ThrowsMessage<UserError>(HasSubstr("r.csv:2: 1 field where")));
 }
 
 TEST_F(CsvFileTest, RefusesABlankLineAmongTheData) {
   EXPECT_THAT([&] { all_rows("a,b\n1,2\n\n3,4\n"); },
-              ThrowsMessage<UserError>(HasSubstr("r.csv:3: a blank line among the data")));
+              ThrowsMessage<UserError>(HasSubstr("r.csv:3: blank line between the data")));
   EXPECT_THAT([&] { all_rows("a\n1\n \n3\n"); },
-              ThrowsMessage<UserError>(HasSubstr("r.csv:3: a blank line among the data")));
+              ThrowsMessage<UserError>(HasSubstr("r.csv:3: blank line between the data")));
 }
 
 TEST_F(CsvFileTest, HintsAtTheNearestColumnAndListsAll) {
@@ -123,7 +123,7 @@ TEST_F(CsvFileTest, RefusesARepeatedColumnButNotSeveralWithoutAName) {
 
 TEST_F(CsvFileTest, RefusesAFileWithoutColumnNames) {
   EXPECT_THAT([&] { opened("0.002,1e-3\n0.004,2\n"); },
-              ThrowsMessage<UserError>(HasSubstr("r.csv:1: the first line holds numbers")));
+              ThrowsMessage<UserError>(HasSubstr("r.csv:1: the first line contains numbers")));
   EXPECT_THAT([&] { opened("\na,b\n1,2\n"); },
               ThrowsMessage<UserError>(HasSubstr("r.csv:1: the first line is blank")));
 }
@@ -143,7 +143,7 @@ TEST_F(CsvFileTest, TakesNamesFromACommentBeforeNumbers) {
   EXPECT_EQ(file.n_rows(), 2u);
   EXPECT_EQ(file.line_of(1), 3u);
   EXPECT_THAT([&] { opened("# logger 3\n0,1\n1,2\n"); },
-              ThrowsMessage<UserError>(HasSubstr("r.csv:2: the first line holds numbers")));
+              ThrowsMessage<UserError>(HasSubstr("r.csv:2: the first line contains numbers")));
   EXPECT_THAT([&] { opened("# a\n# b\n"); }, ThrowsMessage<UserError>(HasSubstr("is empty")));
 }
 

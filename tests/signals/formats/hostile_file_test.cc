@@ -88,7 +88,7 @@ TEST(Hdf5, ThatClaimsMoreThanItHoldsIsRefusedBeforeMemoryIsAskedFor) {
                          Set{.n = 1000, .n_chunk = hsize_t{1} << 28}}) {
     write_set(folder.path() / "a.h5", set);
     EXPECT_THAT([&] { read_hdf5(folder.path() / "a.h5"); },
-                ThrowsMessage<UserError>(HasSubstr("'moment' claims")));
+                ThrowsMessage<UserError>(HasSubstr("'moment' declares")));
   }
   EXPECT_LT(peak_memory_mb() - before, 100.);
 }
@@ -102,7 +102,7 @@ TEST(Hdf5, OfMonstrousNumbersIsRefusedBeforeMemoryIsAskedFor) {
   write_set(file, {.type = type});
   H5Tclose(type);
   EXPECT_THAT([&] { read_hdf5(file); },
-              ThrowsMessage<UserError>(HasSubstr("'moment' claims numbers of 536870912 bytes")));
+              ThrowsMessage<UserError>(HasSubstr("'moment' declares numbers of 536870912 bytes")));
   EXPECT_LT(peak_memory_mb() - before, 100.);
 }
 
@@ -118,8 +118,9 @@ TEST(Hdf5, ThatIsShorterThanItsShapeIsRefused) {
   const std::size_t at = bytes.find(there);
   ASSERT_NE(at, std::string::npos);
   bytes.replace(at, sizeof damaged, reinterpret_cast<const char*>(&damaged), sizeof damaged);
-  EXPECT_THAT([&] { read_hdf5(folder.file("b.h5", bytes)); },
-              ThrowsMessage<UserError>(HasSubstr("'moment' claims 12345 numbers in 8 bytes")));
+  EXPECT_THAT(
+      [&] { read_hdf5(folder.file("b.h5", bytes)); },
+      ThrowsMessage<UserError>(HasSubstr("'moment' declares 12345 numbers, but has only 8 bytes")));
 }
 
 TEST(Hdf5, WhoseShapeIsSaidToLieInATableThatIsNotThereIsRefused) {

@@ -35,7 +35,7 @@ TEST(NumericTable, AScalarRateIsTheClock) {
 
 TEST(NumericTable, RefusesFilesWithoutColumnsAndRepeatedNames) {
   EXPECT_THAT([] { NumericTable("f.h5", {column("a", 1)}); },
-              ThrowsMessage<UserError>(HasSubstr("f.h5: holds no column")));
+              ThrowsMessage<UserError>(HasSubstr("f.h5: contains no column")));
   EXPECT_THAT(
       [] {
         NumericTable("f.h5", {column("a", 9), column("a", 9)});

@@ -107,7 +107,7 @@ TEST_F(ResponseReader, RefusesWhatItCannotChooseOrConvert) {
   const auto source = two_functions();
   expect_refusal(source, {}, "1 'at the base', 2 'at the tip'", "choose one");
   expect_refusal(source, {"3"}, "has no response 3", "at the tip");
-  expect_refusal(source, {"1[kg]"}, "does not measure", "moment per acceleration");
+  expect_refusal(source, {"1[kg]"}, "cannot be converted", "moment per acceleration");
   Uff58Function bare = uff58_of(sensor_response(), "in teslas").front();
   bare.ordinate_axis.unit = "T";
   write_uff58(file("t.uff"), {bare});

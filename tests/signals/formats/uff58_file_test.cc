@@ -132,12 +132,12 @@ TEST(Uff58, RefusesWhatIsDamaged) {
   const auto refuses = [](const std::string& text, const std::string& reason) {
     EXPECT_THAT([&] { parse_uff58(text, "bad.uff"); }, ThrowsMessage<UserError>(HasSubstr(reason)));
   };
-  refuses("hello\n", "holds no function of type 58");
+  refuses("hello\n", "contains no function of type 58");
   refuses(head_of_a_frf + "  1.00000E+00\n", "the file ends within a function");
-  refuses(head_of_a_frf + "  1.00000E+00  x\n", "bad.uff:14: 'x' is no number");
+  refuses(head_of_a_frf + "  1.00000E+00  x\n", "bad.uff:14: 'x' is not a number");
   std::string many = head_of_a_frf;
   many.replace(many.find("         5         3"), 20, "         52000000000");
-  refuses(many, "claims 2000000000 points");
+  refuses(many, "the number of points 2000000000");
 }
 
 }  // namespace

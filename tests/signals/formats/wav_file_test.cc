@@ -76,9 +76,9 @@ TEST(WavFile, RefusesADriveThatTheFormatCannotHold) {
   };
   EXPECT_THAT(write({x, 500.5, 3.2}), ThrowsMessage<UserError>(HasSubstr("whole number of hertz")));
   EXPECT_THAT(write({x, NAN, 3.2}), ThrowsMessage<UserError>(HasSubstr("nan")));
-  EXPECT_THAT(write({x, 500., 3.1}), ThrowsMessage<UserError>(HasSubstr("beyond the full scale")));
+  EXPECT_THAT(write({x, 500., 3.1}), ThrowsMessage<UserError>(HasSubstr("exceeds the full scale")));
   EXPECT_THAT(write({x, 500., 0.}), ThrowsMessage<UserError>(HasSubstr("full scale 0")));
-  EXPECT_THAT(write({{}, 500., 1.}), ThrowsMessage<UserError>(HasSubstr("a sample at least")));
+  EXPECT_THAT(write({{}, 500., 1.}), ThrowsMessage<UserError>(HasSubstr("at least one sample")));
   EXPECT_EQ(folder.n_entries(), 0u);
 }
 
@@ -87,7 +87,7 @@ TEST(WavFile, RefusesAFileThatIsNone) {
   EXPECT_THAT([&] { read_wav(folder.path() / "none.wav"); },
               ThrowsMessage<UserError>(HasSubstr("none.wav: cannot be read: No such file")));
   EXPECT_THAT([] { parse_wav("time_s,base_moment_N_m\n", "a.csv"); },
-              ThrowsMessage<UserError>(HasSubstr("a.csv: is no WAV file")));
+              ThrowsMessage<UserError>(HasSubstr("a.csv: is not a WAV file")));
   EXPECT_THAT([] { parse_wav("RIFF\x04\0\0\0WAVE", "a.wav"); },
               ThrowsMessage<UserError>(HasSubstr("a.wav: ")));
 }

@@ -21,7 +21,7 @@ using ::testing::ThrowsMessage;
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// Figures that are hard to write down exactly.
+/// Numbers without an exact short decimal text.
 ReducedModel awkward_model() {
   ReducedModel model;
   model.name = "flow sensor, \"level 2\" \\ µ";
@@ -216,7 +216,7 @@ TEST_F(ModelFile, RefusesWhatIsNoJson) {
   for (const char* text :
        {"", "{", "{\"schema\": NaN}", "{\"schema\": 1e999}", "\xff\xfe", "[1,]"}) {
     write_text(text);
-    EXPECT_THAT([&] { read_reduced_model(file()); }, complains(file().string(), "no valid JSON"));
+    EXPECT_THAT([&] { read_reduced_model(file()); }, complains(file().string(), "not valid JSON"));
   }
   for (const char* text : {"[]", "3", "null", "\"vibrissa-model-1\""}) {
     write_text(text);

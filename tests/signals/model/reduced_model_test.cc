@@ -21,7 +21,7 @@ using Signal = std::vector<double>;
 using test::peak;
 
 using std::numbers::pi;
-constexpr double participation = 0.011, moment_participation = 7e-4;  // kg^1/2, kg^1/2 m
+constexpr double participation = 0.011, moment_participation = 7e-4;  // √kg, √kg·m
 constexpr double rigid = 9e-6;                                        // kg m
 
 /// One bending mode in the xz-plane: M about y.
@@ -500,7 +500,7 @@ TEST(Simulate, RefusesInputsThatDoNotFit) {
   EXPECT_THAT(run({1000., 10, ten, ten, nine}),
               ThrowsMessage<UserError>(HasSubstr("wind_speed has 9")));
   EXPECT_THAT(run({1000., 10, ten, ten, ten}),
-              ThrowsMessage<UserError>(HasSubstr("'one mode': the wind blows")));
+              ThrowsMessage<UserError>(HasSubstr("'one mode': the input has wind")));
   EXPECT_THAT(run({0., 10, ten, {}, {}}), ThrowsMessage<UserError>(HasSubstr("sampling rate 0")));
   EXPECT_THAT([&] { steady_wind_moment(model, 1.); },
               ThrowsMessage<UserError>(HasSubstr("no wind load")));

@@ -88,7 +88,7 @@ TEST(RecordSlice, RefusesWhatIsNotWithinTheRecord) {
   for (const Range& range :
        std::vector<Range>{{0, 11}, {4, 7}, {10, 1}, {0, 0}, {huge, 2}, {2, huge}})
     EXPECT_THAT([&] { record.slice(range.first, range.count); },
-                ThrowsMessage<UserError>(HasSubstr("not within a record of 10 samples")));
+                ThrowsMessage<UserError>(HasSubstr("does not fit into a record of 10 samples")));
 }
 
 }  // namespace

@@ -105,10 +105,10 @@ TEST(TimeAxis, AllowsAThousandthOfAPeriodOfJitterAndNoMore) {
 TEST(TimeAxis, ReportsAGapWithItsPlaceAndLength) {
   const Printed gap(300, "%.3f", [](const double i) { return 0.002 * (i < 119. ? i : i + 6.); });
   EXPECT_THAT([&] { gap.axis(); },
-              ThrowsMessage<UserError>(
-                  EndsWith("r.csv: gap in time between line 120 (0.236 s) and line 121 (0.25 s): "
-                           "7 samples where 1 was expected; column 'time_s': samples are never "
-                           "filled in or left out, use the rows before or those after")));
+              ThrowsMessage<UserError>(EndsWith(
+                  "r.csv: gap in time between line 120 (0.236 s) and line 121 (0.25 s): 7 sampling "
+                  "intervals where 1 was expected; column 'time_s': samples are never added or "
+                  "removed; use only the rows before this place or only the rows after it")));
 }
 
 TEST(TimeAxis, ReportsASingleLostSampleWhereverItIs) {
@@ -117,7 +117,7 @@ TEST(TimeAxis, ReportsASingleLostSampleWhereverItIs) {
     EXPECT_THAT([&] { gap.axis(); },
                 ThrowsMessage<UserError>(
                     AllOf(HasSubstr("line " + std::to_string(static_cast<int>(lost) + 2) + " ("),
-                          HasSubstr("2 samples where 1 was expected"))))
+                          HasSubstr("2 sampling intervals where 1 was expected"))))
         << lost;
   }
 }
@@ -127,13 +127,13 @@ TEST(TimeAxis, CountsTheGapsBehindTheFirst) {
       300, "%.3f", [](const double i) { return 0.002 * (i + (i > 50.) + (i > 90.) + (i > 91.)); });
   EXPECT_THAT([&] { gaps.axis(); },
               ThrowsMessage<UserError>(
-                  AllOf(HasSubstr("line 52 (0.1 s)"), HasSubstr("(2 more further on)"))));
+                  AllOf(HasSubstr("line 52 (0.1 s)"), HasSubstr("(2 more gaps follow)"))));
 }
 
 TEST(TimeAxis, SaysWhenDigitsAreTooCoarseToTellALostSample) {
   const Printed coarse(1000, "%.3f", [](const double i) { return i / 830.; });
   EXPECT_THAT([&] { coarse.axis(); },
-              ThrowsMessage<UserError>(HasSubstr("print time with more digits")));
+              ThrowsMessage<UserError>(HasSubstr("write the time with more digits")));
   const Printed fine(1000, "%.6f", [](const double i) { return (i + (i > 500.)) / 830.; });
   EXPECT_THAT([&] { fine.axis(); },
               ThrowsMessage<UserError>(AllOf(HasSubstr("gap"), Not(HasSubstr("digits")))));

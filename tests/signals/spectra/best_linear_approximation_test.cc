@@ -215,7 +215,7 @@ TEST(RobustApproximation, RefusesWhatHoldsNoAnswer) {
       [&] {
         robust_approximation(all, {5, 512});
       },
-      ThrowsMessage<UserError>(HasSubstr("line 512 is not among 1 .. 511")));
+      ThrowsMessage<UserError>(HasSubstr("line 512 is not one of the lines 1 .. 511")));
   all[0].input[4] = 0.;
   EXPECT_THAT([&] { robust_approximation(all, {5}); },
               ThrowsMessage<UserError>(HasSubstr("input is zero at line 5")));
@@ -369,10 +369,11 @@ TEST(FastApproximation, RefusesWhatHoldsNoAnswer) {
   };
   EXPECT_THAT(fast(average(LineGrid::random_odd, 1)),
               ThrowsMessage<UserError>(HasSubstr("two periods")));
-  EXPECT_THAT(fast(average(LineGrid::full, 2)),
-              ThrowsMessage<UserError>(HasSubstr("is excited; it needs a random-odd grid")));
+  EXPECT_THAT(
+      fast(average(LineGrid::full, 2)),
+      ThrowsMessage<UserError>(HasSubstr("is excited, but the method needs a random-odd grid")));
   EXPECT_THAT(fast(average(LineGrid::random_odd, 2), {.n_averaged = 1000}),
-              ThrowsMessage<UserError>(HasSubstr("1000 to be averaged")));
+              ThrowsMessage<UserError>(HasSubstr("1000 are to be averaged")));
   EXPECT_THAT(fast(average(LineGrid::random_odd, 2), {.n_averaged = 0}),
               ThrowsMessage<UserError>(HasSubstr("at least 1")));
 }

@@ -272,7 +272,7 @@ TEST(WelchResponse, RefusesWhatHoldsNoAnswer) {
   };
   EXPECT_NO_THROW(respond(x, x, 666)());
   EXPECT_THAT(respond(x, x, 668),
-              ThrowsMessage<UserError>(HasSubstr("1000 samples hold 1 segments of 668")));
+              ThrowsMessage<UserError>(HasSubstr("1000 samples contain 1 segments of 668")));
   EXPECT_THAT(respond(x, x, 2048), ThrowsMessage<UserError>(HasSubstr("hold 0 segments")));
   EXPECT_THAT(respond(x, x, 0), ThrowsMessage<UserError>(HasSubstr("segment_samples = 0")));
   EXPECT_THAT(respond(constant, x, 256), ThrowsMessage<UserError>(HasSubstr("constant")));
@@ -339,7 +339,7 @@ TEST(WelchSpectrum, NeedsOneSegment) {
   const std::vector<double> x(100, 1.);
   EXPECT_NO_THROW(welch_spectrum(x, 500., {.segment_samples = 100}));
   EXPECT_THAT([&] { welch_spectrum(x, 500., {.segment_samples = 101}); },
-              ThrowsMessage<UserError>(HasSubstr("100 samples hold 0 segments of 101")));
+              ThrowsMessage<UserError>(HasSubstr("100 samples contain 0 segments of 101")));
   EXPECT_THAT([&] { welch_spectrum(x, NAN, {.segment_samples = 100}); },
               ThrowsMessage<UserError>(HasSubstr("sampling rate nan")));
 }

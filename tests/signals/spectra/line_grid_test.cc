@@ -67,7 +67,7 @@ TEST(LineGrid, SaysWhatEachRoleReveals) {
   EXPECT_THAT(revelation(LineGrid::random_odd, even), HasSubstr("even distortion"));
   EXPECT_THAT(revelation(LineGrid::random_odd, odd), HasSubstr("odd distortion"));
   EXPECT_THAT(revelation(LineGrid::random_odd, excited), HasSubstr("noise"));
-  EXPECT_THAT(revelation(LineGrid::odd, excited), HasSubstr("odd distortion by the scatter"));
+  EXPECT_THAT(revelation(LineGrid::odd, excited), HasSubstr("odd distortion, from the scatter"));
   EXPECT_THAT(revelation(LineGrid::full, excited), HasSubstr("even and odd distortion together"));
 }
 
@@ -85,10 +85,10 @@ TEST(LineGrid, RefusesWhatMakesNoGrid) {
   EXPECT_THAT(make(LineGrid::full, {1., 1e9, 1.}),
               ThrowsMessage<UserError>(HasSubstr("more than")));
   EXPECT_THAT(make(LineGrid::random_odd, {1., 6., 1.}),
-              ThrowsMessage<UserError>(HasSubstr("3 odd lines in the band, groups of 4")));
+              ThrowsMessage<UserError>(HasSubstr("3 odd lines in the band for groups of 4")));
   EXPECT_NO_THROW(make(LineGrid::random_odd, {1., 7., 1.})());
   EXPECT_THAT(make(LineGrid::random_odd, {1., 60., 1., 1}),
-              ThrowsMessage<UserError>(HasSubstr("groups of 2 at least")));
+              ThrowsMessage<UserError>(HasSubstr("at least one whole group of at least 2 lines")));
 }
 
 }  // namespace

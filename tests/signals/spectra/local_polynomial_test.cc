@@ -217,7 +217,7 @@ TEST(LocalPolynomial, RefusesWhatHoldsNoAnswer) {
   EXPECT_THAT(respond(x, {1.}), ThrowsMessage<UserError>(HasSubstr("output 1")));
   EXPECT_THAT(respond(broken, x), ThrowsMessage<UserError>(HasSubstr("sample 7 of the input")));
   EXPECT_THAT(respond(x, x, {2, 2}), ThrowsMessage<UserError>(HasSubstr("no degree of freedom")));
-  EXPECT_THAT(respond(x, x, {9, 0}), ThrowsMessage<UserError>(HasSubstr("orders go to 8")));
+  EXPECT_THAT(respond(x, x, {9, 0}), ThrowsMessage<UserError>(HasSubstr("the order is at most 8")));
   EXPECT_THAT(respond(x, x, {2, 60}), ThrowsMessage<UserError>(HasSubstr("window of 121")));
   EXPECT_THAT(respond(x, x, {}, -1.), ThrowsMessage<UserError>(HasSubstr("rate -1")));
 }

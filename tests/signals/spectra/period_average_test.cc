@@ -122,7 +122,7 @@ TEST(PeriodAverage, RefusesWhatHoldsNoPeriod) {
   EXPECT_THAT(average(x, 0., 250), ThrowsMessage<UserError>(HasSubstr("rate 0 Hz")));
   EXPECT_THAT(average({1.}, 500., 250), ThrowsMessage<UserError>(HasSubstr("output 1")));
   EXPECT_THAT(average(x, 500., 501), ThrowsMessage<UserError>(HasSubstr("no whole period of 501")));
-  EXPECT_THAT(average(x, 500., 3), ThrowsMessage<UserError>(HasSubstr("4 at least")));
+  EXPECT_THAT(average(x, 500., 3), ThrowsMessage<UserError>(HasSubstr("a period has at least 4")));
   EXPECT_THAT(average(broken, 500., 250),
               ThrowsMessage<UserError>(HasSubstr("sample 3 of the output")));
 }

@@ -187,7 +187,7 @@ TEST(Resample, RefusesRatesInNoSmallRatio) {
       {500., 500.0001}, {1001., 1000.}, {1., 1001.}, {1001., 1.}, {500., 500. * std::numbers::pi}};
   for (const Rates& rates : refused)
     EXPECT_THAT([&] { resample(x, rates.from_hz, rates.to_hz); },
-                ThrowsMessage<UserError>(HasSubstr("no ratio of whole numbers up to 1000")));
+                ThrowsMessage<UserError>(HasSubstr("not a ratio of whole numbers up to 1000")));
 }
 
 TEST(Resample, RefusesARateThatIsNotPositiveAndFinite) {

@@ -135,7 +135,7 @@ TEST_F(WriteFile, GivesUpWhenTheWriterSetsTheStreamBad) {
         });
       },
       ThrowsMessage<InternalError>(
-          AllOf(StartsWith(file_.string()), HasSubstr("its writer failed"))));
+          AllOf(StartsWith(file_.string()), HasSubstr("the function that writes it failed"))));
   expect_untouched();
 }
 
@@ -192,7 +192,7 @@ TEST_F(WriteFile, SaysWhenTheFolderIsAFile) {
 TEST_F(WriteFile, SaysWhenTheNameIsAFolder) {
   for (const fs::path& name : {folder_.path(), folder_.path() / "", fs::path()})
     EXPECT_THAT([&] { write_file(name, write_new); },
-                ThrowsMessage<UserError>(HasSubstr("names a folder")));
+                ThrowsMessage<UserError>(HasSubstr("this is a folder")));
   expect_untouched();
 }
 
@@ -263,8 +263,9 @@ TEST_F(MakeNewFolder, RefusesTheNameOfAFileOrAPlaceBelowOne) {
   EXPECT_THAT([&] { make_new_folder(file_); },
               ThrowsMessage<UserError>(HasSubstr("this is a file")));
   EXPECT_THAT([&] { make_new_folder(file_ / "run"); },
-              ThrowsMessage<UserError>(HasSubstr("cannot be made: Not a directory")));
-  EXPECT_THAT([] { make_new_folder(""); }, ThrowsMessage<UserError>(HasSubstr("cannot be made")));
+              ThrowsMessage<UserError>(HasSubstr("cannot be created: Not a directory")));
+  EXPECT_THAT([] { make_new_folder(""); },
+              ThrowsMessage<UserError>(HasSubstr("cannot be created")));
   expect_untouched();
 }
 

@@ -81,7 +81,7 @@ TEST_F(ProgressOnATerminal, IsSilentWhenNotWanted) {
 TEST_F(ProgressOnATerminal, EndsWithTheWholeBarAndANewLine) {
   const std::string shown = shown_by([] { march(1000, 1000); });
   EXPECT_THAT(shown, AllOf(HasSubstr("marching [" + std::string(30, '#') + "] 100 %"),
-                           HasSubstr("in all"), EndsWith("\n")));
+                           HasSubstr("in total"), EndsWith("\n")));
 }
 
 TEST_F(ProgressOnATerminal, ShowsHowFarItGotWhenWorkEndsEarly) {

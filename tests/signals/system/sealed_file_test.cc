@@ -32,8 +32,8 @@ TEST(SealedFile, ShowsNothingOfTheText) {
 
 TEST(SealedFile, StaysClosedToWhatIsNotItsKey) {
   const Seal one = seal("delay"), two = seal("delay");
-  expect_closed({one.cipher, two.key, one.commitment}, "key is another's");
-  expect_closed({one.cipher, "", one.commitment}, "another length");
+  expect_closed({one.cipher, two.key, one.commitment}, "the key is wrong");
+  expect_closed({one.cipher, "", one.commitment}, "its length is wrong");
   expect_closed({one.cipher, "zz" + one.key.substr(2), one.commitment}, "hexadecimal");
   expect_closed({"00", one.key, one.commitment}, "cut off");
 }
@@ -41,7 +41,7 @@ TEST(SealedFile, StaysClosedToWhatIsNotItsKey) {
 TEST(SealedFile, NoticesAChangedTextAndAnotherCommitment) {
   Seal one = seal("delay");
   const Seal two = seal("none");
-  expect_closed({one.cipher, one.key, two.commitment}, "not the one that was committed to");
+  expect_closed({one.cipher, one.key, two.commitment}, "differs from the text of the commitment");
   one.cipher[30] = one.cipher[30] == '0' ? '1' : '0';
   expect_closed(one, "changed");
 }
