@@ -47,6 +47,10 @@ int run(int argc, char** argv) {
 constexpr std::array<std::string_view, 5> of_several = {"run", "modes", "simulate", "transient",
                                                         "trial"};
 
+/// Commands that solve no solid: a fast BLAS kernel would only delay their start.
+constexpr std::array<std::string_view, 8> without_solid = {
+    "init", "identify", "separate", "convert", "excite", "draw", "completion", "manual"};
+
 /// Only the first process prints, but where each has its own work.
 class OutputMute {
  public:
@@ -121,9 +125,10 @@ void settle(const Failure& failure, OutputMute& mute) {
 
 int main(int argc, char** argv) {
   namespace fem = vibrissa::fem;
-  vibrissa::apps::use_fast_blas_kernel(argv);
-  vibrissa::signals::keep_freed_memory();
   const std::string_view command = argc > 1 ? argv[1] : "";
+  if (std::ranges::find(without_solid, command) == without_solid.end())
+    vibrissa::apps::use_fast_blas_kernel(argv);
+  vibrissa::signals::keep_freed_memory();
   // Pictures are drawn by a child of a process that may be one of several.
   std::optional<fem::SolverSession> session;
   if (fem::is_launched_as_several() && command != "draw") session.emplace();

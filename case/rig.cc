@@ -52,7 +52,7 @@ void check_reduced_wind(const Case& parameters) {
 RigRecords measure_on_rig(const signals::ReducedModel& model, const Case& parameters,
                           const Inputs& inputs) {
   signals::MeasuringChain structure;
-  structure.add(signals::make_structure_link(model));
+  structure.add(signals::make_structure_element(model));
   const auto truth = [&](const Driven driven) {
     return structure.measure(motion(parameters, inputs, driven), 0);
   };

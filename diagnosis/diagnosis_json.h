@@ -10,17 +10,4 @@ namespace vibrissa::diagnosis {
 /// not finite become null. Proven by tests/diagnosis/diagnosis_json_test.cc.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 
-/// Does the answer name parameter errors only, so that the simulation needs recalibration and no
-/// new physics? False for "none" and "outside_catalogue".
-bool is_recalibration(const std::string& answer);
-
-/// What an answer that names effects means for the simulation, without a full stop: "The simulation
-/// needs recalibration: set stiffness to 1.21 times the simulated value" or "The simulation lacks
-/// this physics".
-std::string consequence(const Diagnosis& diagnosis);
-
-/// Lines of at most 100 characters, at most 15 lines for a terminal: entries that do not fit
-/// completely are left out.
-std::string verdict_text(const Diagnosis& diagnosis, std::size_t most_lines = 15);
-
 }  // namespace vibrissa::diagnosis

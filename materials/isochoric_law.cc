@@ -17,8 +17,8 @@ constexpr int component[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 void set_cube_root(const double x, double& root) {
   root = std::cbrt(x);
 }
-void set_cube_root(const Lanes& x, Lanes& root) {
-  for (int i = 0; i < n_lanes; ++i) root[i] = std::cbrt(x[i]);
+void set_cube_root(const Register& x, Register& root) {
+  for (int i = 0; i < register_size; ++i) root[i] = std::cbrt(x[i]);
 }
 
 /// The change of shape in C = mean (I + a), tr a = 0. I1bar does not depend on the mean, so that
@@ -182,20 +182,20 @@ Tangent NeoHookean::tangent(const Strain& e) const {
   return tangent_of(*this, e);
 }
 
-void isochoric_stress(const IsochoricLaw& law, const Lanes (&e)[6], Lanes& energy,
-                      Lanes (&stress)[6]) {
+void isochoric_stress(const IsochoricLaw& law, const Register (&e)[6], Register& energy,
+                      Register (&stress)[6]) {
   std::visit(
       [&](const auto& kind) {
-        set_response(kind, e, energy, stress, static_cast<Lanes*>(nullptr));
+        set_response(kind, e, energy, stress, static_cast<Register*>(nullptr));
       },
       law);
 }
 
-void isochoric_tangent(const IsochoricLaw& law, const Lanes (&e)[6], Lanes (&tangent)[21]) {
-  Lanes energy;
+void isochoric_tangent(const IsochoricLaw& law, const Register (&e)[6], Register (&tangent)[21]) {
+  Register energy;
   std::visit(
       [&](const auto& kind) {
-        set_response(kind, e, energy, static_cast<Lanes*>(nullptr), tangent);
+        set_response(kind, e, energy, static_cast<Register*>(nullptr), tangent);
       },
       law);
 }

@@ -5,7 +5,7 @@
 #include <array>
 #include <variant>
 
-#include "materials/lanes.h"
+#include "materials/simd_register.h"
 
 namespace vibrissa::materials {
 
@@ -39,12 +39,12 @@ struct NeoHookean {
 
 using IsochoricLaw = std::variant<Yeoh, NeoHookean>;
 
-/// The same at n_lanes points at once, for assembly: components in the order 11, 22, 33, 12, 13, 23
-/// (tensor, not engineering, strains); the tangent as its upper triangle, row by row. Proven by
-/// isochoric_law_test.cc, ManyPointsAtOnceAreTheSameAsOneByOne.
-void isochoric_stress(const IsochoricLaw& law, const Lanes (&e)[6], Lanes& energy,
-                      Lanes (&stress)[6]);
-void isochoric_tangent(const IsochoricLaw& law, const Lanes (&e)[6], Lanes (&tangent)[21]);
+/// The same at register_size points at once, for assembly: components in the order 11, 22, 33, 12,
+/// 13, 23 (tensor, not engineering, strains); the tangent as its upper triangle, row by row. Proven
+/// by isochoric_law_test.cc, ManyPointsAtOnceAreTheSameAsOneByOne.
+void isochoric_stress(const IsochoricLaw& law, const Register (&e)[6], Register& energy,
+                      Register (&stress)[6]);
+void isochoric_tangent(const IsochoricLaw& law, const Register (&e)[6], Register (&tangent)[21]);
 
 /// I1bar - 3 without cancellation near rest: error below 1e-14 |E|^2 for moderate strain, where |E|
 /// is the norm of the whole strain. Proven by isochoric_law_test.cc, I1barMinus3.

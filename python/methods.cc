@@ -12,6 +12,7 @@
 #include "diagnosis/nominal/nominal_from_model.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/prediction/record_simulation.h"
+#include "diagnosis/verdict_text.h"
 #include "separation/filters/bvrm_separator.h"
 #include "separation/identification/identification_json.h"
 #include "separation/identification/identify.h"

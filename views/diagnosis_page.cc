@@ -4,6 +4,7 @@
 
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/model/words.h"
+#include "diagnosis/verdict_text.h"
 #include "views/diagnosis_plots.h"
 
 namespace vibrissa::views {
@@ -76,8 +77,8 @@ std::vector<report::KeyNumber> key_numbers(const Diagnosis& d) {
   if (d.resonance)
     numbers.push_back({"Resonance, measured", number(d.resonance->measured_hz) + " Hz",
                        "simulated " + number(d.resonance->simulated_hz) +
-                           " Hz; below it the response is " + number(d.resonance->slow_gain_ratio) +
-                           " times the simulated one"});
+                           " Hz; below it the measured response is " +
+                           number(d.resonance->slow_gain_ratio) + " times the simulated one"});
   if (d.wind_speed)
     numbers.push_back({"Wind speed error after correction",
                        number(d.wind_speed->after_m_s) + " m/s",
@@ -200,8 +201,7 @@ report::PageSection cause(const Diagnosis& d, const std::vector<report::Figure>&
     section.text.push_back("Nearest known answer: " + in_words(d.nearest_known->name) +
                            "; it fails the residual test.");
   for (const auto& set : d.indistinguishable)
-    section.text.push_back("Not distinguished by these records: " + diagnosis::joined(set, ", ") +
-                           ".");
+    section.text.push_back("These records cannot separate: " + diagnosis::joined(set, ", ") + ".");
   add(section, "ranking", "Answers, the most probable first", ranking_table(d));
   add(section, "parameters", "Parameters of the answers", parameter_table(d));
   if (!d.ranking.empty())

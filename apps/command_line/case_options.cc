@@ -17,25 +17,27 @@ void CaseOptions::add_to(CLI::App& command) {
   command.add_option("--base-acceleration", base_acceleration_file,
                      "File with a recorded base acceleration (CSV, .mat, .h5, .npy, .uff, .wav)");
   command.add_option("--wind", wind_file, "File with a recorded wind speed");
+  command.add_option("--column", columns,
+                     "Takes a column of these files as a channel: CHANNEL=COLUMN, with the unit in "
+                     "square brackets and a factor where needed, e.g. 'base_acceleration=ax[g]'; "
+                     "channels: base_acceleration, wind_speed; repeatable");
   command.add_option(
-      "--column", columns,
-      "CHANNEL=COLUMN[unit]*FACTOR[unit] of these files, e.g. 'base_acceleration=ax[g]'; "
-      "channels: base_acceleration, wind_speed; repeatable");
-  command.add_option("--rate", rates, "[CHANNEL=]HZ: sampling rate of these files; repeatable");
+      "--rate", rates,
+      "Sampling rate of these files [Hz]: HZ, or CHANNEL=HZ for one of them; repeatable");
   command.add_option("--rows", rows,
                      "CHANNEL=FIRST:LAST: data rows that are used, counted from 1; repeatable");
   command.add_option("--range", ranges,
-                     "CHANNEL=LOW:HIGH: the recording is scaled to this range; repeatable");
+                     "Rescales the recording linearly: CHANNEL=LOW:HIGH, its minimum becomes LOW "
+                     "and its maximum HIGH (SI units); repeatable");
   command.add_option("--remove-mean", remove_means,
                      "CHANNEL whose mean (gravity) is subtracted; repeatable");
-  command.add_option("--duration", duration_s, "Length of all records [s]");
+  command.add_option("--duration", duration_s, "Length of each record [s]");
 }
 
 void CaseOptions::add_folder_to(CLI::App& command) {
-  command.add_option(
-      "-o,--output,--out", output_folder,
-      "Results folder; must not exist yet (default: Output/Folder of the case, else a "
-      "free name below results/)");
+  command.add_option("-o,--output,--out", output_folder,
+                     "Results folder; must not exist yet (default: the entry Output/Folder of the "
+                     "case file; if it is empty, a new folder in results/)");
 }
 
 }  // namespace vibrissa::apps

@@ -43,11 +43,11 @@ std::string written_record_text(const std::string& file, const signals::Record& 
 }
 
 void RecordOptions::add_to(CLI::App& command) {
-  command.add_option("--column", columns,
-                     "CHANNEL=COLUMN[unit]*FACTOR[unit]: takes a column of the file as a channel, "
-                     "units converted to SI, e.g. 'base_acceleration=ax[g]', "
-                     "'base_moment=B[uT]*0.18[N m/T]', base_moment=hall_mT*1.8e-4, 'time=t[ms]'; "
-                     "repeatable");
+  command.add_option(
+      "--column", columns,
+      "Takes a column of the file as a channel: CHANNEL=COLUMN, with the unit in square brackets "
+      "and a factor where needed, e.g. 'base_acceleration=ax[g]', 'base_moment=B[uT]*0.18[N m/T]', "
+      "base_moment=hall_mT*1.8e-4, 'time=t[ms]'; without units the product is in SI; repeatable");
   command.add_option("--rate", rate_hz, "Sampling rate [Hz], for a file without time");
   command.add_option("--rows", rows, "FIRST:LAST: data rows that are used, counted from 1");
   command.add_option("--remove-mean", remove_mean, "Channel whose mean is subtracted; repeatable");

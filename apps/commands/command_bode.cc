@@ -128,9 +128,10 @@ void add_bode_command(CLI::App& app) {
   command->add_option("input", options->input, "Case file (.prm), reduced model (.json) or record")
       ->required();
   options->chosen.add_settings_to(*command);
-  command->add_option("-o,--output,--out", options->folder,
-                      "New folder for plot, picture and response.csv (default: a free name "
-                      "results/bode; none with --json or --response)");
+  command->add_option(
+      "-o,--output,--out", options->folder,
+      "New folder for plot, picture and response.csv (default: results/bode, or results/bode-2, "
+      "... if it exists; with --json or --response no folder is written)");
   command->add_option("--response", options->response_file,
                       "Also write the response for other programs: .uff, .unv, .uf58 (Universal "
                       "File, type 58), .mat or .csv");

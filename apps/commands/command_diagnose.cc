@@ -10,6 +10,7 @@
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/model/updated_model_json.h"
 #include "diagnosis/planning/next_experiment.h"
+#include "diagnosis/verdict_text.h"
 #include "report/files/run_folder.h"
 #include "report/pictures.h"
 #include "signals/base/error.h"
@@ -105,6 +106,17 @@ void diagnose(const DiagnoseCommand& options) {
 
 }  // namespace
 
+namespace {
+
+std::string known_experiments() {
+  std::string names;
+  for (const diagnosis::MenuEntry& entry : diagnosis::experiment_menu())
+    names += (names.empty() ? "" : ", ") + entry.name;
+  return names;
+}
+
+}  // namespace
+
 void add_diagnose_command(CLI::App& app) {
   const auto options = std::make_shared<DiagnoseCommand>();
   auto* command =
@@ -123,16 +135,18 @@ void add_diagnose_command(CLI::App& app) {
   command->add_option(
       "-o,--out,--output", options->folder,
       "New folder for report.html, diagnosis.json, updated_model.json, ranking.csv and pictures "
-      "(default: results/diagnosis, numbered when it is there)");
+      "(default: results/diagnosis, or results/diagnosis-2, ... if it exists)");
   command
       ->add_option("--max-effects", options->max_effects,
-                   "Largest number of effects that are combined, besides recalibrated parameters")
+                   "Largest number of effects that are combined; calibration parameters "
+                   "(stiffness, damping, mass, gains, drag) do not count")
       ->check(CLI::Range(1, 5))
       ->capture_default_str();
   command
       ->add_option("--bench-can", options->possible_experiments,
                    "Experiments that the bench can do, comma-separated; the next experiment is one "
-                   "of them (default: all)")
+                   "of them (default: all): " +
+                       known_experiments())
       ->delimiter(',');
   add_common_options(*command, options->common);
   command->footer(

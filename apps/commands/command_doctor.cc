@@ -125,8 +125,9 @@ void doctor(const CommonOptions& common) {
 
 void add_doctor_command(CLI::App& app) {
   const auto common = std::make_shared<CommonOptions>();
-  auto* command = app.add_subcommand(
-      "doctor", "Checks what this machine lacks: display, BLAS, MPI, memory, disk, units");
+  auto* command = app.add_subcommand("doctor",
+                                     "Checks display, BLAS, MPI, memory, disk and the library of "
+                                     "units, and names what is missing");
   add_common_options(*command, *common);
   command->footer("Example:\n  vibrissa doctor");
   command->callback([common] { doctor(*common); });

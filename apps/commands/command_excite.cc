@@ -257,8 +257,9 @@ void add_excite_command(CLI::App& app) {
   command->add_option("--periods", design.n_periods, "Number of periods to be recorded")
       ->capture_default_str();
   command
-      ->add_option("--lead-in", design.n_lead_in_periods,
-                   "Number of periods sent before the recorded ones, until transients have decayed")
+      ->add_option(
+          "--lead-in", design.n_lead_in_periods,
+          "Number of periods sent before the recorded ones; choose enough for transients to decay")
       ->capture_default_str();
   command
       ->add_option("--realisations", design.n_realisations,
@@ -267,10 +268,13 @@ void add_excite_command(CLI::App& app) {
   command->add_option("--levels", design.levels, "Multiples of the peak, e.g. 0.25,0.5,1")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("-o,--output,--out", options->folder,
-                      "New folder for the drives (CSV, WAV) and excitation.json (default: a free "
-                      "name results/excite; none with --json alone)");
-  command->add_flag("--wav", options->wav, "Also writes sound files, scaled to full scale");
+  command->add_option(
+      "-o,--output,--out", options->folder,
+      "New folder for the drives (CSV, WAV) and excitation.json (default: results/excite, or "
+      "results/excite-2, ... if it exists; with --json no folder is written)");
+  command->add_flag("--wav", options->wav,
+                    "Also writes sound files; one factor scales all levels, so that the largest "
+                    "reaches full scale");
   command->add_option("--wav-format", options->wav_format, "float32 or pcm24")
       ->capture_default_str();
   command

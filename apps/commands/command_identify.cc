@@ -165,14 +165,15 @@ void identify(const IdentifyCommandOptions& options) {
 }
 
 void add_other_inputs(CLI::App& command, IdentifyCommandOptions& options) {
-  command.add_flag("--output-only", options.output_only,
-                   "Gives resonances and damping from base_moment alone, for an input that was not "
-                   "measured and that is close to white noise; gives no gain and no model. --order "
-                   "is then the highest order tried (default 20)");
+  command.add_flag(
+      "--output-only", options.output_only,
+      "Gives resonances and damping from base_moment alone, after a hit or under an input that was "
+      "not measured and is close to white noise; gives no gain and no model. --order is then the "
+      "highest order tried (default 20); --max-order is not used");
   command
       .add_option("--lags", options.max_lags,
-                  "For --output-only: half the longest lag of the covariances [samples]; twice "
-                  "this time should hold a few periods of the lowest resonance")
+                  "For --output-only: the longest lag of the covariances is twice this number of "
+                  "samples; it should cover a few periods of the lowest resonance")
       ->check(positive_number())
       ->capture_default_str();
   command.add_flag("--frequency-response", options.frequency_response,
@@ -233,8 +234,8 @@ void add_identify_command(CLI::App& app) {
       ->capture_default_str();
   add_other_inputs(*command, *options);
   command->add_option("-o,--output,--out", options->model_file,
-                      "Model written as JSON (default: bvrm.json in a free folder "
-                      "results/identify; none with --json alone)");
+                      "File for the model as JSON (default: results/identify/bvrm.json, or "
+                      "results/identify-2/, ... if it exists; with --json no file is written)");
   command->add_option(
       "--c-header", options->c_header_file,
       "Also writes the model as C header for a microcontroller, at the record's sampling rate");

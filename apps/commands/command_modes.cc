@@ -83,12 +83,13 @@ void add_modes_command(CLI::App& app) {
       "modes",
       "Computes resonances of a sensor, with damping, effective masses and mesh convergence");
   options->chosen.add_case_to(*command);
-  command->add_flag("!--no-convergence", options->convergence,
-                    "Leaves out the finer meshes of the refinement table");
+  command->add_flag_callback(
+      "--no-convergence", [options] { options->convergence = false; },
+      "Leaves out the finer meshes of the refinement table");
   command
       ->add_option("--refine-from", options->first_resolution,
-                   "Resolution of the first of the three meshes of the refinement table "
-                   "(default: the case's)")
+                   "Mesh resolution (1 coarse, 6 fine) at which the refinement table of three "
+                   "meshes starts (default: that of the case)")
       ->check(CLI::Range(1, 6));
   add_common_options(*command, options->common);
   command->footer(

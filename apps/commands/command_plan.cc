@@ -120,8 +120,8 @@ void add_options(CLI::App& command, PlanCommand& options) {
       ->check(positive_number())
       ->capture_default_str();
   command.add_option("-o,--out,--output", options.folder,
-                     "New folder for plan.json, detection_limits.csv and the picture "
-                     "(default: results/plan, numbered when it is there)");
+                     "New folder for plan.json, detection_limits.csv and the picture (default: "
+                     "results/plan, or results/plan-2, ... if it exists)");
 }
 
 }  // namespace

@@ -41,16 +41,6 @@ struct SeparateOptions {
   bool stream = false;
 };
 
-/// What is left of the measured moment when an updated model has predicted the part of the base.
-std::vector<double> separate_by_updated_model(const std::string& file,
-                                              const signals::Record& record) {
-  std::vector<double> wind =
-      diagnosis::simulate_vibration(diagnosis::read_updated_model(file), record);
-  const auto measured = record.channel(signals::channel::base_moment);
-  std::transform(measured.begin(), measured.end(), wind.begin(), wind.begin(), std::minus<>());
-  return wind;
-}
-
 /// The base acceleration between its samples as told, else as the model's fit took it.
 std::unique_ptr<separation::BvrmSeparator> bvrm_separator(const SeparateOptions& options,
                                                           const double sampling_rate_hz) {
@@ -71,9 +61,10 @@ std::vector<views::SeparatedSignal> separate_all(const SeparateOptions& options,
   std::vector<views::SeparatedSignal> signals{views::score(
       "nothing removed", {measured.begin(), measured.end()}, record, truth, options.settling_s)};
   if (options.model_file && diagnosis::is_updated_model(*options.model_file)) {
-    signals.push_back(views::score("updated_model",
-                                   separate_by_updated_model(*options.model_file, record), record,
-                                   truth, options.settling_s));
+    signals.push_back(views::score(
+        "updated_model",
+        diagnosis::subtract_vibration(diagnosis::read_updated_model(*options.model_file), record),
+        record, truth, options.settling_s));
   } else if (options.model_file) {
     const auto bvrm = bvrm_separator(options, record.sampling_rate_hz());
     signals.push_back(views::score("bvrm", separation::separate_record(*bvrm, record), record,
@@ -241,12 +232,13 @@ void add_separate_command(CLI::App& app) {
       ->add_option("--method", options->methods,
                    "Methods that need no model (may be repeated):" + known)
       ->capture_default_str();
-  command->add_option(
-      "--sensor-model", options->sensor_model_file,
-      "model.json of a run; adds a wind-speed column, computed from the sensor's steady drag");
+  command->add_option("--sensor-model", options->sensor_model_file,
+                      "Reduced model of the sensor (model.json of 'vibrissa run'); adds a "
+                      "wind-speed column, computed from its steady drag");
   command
       ->add_option("--moment-deviation", options->moment_deviation_n_m,
-                   "Standard deviation of the separated moment, for the speed's interval [N m]")
+                   "Standard deviation of the separated moment [N m]; it sets the confidence "
+                   "interval of the wind speed")
       ->check(not_negative_number())
       ->capture_default_str();
   command->add_option("--truth", options->truth_column,
@@ -254,19 +246,19 @@ void add_separate_command(CLI::App& app) {
   command->add_option("--dtw-path", options->dtw_path_file,
                       "Also writes the time-warping path of the DTW score as CSV: time of the "
                       "truth, time of the estimate");
-  command->add_option(
-      "-o,--output,--out", options->output_file,
-      "Record written, with a wind moment for each method (default: separated.csv in "
-      "a free folder results/separate; none with --json alone)");
+  command->add_option("-o,--output,--out", options->output_file,
+                      "File for the record with a wind moment for each method (default: "
+                      "results/separate/separated.csv, or results/separate-2/, ... if it exists; "
+                      "with --json no file is written)");
   add_filter_options(*command, *options);
   command
       ->add_option("--settling", options->settling_s,
                    "Time at the start that the scores leave out [s]")
       ->check(not_negative_number())
       ->capture_default_str();
-  command->add_flag(
-      "--stream", options->stream,
-      "Reads and writes (CSV) block by block, for records of any length; gives no scores");
+  command->add_flag("--stream", options->stream,
+                    "Reads and writes (CSV) block by block, for records of any length; gives no "
+                    "scores, and cannot be used with --remove-mean");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
   command->footer(

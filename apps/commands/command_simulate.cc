@@ -96,13 +96,15 @@ void add_simulate_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "simulate", "Simulates a record: base moment under base vibration and wind, with noise");
   options->chosen.add_to(*command);
+  command->get_option("case")->description(
+      "Case file (.prm), or updated_model.json of a diagnosis together with --inputs");
   command->add_option("-o,--output,--out,--record", options->record_file,
-                      "Record written (default: record.csv in a free folder results/simulate)");
+                      "File for the record (default: results/simulate/record.csv, or "
+                      "results/simulate-2/, ... if it exists)");
   command->add_option("--write-model", options->model_file, "Also writes the reduced model (JSON)");
-  command->add_option(
-      "--inputs", options->input_file,
-      "Record with base acceleration and wind speed, for an updated model (updated_model.json of a "
-      "diagnosis) in place of the case file; no noise is added");
+  command->add_option("--inputs", options->input_file,
+                      "Record with the base acceleration and wind speed under which an updated "
+                      "model is simulated; no noise is added");
   command->add_flag("--periodic", options->periodic,
                     "The record of --inputs holds whole periods in steady state");
   add_common_options(*command, options->common);

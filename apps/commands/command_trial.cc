@@ -130,11 +130,14 @@ void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   command->add_option("--cases", options->n_cases, "Number of sensors")
       ->check(positive_number())
       ->capture_default_str();
-  command->add_option("--first", options->first, "Number of the first sensor; continues a seed")
+  command
+      ->add_option("--first", options->first,
+                   "Number of the first sensor; use it to add sensors to an earlier trial with the "
+                   "same seed")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of all random draws")->capture_default_str();
   command->add_option("-o,--out,--output", options->folder,
-                      "New folder (default: a free name results/trial)");
+                      "New folder (default: results/trial, or results/trial-2, ... if it exists)");
   command->add_flag("--finite-strain", options->finite_strain,
                     "Simulates the whole solid at finite strain in place of its modes: fewer "
                     "effects; a quarter of an hour for each sensor");
@@ -194,7 +197,8 @@ void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) 
                  "Where several answers remain, adds each further experiment; not with --as-built")
       ->excludes(as_built);
   command
-      ->add_option("--asked", options->asked, "Relative frequencies of 0, 1, 2 and 3 true effects")
+      ->add_option("--asked", options->asked,
+                   "Relative frequencies of sensors with 0, 1, 2 and 3 true effects")
       ->check(CLI::Range(0., 1e6))
       ->capture_default_str();
   add_common_options(*command, options->common);

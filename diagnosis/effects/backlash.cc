@@ -19,6 +19,7 @@ class DeadZone : public JointLaw {
 Effect backlash() {
   return Effect{
       .id = "backlash",
+      .about = "play in a joint",
       .link = Link::structure,
       .equation = "T = -loss clip(k0 phi, -g Y, g Y)",
       .source = "Worden and Tomlinson 2001, sec. 2.3.3; Kahraman and Singh 1990, dead zone",

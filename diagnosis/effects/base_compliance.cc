@@ -5,6 +5,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect base_compliance() {
   return Effect{.id = "base_compliance",
+                .about = "a spring under the silicone",
                 .link = Link::mount,
                 .equation = "1/k = 1/k0 + 1/ks",
                 .source = "Grossi and Albarracin 2003, restrained beams; Den Hartog 1956, ch. 2",

@@ -4,6 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect clock_drift() {
   return Effect{.id = "clock_drift",
+                .about = "two clocks run at different rates",
                 .link = Link::clock,
                 .equation = "moment sampled at t (1 + e)",
                 .source = "Allan 1987, frequency offset of clocks",

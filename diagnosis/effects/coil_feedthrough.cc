@@ -4,6 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect coil_feedthrough() {
   return Effect{.id = "coil_feedthrough",
+                .about = "the field of the shaker's coil is read as moment",
                 .link = Link::sensor,
                 .equation = "M_read = M + b M0 a",
                 .source = "ISO 16063-33:2017, magnetic field sensitivity",

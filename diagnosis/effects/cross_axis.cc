@@ -4,6 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect cross_axis() {
   return Effect{.id = "cross_axis",
+                .about = "transverse motion acts on the sensor",
                 .link = Link::reference,
                 .equation = "M += (e + f H(s) / H(0)) M0 a_perp",
                 .source = "ISO 16063-31:2009, transverse sensitivity; ADXL345 data sheet, rev. E",

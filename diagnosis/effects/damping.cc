@@ -6,6 +6,7 @@ namespace vibrissa::diagnosis::effects {
 Effect damping() {
   return Effect{
       .id = "damping",
+      .about = "more or less damping",
       .link = Link::structure,
       .equation =
           "c = r c0: r^s in each mode by itself; r^(1 - s) where most of the damping is, its "

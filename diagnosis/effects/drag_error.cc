@@ -4,6 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect drag_error() {
   return Effect{.id = "drag_error",
+                .about = "another drag coefficient",
                 .link = Link::wind,
                 .equation = "F = r F0",
                 .source = "Hoerner 1965, ch. 3; White 2006: drag coefficients",

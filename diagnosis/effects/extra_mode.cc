@@ -20,6 +20,7 @@ std::vector<std::vector<double>> scanned_modes() {
 
 Effect extra_mode() {
   return Effect{.id = "extra_mode",
+                .about = "one more resonance",
                 .link = Link::structure,
                 .equation = "M += g M0 / ((s/w)^2 + 2 z s/w + 1) a",
                 .source = "Ewins 2000, ch. 2: response as a sum of modes",

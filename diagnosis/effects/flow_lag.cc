@@ -4,6 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect flow_lag() {
   return Effect{.id = "flow_lag",
+                .about = "the wind at the whisker lags the measured wind",
                 .link = Link::wind,
                 .equation = "tau u' + u = u_measured",
                 .source = "Wyngaard 1981, first-order response; Scanlan et al. 1974, bluff bodies",

@@ -24,6 +24,7 @@ class Cubic : public JointLaw {
 Effect hardening() {
   return Effect{
       .id = "hardening",
+      .about = "the spring stiffens or softens with deflection",
       .link = Link::structure,
       .equation = "T = k0 phi b (y/Y)^2",
       .source = "Nayfeh and Mook 1979, ch. 4; Worden and Tomlinson 2001, sec. 2.3.1 and 3.2",

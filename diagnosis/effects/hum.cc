@@ -22,6 +22,7 @@ Effect hum() {
   frequency.largest_step = 0.01;
   return Effect{
       .id = "hum",
+      .about = "a line from the mains",
       .link = Link::sensor,
       .equation = "M_read = M + A sin(2 pi f t + phase)",
       .source = "Ott 2009, cabling and grounding; Harris 1978, leakage of a line",

@@ -34,6 +34,7 @@ class Iwan : public JointLaw {
 
 Effect joint_friction() {
   return Effect{.id = "joint_friction",
+                .about = "dry friction in a joint",
                 .link = Link::structure,
                 .equation =
                     "T = sum of Jenkins elements, stiffness r k0, slip moments m (1 + d (-0.75, "

@@ -15,6 +15,7 @@ double change_density(NominalModel& structure, const ParameterPath& path, const 
 Effect mass() {
   return Effect{
       .id = "mass",
+      .about = "more or less moving mass",
       .link = Link::structure,
       .equation =
           "m = r m0 of the first mode, base forcing r^g; d M0 a for the modes above; with a "

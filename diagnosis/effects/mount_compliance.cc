@@ -5,6 +5,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect mount_compliance() {
   return Effect{.id = "mount_compliance",
+                .about = "a spring between accelerometer and base",
                 .link = Link::mount,
                 .equation =
                     "(s^2 (1 + m A(s)) + 2 z w s + w^2) a_base = (2 z w s + w^2) a, A = apparent "

@@ -4,6 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect reference_gain() {
   return Effect{.id = "reference_gain",
+                .about = "accelerometer gain",
                 .link = Link::reference,
                 .equation = "a_read = (1 + g) a",
                 .source = "ADXL345 data sheet, rev. E, table 1: sensitivity; ISO 16063-21:2003",

@@ -6,6 +6,7 @@ namespace vibrissa::diagnosis::effects {
 Effect reference_highpass() {
   return Effect{
       .id = "reference_highpass",
+      .about = "AC-coupled accelerometer",
       .link = Link::reference,
       .equation = "a_read = s / (s + w) a",
       .source = "Doebelin 2004, ch. 4: piezoelectric accelerometers",

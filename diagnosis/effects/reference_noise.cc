@@ -4,6 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect reference_noise() {
   return Effect{.id = "reference_noise",
+                .about = "accelerometer noise",
                 .link = Link::reference,
                 .equation = "a_read = a + n, n white",
                 .source = "ADXL345 data sheet, rev. E, noise; Bendat and Piersol 2010, ch. 6",

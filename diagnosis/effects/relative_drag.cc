@@ -21,6 +21,7 @@ Effect relative_drag() {
   // A pendulum of static moment g / a that rotates by T / k has the velocity T' / (g w^2) at its
   // centre of percussion. The centre of the drag force is close to it.
   return Effect{.id = "relative_drag",
+                .about = "drag depends on the speed of the air past the moving whisker",
                 .link = Link::wind,
                 .equation =
                     "F = (u - v) |u - v|, v = share (base velocity + lever T' / (g w_1^2)), T the "

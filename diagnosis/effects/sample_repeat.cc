@@ -5,6 +5,7 @@ namespace vibrissa::diagnosis::effects {
 Effect sample_repeat() {
   return Effect{
       .id = "sample_repeat",
+      .about = "sample-and-hold repeats: a channel is read faster than it has new samples",
       .link = Link::clock,
       .equation = "a_read(k T) = a(age + floor(k T / Ts) Ts): samples of the source are repeated",
       .source =

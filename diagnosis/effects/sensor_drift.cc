@@ -6,6 +6,7 @@ namespace vibrissa::diagnosis::effects {
 Effect sensor_drift() {
   return Effect{
       .id = "sensor_drift",
+      .about = "the offset drifts",
       .link = Link::sensor,
       .equation = "offset = random walk",
       .source = "El-Sheimy, Hou and Niu 2008, random walk by Allan variance",

@@ -4,6 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect sensor_gain() {
   return Effect{.id = "sensor_gain",
+                .about = "gain of the moment sensor",
                 .link = Link::sensor,
                 .equation = "M_read = r M",
                 .source = "MLX90393 data sheet, rev. 003, sensitivity; Doebelin 2004, ch. 3",

@@ -8,6 +8,7 @@ namespace vibrissa::diagnosis::effects {
 Effect sensor_lowpass() {
   return Effect{
       .id = "sensor_lowpass",
+      .about = "a low-pass filter or an average over the conversion time",
       .link = Link::sensor,
       .equation =
           "M_read = M exp(s h) / (1 + s / (n w))^n, corner at -3 dB; h = half a time step of a "

@@ -4,6 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect sensor_nonlinearity() {
   return Effect{.id = "sensor_nonlinearity",
+                .about = "the reading is not proportional to the moment",
                 .link = Link::sensor,
                 .equation = "M_read = M (1 + b x + c x^2 / (1 + |c| x^2)), x = M / Y",
                 .source = "Worden and Tomlinson 2001, sec. 2.4; Pintelon and Schoukens 2012, ch. 4",

@@ -25,6 +25,7 @@ class Softening : public JointLaw {
 Effect softening_history() {
   return Effect{
       .id = "softening_history",
+      .about = "the silicone softens once it has been strained",
       .link = Link::structure,
       .equation = "k = k0 (1 - D (1 - exp(-y_max / (L Y)))), y_max = largest so far",
       .source = "Mullins 1969; Ogden and Roxburgh 1999, pseudo-elastic model",

@@ -6,6 +6,7 @@ namespace vibrissa::diagnosis::effects {
 Effect stage_rocking() {
   return Effect{
       .id = "stage_rocking",
+      .about = "the stage rotates while it translates",
       .link = Link::mount,
       .equation =
           "a_base = a (1 + e / (1 + 2 z s/w + (s/w)^2)), e = kappa times the height of the mode",

@@ -33,6 +33,7 @@ void change_materials(Chain& chain, const ParameterPath& wire, const ParameterPa
 Effect stiffness() {
   return Effect{
       .id = "stiffness",
+      .about = "the elastic parts are stiffer or softer",
       .link = Link::structure,
       .equation =
           "k = r k0 of the first mode: r^s by itself, r^(1 - s) by its joint's spring K, "

@@ -22,6 +22,7 @@ class Drift : public JointLaw {
 Effect temperature_drift() {
   return Effect{
       .id = "temperature_drift",
+      .about = "the stiffness drifts in time",
       .link = Link::structure,
       .equation =
           "k = k0 (1 + x), x = d exp(-n / N) t / T + e N (1 - exp(-n / N)), n the number of the "

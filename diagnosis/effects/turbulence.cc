@@ -4,6 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect turbulence() {
   return Effect{.id = "turbulence",
+                .about = "gusts that the anemometer does not see",
                 .link = Link::wind,
                 .equation = "unseen gusts: spectrum of u |u| c^2 (1 + (f/f0)^2)^(-5/6)",
                 .source = "von Karman 1948, longitudinal spectrum",

@@ -23,6 +23,7 @@ std::array<double, n_branches> branch_times(double tau, double decades) {
 Effect viscoelastic() {
   return Effect{
       .id = "viscoelastic",
+      .about = "stiffness and loss of the silicone depend on frequency",
       .link = Link::structure,
       .equation =
           "k = k0 (1 + S / N sum s t_i / (1 + s t_i)), t_i spread over w decades around tau",

@@ -30,6 +30,7 @@ void deposit(std::span<double> power, double u, double strouhal_over_diameter, d
 Effect vortex_shedding() {
   return Effect{
       .id = "vortex_shedding",
+      .about = "vortices leave the whisker periodically",
       .link = Link::wind,
       .equation =
           "fluctuating u |u| at f = St u / D, its level c u^2, spread over the distribution of u",

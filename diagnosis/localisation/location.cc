@@ -63,16 +63,17 @@ std::string location_sentence(const Location& location) {
   std::vector<std::string> when;
   for (const std::string& channel : location.channels)
     when.push_back(channel == "rest"      ? "at rest"
-                   : channel == "product" ? "only when base motion and wind act together"
-                   : channel == "base"    ? "under base motion"
-                                          : "under " + channel);
+                   : channel == "product" ? "only with base motion and wind together"
+                   : channel == "base"    ? "in records with base motion"
+                                          : "in records with " + channel);
   text << joined(when, ", ");
   if (!location.bands_hz.empty())
     text << ", at " << location.bands_hz.front()[0] << " to " << location.bands_hz.back()[1]
          << " Hz";
   if (location.mode) text << ", strongest near mode " << *location.mode;
   if (location.level_exponent && *location.level_exponent != 0.)
-    text << ", grows as level^" << *location.level_exponent;
+    text << (*location.level_exponent > 0. ? ", rises" : ", falls")
+         << " with the level of what moves the sensor, as level^" << *location.level_exponent;
   if (location.harmonics != Harmonics::none)
     text << ", with "
          << (location.harmonics == Harmonics::both ? "odd and even" : to_string(location.harmonics))

@@ -5,10 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "diagnosis/model/lanes.h"
 #include "diagnosis/model/nominal_model.h"
+#include "signals/base/lanes.h"
 
 namespace vibrissa::diagnosis {
+
+using signals::Lanes;  // one value for each record that is integrated
+using signals::where_negative;
 
 /// Transfer function of the continuous signals, s = j 2 pi f.
 using Filter = std::function<Complex(Complex s)>;

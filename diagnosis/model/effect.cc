@@ -16,24 +16,6 @@ const double student_log_norm =
 
 }  // namespace
 
-std::string to_string(const Link link) {
-  switch (link) {
-    case Link::reference:
-      return "reference";
-    case Link::mount:
-      return "mount";
-    case Link::structure:
-      return "structure";
-    case Link::wind:
-      return "wind";
-    case Link::sensor:
-      return "sensor";
-    case Link::clock:
-      return "clock";
-  }
-  return "";
-}
-
 double Prior::log_density(const double x) const {
   const double z = (x - centre) / scale;
   switch (kind) {

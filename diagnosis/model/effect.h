@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "diagnosis/model/chain.h"
+#include "signals/model/measuring_chain.h"
 
 namespace vibrissa::diagnosis {
 
-/// Link of the measuring chain (docs/effects.md).
-enum class Link { reference, mount, structure, wind, sensor, clock };
-std::string to_string(Link link);
+using signals::Link;  // of the measuring chain (docs/effects.md)
 
 /// Prior of a parameter in its fitted coordinate (value or logarithm).
 struct Prior {
@@ -71,6 +70,7 @@ struct Needs {
 /// One entry of the catalogue of docs/effects.md: an extension of the nominal model.
 struct Effect {
   std::string id{};
+  std::string about{};  // one plain phrase, as in the contents of docs/effects.md
   Link link = Link::structure;
   std::string equation{};
   std::string source{};         // of the equation; ranges and priors: docs/effects.md

@@ -13,6 +13,11 @@
 namespace vibrissa::diagnosis {
 namespace {
 
+/// The second name is that of files of program version 1.
+bool is_known_schema(const std::string& schema) {
+  return schema == updated_model_schema || schema == "vibrissa-mended-model-1";  // version 1
+}
+
 using json = nlohmann::ordered_json;
 using signals::JsonEntry;
 
@@ -190,7 +195,7 @@ std::string updated_model_json(const UpdatedModel& model) {
 UpdatedModel read_updated_model(const std::filesystem::path& file) {
   const nlohmann::json document = signals::read_json(file);
   const JsonEntry root(document, file.string(), nlohmann::json::json_pointer());
-  root["schema"].require(root["schema"].text() == updated_model_schema,
+  root["schema"].require(is_known_schema(root["schema"].text()),
                          "must be \"" + updated_model_schema + "\"");
   return {read_nominal(root["nominal"]), root["effects"].list(read_effect)};
 }
@@ -198,7 +203,7 @@ UpdatedModel read_updated_model(const std::filesystem::path& file) {
 bool is_updated_model(const std::filesystem::path& file) {
   try {
     const nlohmann::json document = signals::read_json(file);
-    return document.is_object() && document.value("schema", "") == updated_model_schema;
+    return document.is_object() && is_known_schema(document.value("schema", ""));
   } catch (const std::exception&) {
     return false;
   }

@@ -79,7 +79,8 @@ std::string what_it_shows(const MenuEntry& entry, const std::vector<std::string>
   std::string text;
   for (const std::string& id : ids)
     if (const auto found = entry.shows.find(id); found != entry.shows.end())
-      text += (text.empty() ? "" : "; ") + id + ": " + found->second;
+      text +=
+          (text.empty() ? "expected if the cause is " : "; if it is ") + id + ": " + found->second;
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "diagnosis/prediction/chain_simulation.h"
@@ -79,6 +80,13 @@ std::vector<double> simulate_vibration(const UpdatedModel& model, const signals:
       base.set_channel(name, {values.begin(), values.end()});
     }
   return simulate_moment(model, base);
+}
+
+std::vector<double> subtract_vibration(const UpdatedModel& model, const signals::Record& record) {
+  const auto measured = record.channel(signals::channel::base_moment);
+  std::vector<double> left = simulate_vibration(model, record);
+  std::ranges::transform(measured, left, left.begin(), std::minus<>());
+  return left;
 }
 
 }  // namespace vibrissa::diagnosis

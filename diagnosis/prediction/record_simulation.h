@@ -23,4 +23,8 @@ std::vector<double> simulate_moment(const UpdatedModel& model, const signals::Re
 /// The same for base motion alone, without wind: the vibration that a separator subtracts.
 std::vector<double> simulate_vibration(const UpdatedModel& model, const signals::Record& inputs);
 
+/// The record's measured moment minus the simulated vibration [N m]: the wind's part. Throws as
+/// simulate_moment. Proven by tests/diagnosis/validation/separation_quality_test.cc.
+std::vector<double> subtract_vibration(const UpdatedModel& model, const signals::Record& record);
+
 }  // namespace vibrissa::diagnosis

@@ -156,7 +156,7 @@ json resonance_gap_json(const ResonanceDiagnosis& diagnosis) {
 }
 
 std::string resonance_gap_text(const ResonanceDiagnosis& diagnosis) {
-  constexpr std::size_t most_lines = 15;
+  constexpr std::size_t most_lines = 20;
   std::vector<std::string> head, tail;
   const auto add = [](std::vector<std::string>& lines, const std::string& line) {
     if (line.empty()) return;

@@ -12,7 +12,7 @@ namespace vibrissa::diagnosis {
 /// tests/diagnosis/resonances/resonance_gap_text_test.cc.
 nlohmann::ordered_json resonance_gap_json(const ResonanceDiagnosis& diagnosis);
 
-/// At most 15 lines of at most 100 characters for a terminal: every single effect with the value
+/// At most 20 lines of at most 100 characters for a terminal: every single effect with the value
 /// that it needs, the most probable combinations, effects that are impossible alone, the next
 /// experiment.
 std::string resonance_gap_text(const ResonanceDiagnosis& diagnosis);

@@ -20,9 +20,8 @@ bool tells(const signals::DatasetRecord& entry) {
 /// The measured moment minus the predicted vibration, without the first samples.
 void append_wind_estimate(const UpdatedModel& model, const signals::Record& record,
                           std::size_t first, std::vector<double>& out) {
-  const std::vector<double> vibration = simulate_vibration(model, record);
-  const auto measured = record.channel(channel::base_moment);
-  for (std::size_t i = first; i < vibration.size(); ++i) out.push_back(measured[i] - vibration[i]);
+  const std::vector<double> wind = subtract_vibration(model, record);
+  out.insert(out.end(), wind.begin() + static_cast<std::ptrdiff_t>(first), wind.end());
 }
 
 }  // namespace

@@ -20,10 +20,11 @@ double steady_drag(const UpdatedModel& model, double rate_hz) {
   return simulate_moment(model, wind)[n / 2] / (usual_m_s * usual_m_s);
 }
 
-std::vector<double> predicted_vibration(const UpdatedModel& model, const signals::Record& record) {
-  if (!model.nominal.has_base || !record.has(channel::base_acceleration))
-    return std::vector<double>(record.n_samples(), 0.);
-  return simulate_vibration(model, record);
+std::vector<double> wind_moment(const UpdatedModel& model, const signals::Record& record) {
+  if (model.nominal.has_base && record.has(channel::base_acceleration))
+    return subtract_vibration(model, record);
+  const auto measured = record.channel(channel::base_moment);
+  return {measured.begin(), measured.end()};
 }
 
 /// Half the number of averaged samples.
@@ -50,10 +51,8 @@ std::vector<double> measured_speed(const signals::Record& record, std::size_t re
 std::vector<double> wind_speed(const UpdatedModel& model, const signals::Record& record,
                                std::size_t reach) {
   const double drag = steady_drag(model, record.sampling_rate_hz());
-  const std::vector<double> vibration = predicted_vibration(model, record);
-  const auto measured = record.channel(channel::base_moment);
-  std::vector<double> moment(measured.begin(), measured.end());
-  for (std::size_t i = 0; i < moment.size(); ++i) moment[i] = (moment[i] - vibration[i]) / drag;
+  std::vector<double> moment = wind_moment(model, record);
+  for (double& value : moment) value /= drag;
   return speed_of(neighbour_mean(moment, reach));
 }
 

@@ -7,15 +7,15 @@ namespace vibrissa::fem {
 
 namespace {
 
-using materials::Lanes;
 using materials::load;
-using materials::n_lanes;
+using materials::Register;
+using materials::register_size;
 using materials::store;
 
 constexpr int row = CellIntegrals::row;
 constexpr int n_points = CellIntegrals::n_points;
 constexpr int n_linear = CellIntegrals::n_linear;
-constexpr int n_registers = row / n_lanes;
+constexpr int n_registers = row / register_size;
 constexpr int n_rows = 3 * n_points;  // of the gradient
 
 // Symmetric tensors as in deal.II: 11, 22, 33, 12, 13, 23.
@@ -25,17 +25,17 @@ constexpr int upper(const int m, const int n) {
   return m <= n ? m * (11 - m) / 2 + n : upper(n, m);
 }
 
-double sum(const Lanes& x) {
-  using Half [[gnu::vector_size(sizeof(Lanes) / 2)]] = double;
+double sum(const Register& x) {
+  using Half [[gnu::vector_size(sizeof(Register) / 2)]] = double;
   const Half half =
       __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
   return (half[0] + half[1]) + (half[2] + half[3]);
 }
 
 double weighted_sum(const double* weight, const double* x) {
-  Lanes total{};
-  for (int r = 0; r < row; r += n_lanes) {
-    Lanes w, v;
+  Register total{};
+  for (int r = 0; r < row; r += register_size) {
+    Register w, v;
     load(w, weight + r);
     load(v, x + r);
     total += w * v;
@@ -46,16 +46,16 @@ double weighted_sum(const double* weight, const double* x) {
 /// out[c][node] = sum over rows k of gradient[k][node] factor[k][c].
 template <int n>
 void sum_rows(const double* gradient, const double (*factor)[n], double* out) {
-  Lanes total[n][n_registers] = {};
+  Register total[n][n_registers] = {};
   for (int k = 0; k < n_rows; ++k) {
-    Lanes g[n_registers];
-    for (int r = 0; r < n_registers; ++r) load(g[r], gradient + row * k + n_lanes * r);
+    Register g[n_registers];
+    for (int r = 0; r < n_registers; ++r) load(g[r], gradient + row * k + register_size * r);
     for (int c = 0; c < n; ++c) {
       for (int r = 0; r < n_registers; ++r) total[c][r] += g[r] * factor[k][c];
     }
   }
   for (int c = 0; c < n; ++c) {
-    for (int r = 0; r < n_registers; ++r) store(total[c][r], out + row * c + n_lanes * r);
+    for (int r = 0; r < n_registers; ++r) store(total[c][r], out + row * c + register_size * r);
   }
 }
 
@@ -121,18 +121,18 @@ void CellElasticity::fill_gradient(const Nodal& u) {
   for (int node = 0; node < n_nodes; ++node) {
     for (int a = 0; a < 3; ++a) component[a][node] = u[3 * node + a];
   }
-  Lanes values[3][n_registers];
+  Register values[3][n_registers];
   for (int a = 0; a < 3; ++a) {
-    for (int r = 0; r < n_registers; ++r) load(values[a][r], component[a] + n_lanes * r);
+    for (int r = 0; r < n_registers; ++r) load(values[a][r], component[a] + register_size * r);
   }
   h_.fill(0.);
   for (int q = 0; q < n_points; ++q) {
     for (int d = 0; d < 3; ++d) {
       const double* gradient = cell_->gradient.data() + row * (3 * q + d);
-      Lanes total[3] = {};
+      Register total[3] = {};
       for (int r = 0; r < n_registers; ++r) {
-        Lanes g;
-        load(g, gradient + n_lanes * r);
+        Register g;
+        load(g, gradient + register_size * r);
         for (int a = 0; a < 3; ++a) total[a] += g * values[a][r];
       }
       for (int a = 0; a < 3; ++a) h_[(3 * a + d) * row + q] = sum(total[a]);
@@ -181,9 +181,9 @@ void CellElasticity::fill_strain() {
 
 double CellElasticity::fill_isochoric() {
   fill_strain();
-  Lanes total{};
-  for (int start = 0; start < row; start += n_lanes) {
-    Lanes e[6], energy, stress[6], weight;
+  Register total{};
+  for (int start = 0; start < row; start += register_size) {
+    Register e[6], energy, stress[6], weight;
     for (int m = 0; m < 6; ++m) load(e[m], strain_.data() + m * row + start);
     materials::isochoric_stress(material_->isochoric, e, energy, stress);
     for (int m = 0; m < 6; ++m) store(stress[m], stress_.data() + m * row + start);
@@ -225,8 +225,8 @@ void CellElasticity::force(Nodal& f) const {
 }
 
 void CellElasticity::fill_moduli() {
-  for (int start = 0; start < row; start += n_lanes) {
-    Lanes e[6], tangent[n_moduli];
+  for (int start = 0; start < row; start += register_size) {
+    Register e[6], tangent[n_moduli];
     for (int m = 0; m < 6; ++m) load(e[m], strain_.data() + m * row + start);
     materials::isochoric_tangent(material_->isochoric, e, tangent);
     for (int m = 0; m < n_moduli; ++m) {
@@ -240,11 +240,11 @@ void CellElasticity::fill_moduli() {
 // F_aK C_KILJ F_bL + delta_ab S_IJ + p e_abc e_IJK F_cK.
 void CellElasticity::fill_first_moduli(PointValues<54>& moduli) const {
   constexpr int third[3][3] = {{-1, 2, 1}, {2, -1, 0}, {1, 0, -1}};
-  for (int start = 0; start < row; start += n_lanes) {
-    const auto at = [start](const auto& values, const int quantity, Lanes& lanes) {
+  for (int start = 0; start < row; start += register_size) {
+    const auto at = [start](const auto& values, const int quantity, Register& lanes) {
       load(lanes, values.data() + quantity * row + start);
     };
-    Lanes f[9], c[n_moduli], s[6], half[3][3][6], weight, pressure;
+    Register f[9], c[n_moduli], s[6], half[3][3][6], weight, pressure;
     for (int i = 0; i < 9; ++i) {
       at(h_, i, f[i]);
       if (i % 4 == 0) f[i] += 1.;
@@ -267,9 +267,9 @@ void CellElasticity::fill_first_moduli(PointValues<54>& moduli) const {
       for (int b = a; b < 3; ++b, ++pair) {
         for (int i = 0; i < 3; ++i) {
           for (int j = 0; j < 3; ++j) {
-            Lanes value = half[a][i][voigt[0][j]] * f[3 * b] +
-                          half[a][i][voigt[1][j]] * f[3 * b + 1] +
-                          half[a][i][voigt[2][j]] * f[3 * b + 2];
+            Register value = half[a][i][voigt[0][j]] * f[3 * b] +
+                             half[a][i][voigt[1][j]] * f[3 * b + 1] +
+                             half[a][i][voigt[2][j]] * f[3 * b + 2];
             if (a == b) {
               value += s[voigt[i][j]];
             } else if (i != j) {
@@ -294,10 +294,10 @@ constexpr int stride = CellElasticity::Blocks::stride;
 /// right[3 q + I][27 pair + j] = sum over J of moduli_IJ gradient[3 q + J][j].
 void fill_right_side(const CellIntegrals& cell, const double* moduli, double* right) {
   for (int q = 0; q < n_points; ++q) {
-    Lanes g[3][n_registers];
+    Register g[3][n_registers];
     for (int d = 0; d < 3; ++d) {
       for (int r = 0; r < n_registers; ++r) {
-        load(g[d][r], cell.gradient.data() + row * (3 * q + d) + n_lanes * r);
+        load(g[d][r], cell.gradient.data() + row * (3 * q + d) + register_size * r);
       }
     }
     for (int i = 0; i < 3; ++i) {
@@ -306,9 +306,9 @@ void fill_right_side(const CellIntegrals& cell, const double* moduli, double* ri
         const double* modulus = moduli + (9 * pair + 3 * i) * row + q;
         double* to = right + (3 * q + i) * stride + CellIntegrals::n_nodes * pair;
         for (int r = 0; r < n_registers; ++r) {
-          const Lanes value =
+          const Register value =
               g[0][r] * modulus[0] + g[1][r] * modulus[row] + g[2][r] * modulus[2 * row];
-          store(value, to + n_lanes * r);
+          store(value, to + register_size * r);
         }
       }
     }
@@ -318,12 +318,13 @@ void fill_right_side(const CellIntegrals& cell, const double* moduli, double* ri
 /// out = gradient^T right in tiles that fit the processor's registers.
 void multiply(const double* gradient, const double* right, double* out) {
   constexpr int tile_rows = 9, tile_registers = 3;
-  for (int j = 0; j < stride; j += tile_registers * n_lanes) {
+  for (int j = 0; j < stride; j += tile_registers * register_size) {
     for (int i = 0; i < CellIntegrals::n_nodes; i += tile_rows) {
-      Lanes total[tile_rows][tile_registers] = {};
+      Register total[tile_rows][tile_registers] = {};
       for (int k = 0; k < n_rows; ++k) {
-        Lanes x[tile_registers];
-        for (int r = 0; r < tile_registers; ++r) load(x[r], right + stride * k + j + n_lanes * r);
+        Register x[tile_registers];
+        for (int r = 0; r < tile_registers; ++r)
+          load(x[r], right + stride * k + j + register_size * r);
         const double* g = gradient + row * k + i;
 #pragma GCC unroll 9
         for (int a = 0; a < tile_rows; ++a) {
@@ -332,7 +333,7 @@ void multiply(const double* gradient, const double* right, double* out) {
       }
       for (int a = 0; a < tile_rows; ++a) {
         for (int r = 0; r < tile_registers; ++r) {
-          store(total[a][r], out + stride * (i + a) + j + n_lanes * r);
+          store(total[a][r], out + stride * (i + a) + j + register_size * r);
         }
       }
     }
@@ -342,7 +343,7 @@ void multiply(const double* gradient, const double* right, double* out) {
 }  // namespace
 
 void CellElasticity::tangent(Blocks& blocks) {
-  static_assert(stride % (3 * n_lanes) == 0 && n_nodes % 9 == 0, "whole tiles");
+  static_assert(stride % (3 * register_size) == 0 && n_nodes % 9 == 0, "whole tiles");
   fill_moduli();
   alignas(64) PointValues<54> moduli;
   fill_first_moduli(moduli);

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "fem/solid/solid_space.h"
-#include "materials/lanes.h"
+#include "materials/simd_register.h"
 
 namespace vibrissa::fem {
 

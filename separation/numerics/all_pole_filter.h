@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "signals/base/lanes.h"
+
 namespace vibrissa::separation {
 
 /// v[n] = u[n] - pole1 v[n-1] - pole2 v[n-2]. Processes eight samples at once: the contributions of
@@ -47,8 +49,8 @@ class AllPoleFilter {
   }
 
  private:
-  static constexpr Eigen::Index n_lanes = 8;
-  using Lanes = Eigen::Array<double, n_lanes, 1>;
+  using Lanes = signals::Lanes;
+  static constexpr Eigen::Index n_lanes = signals::n_lanes;
   double pole1_, pole2_;
   std::array<Lanes, n_lanes> by_input_ = zero_lanes();
   Lanes by_last_, by_older_;

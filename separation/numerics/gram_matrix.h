@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <cstddef>
 
+#include "signals/base/lanes.h"
+
 namespace vibrissa::separation {
 
 /// Inner products of the columns of a tall matrix, summed block by block of rows. Three columns are
@@ -35,8 +37,8 @@ class GramMatrix {
   }
 
  private:
-  static constexpr Eigen::Index lanes = 8, tile = 3;
-  using Lanes = Eigen::Array<double, lanes, 1>;
+  using Lanes = signals::Lanes;
+  static constexpr Eigen::Index lanes = signals::n_lanes, tile = 3;
 
   static Eigen::Index padded(Eigen::Index n) { return (n + tile - 1) / tile * tile; }
 

@@ -19,11 +19,11 @@ std::span<const double> channel_or_empty(const Record& record, const std::string
   return record.has(name) ? record.channel(name) : std::span<const double>();
 }
 
-class StructureLink : public Link {
+class StructureElement : public ChainElement {
  public:
-  explicit StructureLink(ReducedModel model) : model_(std::move(model)) { check(model_); }
+  explicit StructureElement(ReducedModel model) : model_(std::move(model)) { check(model_); }
 
-  LinkPlace place() const override { return LinkPlace::structure; }
+  Link link() const override { return Link::structure; }
   std::string name() const override { return "reduced model '" + model_.name + "'"; }
 
   void pass(Record& record, std::mt19937_64&) const override {
@@ -49,11 +49,11 @@ class StructureLink : public Link {
 };
 
 /// White Gaussian noise on some channels, one after the other from one stream.
-class NoiseLink : public Link {
+class NoiseElement : public ChainElement {
  public:
-  NoiseLink(LinkPlace place, std::string name, std::vector<std::string> channels,
-            double standard_deviation)
-      : place_(place),
+  NoiseElement(Link link, std::string name, std::vector<std::string> channels,
+               double standard_deviation)
+      : link_(link),
         name_(std::move(name)),
         channels_(std::move(channels)),
         standard_deviation_(standard_deviation) {
@@ -62,7 +62,7 @@ class NoiseLink : public Link {
                       " is negative or not finite");
   }
 
-  LinkPlace place() const override { return place_; }
+  Link link() const override { return link_; }
   std::string name() const override { return name_; }
 
   void pass(Record& record, std::mt19937_64& random) const override {
@@ -77,69 +77,69 @@ class NoiseLink : public Link {
   }
 
  private:
-  LinkPlace place_;
+  Link link_;
   std::string name_;
   std::vector<std::string> channels_;
   double standard_deviation_;
 };
 
-std::mt19937_64 make_stream(std::uint64_t seed, LinkPlace place, std::uint32_t index) {
+std::mt19937_64 make_stream(std::uint64_t seed, Link link, std::uint32_t index) {
   std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
-                         static_cast<std::uint32_t>(place), index};
+                         static_cast<std::uint32_t>(link), index};
   return std::mt19937_64(sequence);
 }
 
 }  // namespace
 
-std::string to_string(LinkPlace place) {
-  switch (place) {
-    case LinkPlace::mount:
+std::string to_string(const Link link) {
+  switch (link) {
+    case Link::mount:
       return "mount";
-    case LinkPlace::wind:
+    case Link::wind:
       return "wind";
-    case LinkPlace::structure:
+    case Link::structure:
       return "structure";
-    case LinkPlace::sensor:
+    case Link::sensor:
       return "sensor";
-    case LinkPlace::reference:
+    case Link::reference:
       return "reference";
-    case LinkPlace::clock:
+    case Link::clock:
       return "clock";
   }
   assert(false);
   return "unknown";
 }
 
-std::unique_ptr<Link> make_structure_link(ReducedModel model) {
-  return std::make_unique<StructureLink>(std::move(model));
+std::unique_ptr<ChainElement> make_structure_element(ReducedModel model) {
+  return std::make_unique<StructureElement>(std::move(model));
 }
 
-std::unique_ptr<Link> make_sensor_noise(double standard_deviation_n_m) {
-  return std::make_unique<NoiseLink>(
-      LinkPlace::sensor, "sensor noise",
+std::unique_ptr<ChainElement> make_sensor_noise(double standard_deviation_n_m) {
+  return std::make_unique<NoiseElement>(
+      Link::sensor, "sensor noise",
       std::vector<std::string>{channel::base_moment, channel::cross_moment},
       standard_deviation_n_m);
 }
 
-std::unique_ptr<Link> make_reference_noise(double standard_deviation_m_s2) {
-  return std::make_unique<NoiseLink>(
-      LinkPlace::reference, "reference noise",
+std::unique_ptr<ChainElement> make_reference_noise(double standard_deviation_m_s2) {
+  return std::make_unique<NoiseElement>(
+      Link::reference, "reference noise",
       std::vector<std::string>{channel::base_acceleration, channel::cross_acceleration},
       standard_deviation_m_s2);
 }
 
-void MeasuringChain::add(std::unique_ptr<Link> link) {
-  assert(link);
-  const auto behind = std::ranges::upper_bound(links_, link->place(), std::less(),
-                                               [](const auto& other) { return other->place(); });
-  links_.insert(behind, std::move(link));
+void MeasuringChain::add(std::unique_ptr<ChainElement> element) {
+  assert(element);
+  const auto behind = std::ranges::upper_bound(elements_, element->link(), std::less(),
+                                               [](const auto& other) { return other->link(); });
+  elements_.insert(behind, std::move(element));
 }
 
 Record MeasuringChain::measure(Record truth, std::uint64_t seed) const {
-  std::map<LinkPlace, std::uint32_t> n_passed;
-  for (const auto& link : links_) {
-    std::mt19937_64 random = make_stream(seed, link->place(), n_passed[link->place()]++);
-    link->pass(truth, random);
+  std::map<Link, std::uint32_t> n_passed;
+  for (const auto& element : elements_) {
+    std::mt19937_64 random = make_stream(seed, element->link(), n_passed[element->link()]++);
+    element->pass(truth, random);
   }
   return truth;
 }

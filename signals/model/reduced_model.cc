@@ -8,6 +8,7 @@
 #include <string>
 
 #include "signals/base/error.h"
+#include "signals/base/lanes.h"
 #include "signals/base/number_text.h"
 #include "signals/model/oscillator_step.h"
 
@@ -65,8 +66,6 @@ double wind_moment(const WindLoad& wind, const WindSample& sample, const Vector&
 }
 
 /// Eight modes in parallel (SIMD). Lanes without a mode stay zero.
-constexpr std::size_t n_lanes = 8;
-using Lanes = Eigen::Array<double, n_lanes, 1>;
 
 struct ModeBlock {
   Lanes qq, qp, pq, pp, q_old, q_new, p_old, p_new, stiffness, damping;  // OscillatorStep
@@ -79,7 +78,7 @@ struct ModeBlock {
       lanes->setZero();
     wind_coefficient.assign(model.wind.speed_m_s.size(), Lanes::Zero());
     const Plane plane(model);
-    const std::size_t n_used = std::min(n_lanes, model.modes.size() - first_mode);
+    const std::size_t n_used = std::min<std::size_t>(n_lanes, model.modes.size() - first_mode);
     for (std::size_t lane = 0; lane < n_used; ++lane) {
       const auto index = static_cast<Eigen::Index>(lane);
       const ReducedMode& mode = model.modes[first_mode + lane];

@@ -114,7 +114,7 @@ TEST(Bode, SaysThatOddDistortionIsNotToldWithoutOddDetectionLines) {
   const std::string record = folder.file("r.csv");
   answer(drives(folder, random_phases + "--grid odd") + "/drive.csv", record, 0.1, 0.);
   const json document = measured("'" + record + "' --period 512 --method fast");
-  EXPECT_THAT(document["words"].get<std::string>(), HasSubstr("odd distortion is not told"));
+  EXPECT_THAT(document["words"].get<std::string>(), HasSubstr("odd distortion is not known"));
   EXPECT_FALSE(document["points"][0].contains("odd_distortion_power_n2_m2"));
   EXPECT_TRUE(document["points"][0].contains("even_distortion_power_n2_m2"));
 }

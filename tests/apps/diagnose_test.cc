@@ -67,14 +67,14 @@ TEST(DiagnoseCommand, RefusesASimulationAsItsOwnBench) {
   const std::string record = quoted(folder.write("r.csv", csv.str()));
   const auto result = vibrissa("diagnose --sim " + record + " --real " + record);
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.errors, HasSubstr("between a record and itself there is no gap"));
+  EXPECT_THAT(result.errors, HasSubstr("hold the same samples, so there is no gap"));
 }
 
 TEST(DiagnoseCommand, RefusesFiguresThatContradict) {
   const std::vector<std::array<std::string, 2>> cases{
-      {"--resonance 37.32:31.47 --real x", "either figures or records"},
-      {"--example paper-gap --sim x", "either figures or records"},
-      {"--example paper-gap --resonance 1:2", "has its own figures"},
+      {"--resonance 37.32:31.47 --real x", "either resonances or records"},
+      {"--example paper-gap --sim x", "either resonances or records"},
+      {"--example paper-gap --resonance 1:2", "has its own resonances"},
       {"--damping 0.05:0.027", "needs --resonance"},
       {"--example paper_gap", "did you mean 'paper-gap'"},
       {"--resonance 37.32", "SIMULATED:MEASURED"},
@@ -192,7 +192,7 @@ TEST(DiagnoseCommand, FindsNothingInWhatItsOwnSimulatorWrote) {
             0.5 * answer["probability_of_tried"].get<double>());
 }
 
-TEST(DiagnoseCommand, TellsASofterSiliconeFromALighterFin) {
+TEST(LongDiagnoseCommand, TellsASofterSiliconeFromALighterFin) {
   const std::string softer = "Materials/Silicone/c1=240000";
   const auto soft = diagnosis_of_simulated(softer);
   EXPECT_EQ(soft["verdict"], "stiffness");

@@ -50,8 +50,8 @@ TEST(DiagnosisPage, SaysVerdictLocationCauseImprovementAndNextExperiment) {
   const report::Page page = views::diagnosis_page(example());
   EXPECT_EQ(page.headline,
             "Joint friction and stiffness explain why the bench differs from the simulation");
-  EXPECT_THAT(page.verdict,
-              ElementsAre("The simulation lacks this physics.", HasSubstr("Doubtful: a</script>")));
+  EXPECT_THAT(page.verdict, ElementsAre("The simulation does not contain this effect.",
+                                        HasSubstr("Doubtful: a</script>")));
   std::vector<std::string> headings;
   for (const report::PageSection& section : page.sections) headings.push_back(section.heading);
   EXPECT_THAT(headings, ElementsAre("Where", "Cause", "Improvement", "Next experiment"));

@@ -27,7 +27,7 @@ TEST(Manual, ManReadsItWithoutAWarning) {
   EXPECT_EQ(content(folder.file("warnings")), "");
   // Lines are justified with further spaces, which lines before them may shift.
   EXPECT_THAT(std::regex_replace(content(folder.file("text")), std::regex("\\s+"), " "),
-              HasSubstr("Base vibration response model"));
+              HasSubstr("base vibration response model"));
 }
 
 // Commands that hold others do nothing themselves.

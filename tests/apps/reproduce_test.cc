@@ -75,7 +75,7 @@ TEST(Reproduce, FindsThatThePapersSettingInTheExperimentRemovesAlmostNothing) {
   EXPECT_LT(readings[0]["sdr_db"].get<double>(), readings[2]["sdr_db"].get<double>() - 10.);
 }
 
-TEST(BenchmarkSeparation, ScoresEveryMethodInEveryScenarioAndSaysWhatIsLeftOut) {
+TEST(LongBenchmarkSeparation, ScoresEveryMethodInEveryScenarioAndSaysWhatIsLeftOut) {
   const Folder folder;
   const auto result =
       vibrissa("benchmark separation" + flow_case() + " -o '" + folder.file("b") + "' --json");

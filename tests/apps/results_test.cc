@@ -11,11 +11,11 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// Three seconds at 500 Hz of a moment that follows the acceleration.
+/// Twelve seconds at 500 Hz of a moment that follows the acceleration.
 std::string record_in(const Folder& folder) {
   std::ostringstream text;
   text << "time_s,base_acceleration_m_s2,base_moment_N_m\n";
-  for (int i = 0; i < 1500; ++i)
+  for (int i = 0; i < 6000; ++i)
     text << 0.002 * i << "," << std::sin(0.37 * i) + std::sin(1.9 * i) << ","
          << -6e-5 * std::sin(0.37 * i + 0.1) << "\n";
   return folder.write("record.csv", text.str());
@@ -29,7 +29,7 @@ TEST(Results, GoToAFreeFolderOfTheCommandsNameUnlessToldOtherwise) {
   const Folder folder;
   const std::string record = record_in(folder);
   const std::vector<std::pair<std::string, std::string>> commands = {
-      {"identify " + record + " --order 1 --hold first_order", "identify/bvrm.json"},
+      {"identify " + record + " --order 2 --hold first_order", "identify/bvrm.json"},
       {"separate " + record + " --settling 0", "separate/separated.csv"},
       {"excite --period 512", "excite/excitation.json"},
       {"bode " + record, "bode/response.csv"}};
@@ -56,7 +56,7 @@ TEST(Results, AreNotWrittenWhenOnlyJsonIsAskedFor) {
   const Folder folder;
   const std::string record = record_in(folder);
   for (const std::string& arguments :
-       {"identify " + record + " --order 1 --hold first_order --json",
+       {"identify " + record + " --order 2 --hold first_order --json",
         "separate " + record + " --settling 0 --json", std::string("excite --period 512 --json")}) {
     const auto result = vibrissa_in(folder, arguments);
     EXPECT_EQ(result.status, 0) << arguments << result.errors;

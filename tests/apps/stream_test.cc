@@ -49,7 +49,9 @@ TEST(Stream, RefusesAGapBetweenItsBlocksAndLeavesNothing) {
 TEST(Stream, RefusesWhatNeedsTheWholeRecord) {
   const Folder folder;
   const std::string record = quoted(write_long_record(folder));
-  EXPECT_EQ(vibrissa("separate " + record + " --stream").status, 2);
+  const ProgramResult truth = vibrissa("separate " + record + " --stream --truth other");
+  EXPECT_EQ(truth.status, 2);
+  EXPECT_THAT(truth.errors, HasSubstr("--stream holds no record"));
   const ProgramResult mean =
       vibrissa("separate " + record + " --stream -o x.csv --remove-mean " + "base_acceleration");
   EXPECT_EQ(mean.status, 2);
@@ -68,7 +70,7 @@ TEST(Stream, RefusesFilesAndModelsThatAreWhole) {
   const ProgramResult model = vibrissa("separate " + record + " --stream --model " + updated +
                                        " -o " + quoted(folder.file("s.csv")));
   EXPECT_EQ(model.status, 2);
-  EXPECT_THAT(model.errors, HasSubstr("an updated model is simulated whole"));
+  EXPECT_THAT(model.errors, HasSubstr("an updated model needs the whole record"));
   EXPECT_EQ(folder.n_entries(), 2u);
 }
 

@@ -211,6 +211,20 @@ TEST_F(WrittenTrial, CountsTheGapThatStandsOutOfTheNoiseOfItsOwnRecords) {
   EXPECT_NEAR(score.figures.at("gap closed at another level and wind, median"), 1., 1e-9);
 }
 
+TEST_F(WrittenTrial, ReadsAnswersOfVersion1) {
+  json old = answer("delay", 0.9);
+  old["diagnosis"]["schema"] = "vibrissa-diagnosis-1";
+  old["diagnosis"]["ranking"][0]["held_out"] = {{"not_foretold", json::array()},  // version 1
+                                                {"records",
+                                                 {{{"record", "held_out"},
+                                                   {"nrmse_before", 0.5},
+                                                   {"nrmse_after", 0.1},
+                                                   {"noise_floor_nrmse", 0.1}}}}};
+  add("single", {{{"id", "delay"}, {"size", 1e-3}, {"limit", 1e-4}}}, old);
+  const trial::TrialScore score = trial::score_trial(trial_, labels_);
+  EXPECT_NEAR(score.figures.at("gap closed, 5th percentile"), 1., 1e-9);
+}
+
 TEST_F(WrittenTrial, SetsTheConfusionBesideTheExpectedOne) {
   json doubtful = answer("sensor_lowpass", 0.6);
   doubtful["diagnosis"]["ranking"].push_back({{"effect", "delay"},

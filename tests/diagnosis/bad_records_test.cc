@@ -72,12 +72,12 @@ TEST_F(BadRecords, AGapInTimeIsNamedWithFileLinesAndColumn) {
   damage([](Lines& lines) { lines.erase(lines.begin() + 301, lines.begin() + 401); });
   expect_refused({"base_high.csv: gap in time between line 301 ", "and line 302 ",
                   "101 sampling intervals where 1 was expected", "column 'time_s'",
-                  "never filled"});
+                  "never added or removed"});
 }
 
 TEST_F(BadRecords, RowsTwiceAreNamedWithFileLinesAndColumn) {
   damage([](Lines& lines) { lines.insert(lines.begin() + 100, lines[99]); });
-  expect_refused({"base_high.csv: time stands still between line 100 ", "column 'time_s'"});
+  expect_refused({"base_high.csv: time does not increase between line 100 ", "column 'time_s'"});
 }
 
 TEST_F(BadRecords, ADeadSensorIsNamedWithItsRecord) {

@@ -1,12 +1,19 @@
 #include "diagnosis/diagnosis_json.h"
+#include "diagnosis/verdict_text.h"
 
 #include <gmock/gmock.h>
+#include <regex>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace vibrissa::diagnosis {
 namespace {
+
+/// The text as one line for each entry.
+std::string unwrapped(const std::string& text) {
+  return std::regex_replace(text, std::regex("\\n    "), " ");
+}
 
 using testing::HasSubstr;
 
@@ -57,7 +64,8 @@ TEST(DiagnosisJson, TellsTheErrorOfTheWindSpeedWhereThereIsOne) {
   diagnosis.wind_speed = WindSpeedError{0.4, 0.05};
   EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["wind_speed_error_m_s"],
             nlohmann::json({{"before", 0.4}, {"after", 0.05}}));
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("wind speed error 0.4 m/s -> 0.05 m/s"));
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
+              HasSubstr("wind speed error (rms) 0.4 m/s before, 0.05 m/s after"));
 }
 
 TEST(DiagnosisJson, HoldsEveryKeyOfTheSchema) {
@@ -122,7 +130,8 @@ TEST(DiagnosisJson, ListsWhatWasNotTestedAndWhy) {
   const auto json = nlohmann::json::parse(diagnosis_json(diagnosis));
   EXPECT_EQ(json["untested"][1],
             nlohmann::json::parse(R"({"effect": "turbulence", "reason": "no wind"})"));
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("Not tested: no wind: flow_lag, turbulence"));
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
+              HasSubstr("Not tested: no wind: flow_lag, turbulence"));
 }
 
 TEST(VerdictText, SaysFirstWhatMakesTheAnswerDoubtful) {
@@ -140,8 +149,8 @@ TEST(VerdictText, TellsTheOddsOfNoKnownEffect) {
   diagnosis.probability_of_outside = 0.1;
   EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["probability_of_outside"], 0.1);
   EXPECT_THAT(
-      verdict_text(diagnosis),
-      HasSubstr("not decided by these records: 30 %; outside the catalogue in total: 10 %"));
+      unwrapped(verdict_text(diagnosis)),
+      HasSubstr("not decided by these records: 30 % (of it, causes outside the catalogue: 10 %)"));
 }
 
 TEST(VerdictText, TellsWhatComesNearest) {
@@ -151,10 +160,11 @@ TEST(VerdictText, TellsWhatComesNearest) {
   diagnosis.verdict = "outside_catalogue";
   EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["nearest_known"]["effect"],
             "delay+stiffness");
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("Nearest known answer: delay+stiffness closes 98 "
-                                                 "% of the gap, but fails the residual test"));
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
+              HasSubstr("Nearest known answer: delay+stiffness closes 98 "
+                        "% of the gap, but fails the residual test"));
   diagnosis.nearest_known->residual_excess = ResidualExcess{"other_level", 1.5, 30.};
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("residual test: 2.5"));
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)), HasSubstr("residual test: 2.5"));
   EXPECT_EQ(nlohmann::json::parse(
                 diagnosis_json(diagnosis))["nearest_known"]["residual_excess"]["record"],
             "other_level");
@@ -175,17 +185,18 @@ TEST(VerdictText, KeepsEveryNumberOfManyEffects) {
   parameters.back().name = "the_last";
   parameters.back().at_limit = true;
   const std::string text = verdict_text(diagnosis, 1000);
-  EXPECT_THAT(text, HasSubstr("the_last"));
-  EXPECT_THAT(text, HasSubstr("(limit of the searched range)"));
+  EXPECT_THAT(unwrapped(text), HasSubstr("the_last"));
+  EXPECT_THAT(unwrapped(text), HasSubstr("(limit of the searched range)"));
   EXPECT_THAT(text, testing::Not(HasSubstr("...")));
 }
 
 TEST(VerdictText, NamesTheResonanceThatWasMeasured) {
   Diagnosis diagnosis = example();
   diagnosis.resonance = {37.37, 30.02, 2.62};
-  EXPECT_THAT(verdict_text(diagnosis),
-              HasSubstr("Resonance: simulated 37.4 Hz, measured 30 Hz; below it the response is "
-                        "2.62 times the simulated one"));
+  EXPECT_THAT(
+      unwrapped(verdict_text(diagnosis)),
+      HasSubstr("Resonance: simulated 37.4 Hz, measured 30 Hz; below it the measured response is "
+                "2.62 times the simulated one"));
   EXPECT_DOUBLE_EQ(
       nlohmann::json::parse(diagnosis_json(diagnosis))["resonance"]["measured_hz"].get<double>(),
       30.02);
@@ -198,28 +209,30 @@ TEST(VerdictText, FitsATerminalHoweverManyFindings) {
   std::istringstream text(verdict_text(diagnosis));
   int n_lines = 0;
   for (std::string line; std::getline(text, line); ++n_lines) EXPECT_LE(line.size(), 100u) << line;
-  EXPECT_LE(n_lines, 15);
+  EXPECT_LE(n_lines, 20);
   EXPECT_GE(n_lines, 8);
 }
 
 TEST(VerdictText, SaysCauseSizeAndWhatToDoNext) {
   const std::string text = verdict_text(example());
-  EXPECT_THAT(text, HasSubstr("delay + stiffness (probability 94 %)"));
-  EXPECT_THAT(text, HasSubstr("0.713 (0.709 .. 0.717)"));
-  EXPECT_THAT(text, HasSubstr("40 % -> 3.5 %"));
-  EXPECT_THAT(text, HasSubstr("Measure next: wide_band"));
+  EXPECT_THAT(unwrapped(text), HasSubstr("delay + stiffness (probability 94 %)"));
+  EXPECT_THAT(unwrapped(text), HasSubstr("0.713 (0.709 .. 0.717)"));
+  EXPECT_THAT(unwrapped(text), HasSubstr("40 % -> 3.5 %"));
+  EXPECT_THAT(unwrapped(text), HasSubstr("Measure next: wide_band"));
 }
 
 TEST(VerdictText, TellsACalibrationFromPhysics) {
   Diagnosis diagnosis = example();
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("The simulation lacks this physics"));
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
+              HasSubstr("The simulation does not contain this effect"));
   diagnosis.verdict = "stiffness";
-  EXPECT_THAT(verdict_text(diagnosis),
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
               HasSubstr("needs recalibration: set stiffness to 0.713 times the simulated"));
   diagnosis.verdict = "none";
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("noise explains the difference"));
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)), HasSubstr("noise explains the difference"));
   diagnosis.verdict = "outside_catalogue";
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("a cause that is not in the catalogue"));
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
+              HasSubstr("a cause that is not in the catalogue"));
 }
 
 TEST(DiagnosisJson, TellsRecalibrationFromMissingPhysics) {

@@ -225,16 +225,16 @@ TYPED_TEST(IsochoricLaws, ManyPointsAtOnceAreTheSameAsOneByOne) {
   auto strains = finite_strains();
   strains.push_back(Strain());
   strains.push_back(Strain({-1., 0., 0., 0., 0., 0.}));
-  ASSERT_EQ(strains.size(), static_cast<std::size_t>(n_lanes));
-  Lanes e[6], energy, stress[6], tangent[21];
-  for (unsigned int q = 0; q < n_lanes; ++q)
+  ASSERT_EQ(strains.size(), static_cast<std::size_t>(register_size));
+  Register e[6], energy, stress[6], tangent[21];
+  for (unsigned int q = 0; q < register_size; ++q)
     for (unsigned int m = 0; m < 6; ++m) e[m][q] = strains[q].access_raw_entry(m);
   isochoric_stress(this->law, e, energy, stress);
   isochoric_tangent(this->law, e, tangent);
-  for (unsigned int q = 0; q < n_lanes; ++q) {
+  for (unsigned int q = 0; q < register_size; ++q) {
     const Stress s = this->law.stress(strains[q]);
     const Tangent t = this->law.tangent(strains[q]);
-    if (q + 1 == n_lanes) {
+    if (q + 1 == register_size) {
       EXPECT_TRUE(std::isnan(energy[q]) && std::isnan(stress[0][q]) && std::isnan(tangent[0][q]));
       continue;
     }

@@ -106,30 +106,6 @@ World plain_world(std::mt19937_64& random) {
   return world;
 }
 
-std::string to_string(const CaseClass kind) {
-  switch (kind) {
-    case single:
-      return "single";
-    case pair:
-      return "pair";
-    case triple:
-      return "triple";
-    case none:
-      return "none";
-    case calibration_only:
-      return "calibration_only";
-    case nameless:
-      return "nameless";
-    case left_out:
-      return "left_out";
-    case below_limit:
-      return "below_limit";
-    case wrong_metadata:
-      return "wrong_metadata";
-  }
-  return "";
-}
-
 TrialCase draw_case(const std::uint64_t seed, const std::size_t number, const Physics physics) {
   TrialCase out;
   out.physics = physics;

@@ -6,23 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "trial/classes/case_class.h"
 #include "trial/generator/session.h"
 
 namespace vibrissa::trial {
-
-/// Kind of a case.
-enum class CaseClass {
-  single,
-  pair,
-  triple,
-  none,
-  calibration_only,  // building tolerances of modulus, damping, gains and drag only
-  nameless,          // an effect that is in no catalogue
-  left_out,          // an effect that is removed from the catalogue of the diagnosis
-  below_limit,       // an effect of a quarter of the detection limit
-  wrong_metadata     // a take with a wrong excitation (wind) or a wrong period
-};
-std::string to_string(CaseClass kind);
 
 /// Method that computes the sensor's motion.
 enum class Physics {

@@ -13,7 +13,7 @@ const Structure& structure_of(const SolidChange& change);
 
 /// Change of the moment of a world relative to the plain world, minus the part that follows from
 /// the change of the measured base motion, at the lines of the fit takes: take after take, bins 1
-/// .. n/2 - 1 each. Without noise; the plain sensor is measured once. Proven by
+/// to n/2 - 1 each. Without noise; the plain sensor is measured once. Proven by
 /// tests/trial/generator/detection_limit_test.cc.
 class UnexplainedChange {
  public:

@@ -21,8 +21,9 @@ using diagnosis::effect_ids;
 using diagnosis::joined_name;
 using nlohmann::json;
 
-std::string truth_of(const std::string& kind, const json& effects) {
-  if (kind == "nameless" || kind == "left_out") return diagnosis::outside_catalogue;
+std::string truth_of(const CaseClass kind, const json& effects) {
+  if (kind == CaseClass::nameless || kind == CaseClass::left_out)
+    return diagnosis::outside_catalogue;
   std::vector<std::string> ids;
   for (const json& effect : effects) ids.push_back(effect.at("id"));
   return ids.empty() ? "none" : joined_name(ids);
@@ -38,8 +39,8 @@ std::string without_calibrations(const std::string& name) {
   return joined_name(ids);
 }
 
-bool is_right(const std::string& kind, const std::string& truth, const std::string& verdict) {
-  return (kind == "calibration_only" ? without_calibrations(verdict) : verdict) == truth;
+bool is_right(const CaseClass kind, const std::string& truth, const std::string& verdict) {
+  return (kind == CaseClass::calibration_only ? without_calibrations(verdict) : verdict) == truth;
 }
 
 bool within_a_set(const json& sets, const std::string& truth, const std::string& verdict) {
@@ -116,6 +117,17 @@ std::optional<double> gap_closed(const json& held_out, bool transfer) {
   return 1. - after / before;
 }
 
+/// Answers of "vibrissa-diagnosis-1" have another name for what is read here.
+json as_version_2(json diagnosis) {
+  if (diagnosis.value("schema", "") != "vibrissa-diagnosis-1") return diagnosis;
+  for (json& answer : diagnosis.at("ranking")) {
+    json& held_out = answer.at("held_out");
+    if (held_out.is_null()) continue;
+    held_out["not_predictable"] = held_out.at("not_foretold");  // version 1
+  }
+  return diagnosis;
+}
+
 void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
   out.verdict = diagnosis.at("verdict");
   const json& ranking = diagnosis.at("ranking");
@@ -157,7 +169,8 @@ std::optional<bool> resolved(const ScoredCase& c, const json& answer, const char
 }
 
 ScoredCase scored(const std::string& name, const json& label, const json& answer) {
-  ScoredCase out{.name = name, .kind = label.at("class"), .truth = {}, .verdict = {}};
+  ScoredCase out{
+      .name = name, .kind = parse_case_class(label.at("class")), .truth = {}, .verdict = {}};
   const json& effects = label.at("effects");
   out.truth = truth_of(out.kind, effects);
   for (const json& effect : effects) {
@@ -169,14 +182,15 @@ ScoredCase scored(const std::string& name, const json& label, const json& answer
   out.exit_status = answer.at("exit_status");
   if (out.exit_status != 0) {
     out.verdict = "refused";
-    out.right = out.kind == "wrong_metadata" && out.exit_status == signals::exit_status::bad_input;
+    out.right =
+        out.kind == CaseClass::wrong_metadata && out.exit_status == signals::exit_status::bad_input;
     return out;
   }
   out.seconds = answer.at("seconds");
-  read_answer(out, answer.at("diagnosis"), effects);
+  read_answer(out, as_version_2(answer.at("diagnosis")), effects);
   out.resolved_as_recommended = resolved(out, answer, "recommended");
   out.resolved_by_chance = resolved(out, answer, "by_chance");
-  if (out.kind == "wrong_metadata")
+  if (out.kind == CaseClass::wrong_metadata)
     out.right = !answer.at("diagnosis").at("findings").empty() && out.verdict == "none";
   return out;
 }
@@ -185,29 +199,32 @@ constexpr double well_above = 3.;
 constexpr double sure = 0.8;
 
 void count(TrialScore& out, const ScoredCase& c) {
-  const bool named = c.kind == "single" || c.kind == "pair" || c.kind == "triple";
-  const bool in_catalogue = named || c.kind == "none" || c.kind == "calibration_only";
-  const bool outside = c.kind == "nameless" || c.kind == "left_out";
-  if (c.kind == "single" && c.size_in_limits >= well_above) {
+  const bool named =
+      c.kind == CaseClass::single || c.kind == CaseClass::pair || c.kind == CaseClass::triple;
+  const bool in_catalogue =
+      named || c.kind == CaseClass::none || c.kind == CaseClass::calibration_only;
+  const bool outside = c.kind == CaseClass::nameless || c.kind == CaseClass::left_out;
+  if (c.kind == CaseClass::single && c.size_in_limits >= well_above) {
     out.shares["single at 3 limits, right"].add(c.right);
     out.shares["single at 3 limits, right within sets"].add(c.right_within_set);
     out.shares["single at 3 limits, not called none"].add(c.exit_status == 0 &&
                                                           c.verdict != "none");
   }
-  if (c.kind == "single") out.shares["single of all sizes, right"].add(c.right);
+  if (c.kind == CaseClass::single) out.shares["single of all sizes, right"].add(c.right);
   if (in_catalogue) out.shares["top three"].add(c.in_top_three);
-  if (c.kind == "pair" || c.kind == "triple") out.shares[c.kind + ", exact"].add(c.right);
-  if (c.kind == "none" || c.kind == "calibration_only")
-    out.shares[c.kind + ", false alarm"].add(without_calibrations(c.verdict) != "none");
+  if (c.kind == CaseClass::pair || c.kind == CaseClass::triple)
+    out.shares[to_string(c.kind) + ", exact"].add(c.right);
+  if (c.kind == CaseClass::none || c.kind == CaseClass::calibration_only)
+    out.shares[to_string(c.kind) + ", false alarm"].add(without_calibrations(c.verdict) != "none");
   if (outside) {
-    out.shares[c.kind + ", outside_catalogue"].add(c.right);
-    out.shares[c.kind + ", wrong name above 0.8"].add(!c.right && c.verdict != "none" &&
-                                                      c.probability > sure);
+    out.shares[to_string(c.kind) + ", outside_catalogue"].add(c.right);
+    out.shares[to_string(c.kind) + ", wrong name above 0.8"].add(!c.right && c.verdict != "none" &&
+                                                                 c.probability > sure);
   }
-  if (c.kind == "below_limit")
+  if (c.kind == CaseClass::below_limit)
     out.shares["below the limit, wrong name above 0.8"].add(c.verdict != "none" && !c.right &&
                                                             c.probability > sure);
-  if (c.kind == "wrong_metadata") out.shares["wrong metadata, noticed"].add(c.right);
+  if (c.kind == CaseClass::wrong_metadata) out.shares["wrong metadata, noticed"].add(c.right);
   if (in_catalogue) {
     out.shares["wrong name above 0.8"].add(!c.right && c.verdict != "none" && c.probability > sure);
   }
@@ -221,7 +238,8 @@ void count(TrialScore& out, const ScoredCase& c) {
 
 /// Does the case have an answer whose probability can be calibrated?
 bool counts_for_odds(const ScoredCase& c) {
-  return c.exit_status == 0 && c.kind != "wrong_metadata" && c.kind != "below_limit";
+  return c.exit_status == 0 && c.kind != CaseClass::wrong_metadata &&
+         c.kind != CaseClass::below_limit;
 }
 
 void learn_trust(TrialScore& out) {
@@ -249,10 +267,10 @@ void measure(TrialScore& out) {
     if (c.gap_closed) closed.push_back(*c.gap_closed);
     if (c.transfer_gap_closed) transfer.push_back(*c.transfer_gap_closed);
     errors.insert(errors.end(), c.parameter_errors.begin(), c.parameter_errors.end());
-    if (c.exit_status != 0 || c.kind == "wrong_metadata") continue;
+    if (c.exit_status != 0 || c.kind == CaseClass::wrong_metadata) continue;
     seconds.push_back(c.seconds);
     set_sizes.push_back(static_cast<double>(c.confidence_set_size));
-    const bool is_outside = c.kind == "nameless" || c.kind == "left_out";
+    const bool is_outside = c.kind == CaseClass::nameless || c.kind == CaseClass::left_out;
     if (!counts_for_odds(c)) continue;
     (is_outside ? outside : known).push_back(c.probability_of_outside);
     answers.emplace_back(c.probability, c.right);
@@ -328,7 +346,7 @@ report::Table case_table(const TrialScore& score) {
                        {"gap closed", "", 3},
                        {"time", "s", 3}});
   for (const ScoredCase& c : score.cases)
-    table.add_row({c.name, c.kind,
+    table.add_row({c.name, to_string(c.kind),
                    c.size_in_limits > 0. ? std::optional(c.size_in_limits) : std::nullopt,
                    c.effects, c.truth, c.verdict, c.probability, c.right ? "yes" : "no",
                    c.gap_closed, c.seconds});
@@ -376,7 +394,7 @@ std::vector<report::Figure> trial_figures(const TrialScore& score) {
   for (const auto& [low, high] : {std::pair{1., 2.}, {2., 4.}, {4., 8.}, {8., 16.}, {16., 31.}}) {
     Share share;
     for (const ScoredCase& c : score.cases)
-      if (c.kind == "single" && c.size_in_limits >= low && c.size_in_limits < high)
+      if (c.kind == CaseClass::single && c.size_in_limits >= low && c.size_in_limits < high)
         share.add(c.right);
     if (share.of == 0) continue;
     const double middle = std::sqrt(low * high);

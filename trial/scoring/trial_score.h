@@ -8,6 +8,7 @@
 
 #include "report/figures/figure.h"
 #include "report/figures/table.h"
+#include "trial/classes/case_class.h"
 #include "trial/scoring/trial_files.h"
 #include "trial/scoring/trial_statistics.h"
 
@@ -15,9 +16,11 @@ namespace vibrissa::trial {
 
 /// One case: truth and diagnosis.
 struct ScoredCase {
-  std::string name, kind, truth, verdict;  // truth: the correct verdict
-  std::string effects{};                   // names of the generator
-  double size_in_limits = 0.;              // of the smallest effect; 0 without one
+  std::string name;
+  CaseClass kind = CaseClass::none;
+  std::string truth, verdict;  // truth: the correct verdict
+  std::string effects{};       // names of the generator
+  double size_in_limits = 0.;  // of the smallest effect; 0 without one
   int exit_status = 0;
   double probability = 0., seconds = 0.;
   double probability_of_tried = 1.;               // that any tested answer is right

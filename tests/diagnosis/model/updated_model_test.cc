@@ -153,6 +153,7 @@ TEST_F(UpdatedModelFile, IsRefusedWithThePlaceOfWhatIsWrong) {
               HasSubstr("/nominal/joint_share is missing"));
   EXPECT_THAT(message_of(replaced(good, "updated-model-1", "updated-model-9")),
               HasSubstr("vibrissa-updated-model-1"));
+  EXPECT_EQ(message_of(replaced(good, "updated-model-1", "mended-model-1")), "");  // version 1
   EXPECT_THAT(message_of(replaced(good, "220", "-220")), HasSubstr("first_mode_rad_s"));
   EXPECT_FALSE(is_updated_model("/no/such/file"));
 }

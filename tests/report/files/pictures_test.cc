@@ -58,7 +58,8 @@ TEST_F(DrawPictures, SaysInOneLineWhyThereAreNoneWithoutADisplay) {
   hide_xvfb_run();
   const PictureReport report = draw();
   EXPECT_EQ(report.message,
-            "no display and no xvfb-run: figures are CSV only; install the package xvfb");
+            "there is no display and no xvfb-run: figures are available as CSV only; install the "
+            "package xvfb");
   EXPECT_THAT(report.made, IsEmpty());
   EXPECT_FALSE(exists("a.png"));
   EXPECT_TRUE(exists("a.csv"));

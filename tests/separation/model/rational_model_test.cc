@@ -76,7 +76,7 @@ TEST(BvrmJson, NamesTheEntryThatIsWrong) {
   refusal([](json& j) { j["modes"][0]["a1_per_s"] = "10"; }, "'a1_per_s' must be a finite number");
   refusal([](json& j) { j["modes"][0]["a1_per_s"] = -10; }, "'a1_per_s' must be positive");
   refusal([](json& j) { j["modes"][0]["frequency_hz"] = 30; }, "a0_per_s2 and a1_per_s give 31.47");
-  refusal([](json& j) { j["modes"][0] = 7; }, "modes[0]: must be an object");
+  refusal([](json& j) { j["modes"][0] = 7; }, "modes[0]: must be a JSON object");
 }
 
 }  // namespace

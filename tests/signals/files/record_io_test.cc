@@ -238,7 +238,7 @@ TEST_F(ReadRecord, NamesLineAndColumnOfANumberThatIsNotFinite) {
                     HasSubstr("is not finite"))));
   EXPECT_THAT(reading(with_field("1e300"),
                       {.columns = {{"base_moment_N_m", "base_acceleration_m_s2", 1e10}}}),
-              ThrowsMessage<UserError>(HasSubstr("'1e300' is not finite once scaled")));
+              ThrowsMessage<UserError>(HasSubstr("'1e300' is not finite after scaling")));
 }
 
 TEST_F(ReadRecord, CutsALongFieldShortInTheMessage) {

@@ -91,7 +91,7 @@ TEST_F(CsvFileTest, RefusesARowOfAnotherLengthWithItsLine) {
       [&] { all_rows("a,b\n1,2,3\n"); },
       ThrowsMessage<UserError>(EndsWith("r.csv:2: 3 fields, but the first line names 2 columns")));
   EXPECT_THAT([&] { all_rows("a,b\n\"1,2\n"); },
-              ThrowsMessage<UserError>(HasSubstr("r.csv:2: 1 field where")));
+              ThrowsMessage<UserError>(HasSubstr("r.csv:2: 1 field, but")));
 }
 
 TEST_F(CsvFileTest, RefusesABlankLineAmongTheData) {

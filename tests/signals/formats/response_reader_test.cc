@@ -112,11 +112,13 @@ TEST_F(ResponseReader, RefusesWhatItCannotChooseOrConvert) {
   bare.ordinate_axis.unit = "T";
   write_uff58(file("t.uff"), {bare});
   expect_refusal(file("t.uff"), {}, "in T per m/s^2", "0.18[N m/T]");
-  expect_refusal(write("a.csv", "time_s,x\n0,1\n1,2\n"), {}, "a.csv", "has: time_s, x");
-  expect_refusal(write("b.csv", "f,x\n1,1\n2,2\n"), {}, "no response", "has: f, x");
+  expect_refusal(write("a.csv", "time_s,x\n0,1\n1,2\n"), {}, "a.csv",
+                 "columns of the file: time_s, x");
+  expect_refusal(write("b.csv", "f,x\n1,1\n2,2\n"), {}, "no response", "columns of the file: f, x");
   expect_refusal(write("c.csv", "f,real,imaginary\n1,1,1\n0.5,2,2\n"), {}, "c.csv: frequency 2",
                  "below");
-  expect_refusal(write("d.csv", "f,real,imaginary\n1,1,1\n2,2,2\n"), {"H"}, "H_real", "has: f");
+  expect_refusal(write("d.csv", "f,real,imaginary\n1,1,1\n2,2,2\n"), {"H"}, "H_real",
+                 "columns of the file: f");
   for (const char* nothing : {"f,real,imaginary\n", "f,real,imaginary\n0,1,1\n"})
     expect_refusal(write("e.csv", nothing), {}, "e.csv", "no line of a frequency response");
 }

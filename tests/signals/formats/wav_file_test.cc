@@ -133,9 +133,10 @@ TEST(WavFile, RefusesAChunkThatIsLongerThanTheFile) {
   for (const auto chunk : {list, comment}) {
     std::string damaged = bytes;
     damaged.replace(chunk + 4, 4, "\xff\xff\xff\xff");
-    EXPECT_THAT([&] { parse_wav(damaged, "a.wav"); },
-                ThrowsMessage<UserError>(HasSubstr("a.wav: is damaged: the chunk at byte " +
-                                                   std::to_string(chunk) + " states 4294967295")));
+    EXPECT_THAT(
+        [&] { parse_wav(damaged, "a.wav"); },
+        ThrowsMessage<UserError>(HasSubstr("a.wav: is damaged: the chunk at byte " +
+                                           std::to_string(chunk) + " declares 4294967295")));
   }
 }
 

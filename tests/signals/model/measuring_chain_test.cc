@@ -92,17 +92,17 @@ void expect_white_gaussian(const Signal& noise, double standard_deviation) {
 
 MeasuringChain nominal_chain(double sensor_noise_n_m, double reference_noise_m_s2) {
   MeasuringChain chain;
-  chain.add(make_structure_link(sensor_model()));
+  chain.add(make_structure_element(sensor_model()));
   chain.add(make_sensor_noise(sensor_noise_n_m));
   chain.add(make_reference_noise(reference_noise_m_s2));
   return chain;
 }
 
 /// Writes its name into a channel, so that the order of links shows.
-class Marker : public Link {
+class Marker : public ChainElement {
  public:
-  Marker(LinkPlace place, double digit) : place_(place), digit_(digit) {}
-  LinkPlace place() const override { return place_; }
+  Marker(Link link, double digit) : link_(link), digit_(digit) {}
+  Link link() const override { return link_; }
   std::string name() const override { return "marker"; }
   void pass(Record& record, std::mt19937_64&) const override {
     const double before = record.has("order") ? record.channel("order")[0] : 0.;
@@ -110,7 +110,7 @@ class Marker : public Link {
   }
 
  private:
-  LinkPlace place_;
+  Link link_;
   double digit_;
 };
 
@@ -120,18 +120,17 @@ TEST(MeasuringChain, WithoutLinksIsTheIdentity) {
 
 TEST(MeasuringChain, PassesLinksInTheOrderOfTheirPlacesNotOfTheirAdding) {
   MeasuringChain chain;
-  const std::vector places{LinkPlace::clock,     LinkPlace::sensor, LinkPlace::mount,
-                           LinkPlace::reference, LinkPlace::wind,   LinkPlace::structure};
+  const std::vector links{Link::clock,     Link::sensor, Link::mount,
+                          Link::reference, Link::wind,   Link::structure};
   const Signal digits{6., 4., 1., 5., 2., 3.};
-  for (std::size_t i = 0; i < places.size(); ++i)
-    chain.add(std::make_unique<Marker>(places[i], digits[i]));
+  for (std::size_t i = 0; i < links.size(); ++i)
+    chain.add(std::make_unique<Marker>(links[i], digits[i]));
   EXPECT_EQ(chain.measure(true_motion(), 1).channel("order")[0], 123456.);
 }
 
 TEST(MeasuringChain, PassesLinksAtOnePlaceInTheOrderOfTheirAdding) {
   MeasuringChain chain;
-  for (const double digit : {1., 2., 3.})
-    chain.add(std::make_unique<Marker>(LinkPlace::sensor, digit));
+  for (const double digit : {1., 2., 3.}) chain.add(std::make_unique<Marker>(Link::sensor, digit));
   EXPECT_EQ(chain.measure(true_motion(), 1).channel("order")[0], 123.);
 }
 
@@ -175,16 +174,16 @@ TEST(MeasuringChain, NoiseOfSeveralChannelsAndLinksIsUnrelated) {
 TEST(MeasuringChain, AddingALinkLeavesTheNoiseOfTheOthersAlone) {
   const auto before = nominal_chain(1e-6, 0.0785).measure(true_motion(), 42);
   auto chain = nominal_chain(1e-6, 0.0785);
-  chain.add(std::make_unique<Marker>(LinkPlace::mount, 1.));
-  chain.add(std::make_unique<Marker>(LinkPlace::reference, 2.));
+  chain.add(std::make_unique<Marker>(Link::mount, 1.));
+  chain.add(std::make_unique<Marker>(Link::reference, 2.));
   const auto after = chain.measure(true_motion(), 42);
   for (const auto& name : before.channel_names())
     EXPECT_EQ(channel_of(before, name), channel_of(after, name)) << name;
 }
 
-TEST(StructureLink, AddsTheMomentsOfTheReducedModel) {
+TEST(StructureElement, AddsTheMomentsOfTheReducedModel) {
   MeasuringChain chain;
-  chain.add(make_structure_link(sensor_model()));
+  chain.add(make_structure_element(sensor_model()));
   const auto truth = true_motion();
   const auto record = chain.measure(truth, 1);
   const auto wanted = simulate_band_limited(
@@ -199,9 +198,9 @@ TEST(StructureLink, AddsTheMomentsOfTheReducedModel) {
     EXPECT_EQ(channel_of(record, name), channel_of(truth, name));
 }
 
-TEST(StructureLink, HasNoCrossMomentWithoutCrossAcceleration) {
+TEST(StructureElement, HasNoCrossMomentWithoutCrossAcceleration) {
   MeasuringChain chain;
-  chain.add(make_structure_link(sensor_model()));
+  chain.add(make_structure_element(sensor_model()));
   Record truth(rate_hz, n_samples);
   truth.set_channel(channel::base_acceleration, sine(3., 20.));
   const auto record = chain.measure(truth, 1);
@@ -209,7 +208,7 @@ TEST(StructureLink, HasNoCrossMomentWithoutCrossAcceleration) {
   EXPECT_FALSE(record.has(channel::cross_moment));
 }
 
-TEST(StructureLink, RespondsToTheTrueAccelerationNotToTheMeasuredOne) {
+TEST(StructureElement, RespondsToTheTrueAccelerationNotToTheMeasuredOne) {
   const auto clean = nominal_chain(0., 0.).measure(true_motion(), 3);
   const auto noisy = nominal_chain(0., 0.5).measure(true_motion(), 3);
   EXPECT_EQ(channel_of(clean, channel::base_moment), channel_of(noisy, channel::base_moment));
@@ -217,18 +216,18 @@ TEST(StructureLink, RespondsToTheTrueAccelerationNotToTheMeasuredOne) {
             channel_of(noisy, channel::base_acceleration));
 }
 
-TEST(StructureLink, RefusesARecordWithoutAnyCause) {
+TEST(StructureElement, RefusesARecordWithoutAnyCause) {
   MeasuringChain chain;
-  chain.add(make_structure_link(sensor_model()));
+  chain.add(make_structure_element(sensor_model()));
   EXPECT_THAT([&] { chain.measure(Record(rate_hz, 100), 1); },
               ThrowsMessage<UserError>(
                   testing::AllOf(HasSubstr("symmetric"), HasSubstr("base_acceleration_m_s2"))));
 }
 
-TEST(StructureLink, RefusesAModelThatCannotBe) {
+TEST(StructureElement, RefusesAModelThatCannotBe) {
   auto model = sensor_model();
   model.modes[0].frequency_hz = NAN;
-  EXPECT_THAT([&] { make_structure_link(model); },
+  EXPECT_THAT([&] { make_structure_element(model); },
               ThrowsMessage<UserError>(HasSubstr("modes[0].frequency_hz")));
 }
 
@@ -268,13 +267,13 @@ TEST(Noise, RefusesAStandardDeviationThatIsNone) {
               ThrowsMessage<UserError>(HasSubstr("reference noise: standard deviation nan")));
 }
 
-TEST(LinkPlace, HasItsNameInTheChain) {
-  EXPECT_EQ(to_string(LinkPlace::mount), "mount");
-  EXPECT_EQ(to_string(LinkPlace::wind), "wind");
-  EXPECT_EQ(to_string(LinkPlace::structure), "structure");
-  EXPECT_EQ(to_string(LinkPlace::sensor), "sensor");
-  EXPECT_EQ(to_string(LinkPlace::reference), "reference");
-  EXPECT_EQ(to_string(LinkPlace::clock), "clock");
+TEST(Link, HasItsNameInTheChain) {
+  EXPECT_EQ(to_string(Link::mount), "mount");
+  EXPECT_EQ(to_string(Link::wind), "wind");
+  EXPECT_EQ(to_string(Link::structure), "structure");
+  EXPECT_EQ(to_string(Link::sensor), "sensor");
+  EXPECT_EQ(to_string(Link::reference), "reference");
+  EXPECT_EQ(to_string(Link::clock), "clock");
 }
 
 }  // namespace

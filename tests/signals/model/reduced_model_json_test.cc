@@ -221,7 +221,7 @@ TEST_F(ModelFile, RefusesWhatIsNoJson) {
   for (const char* text : {"[]", "3", "null", "\"vibrissa-model-1\""}) {
     write_text(text);
     EXPECT_THAT([&] { read_reduced_model(file()); },
-                complains(file().string(), ": the document must be an object"));
+                complains(file().string(), ": the document must be a JSON object"));
   }
 }
 

@@ -151,10 +151,11 @@ TEST(TimeAxis, RefusesTimeThatRunsBackwardOrStandsStill) {
   const Printed backward(100, "%.3f", [](const double i) { return 0.002 * (i == 40. ? 38.5 : i); });
   EXPECT_THAT([&] { backward.axis(); },
               ThrowsMessage<UserError>(HasSubstr(
-                  "r.csv: time runs backward between line 41 (0.078 s) and line 42 (0.077 s)")));
+                  "r.csv: time decreases between line 41 (0.078 s) and line 42 (0.077 s)")));
   const Printed still(100, "%.3f", [](const double i) { return 0.002 * (i == 40. ? 39. : i); });
-  EXPECT_THAT([&] { still.axis(); },
-              ThrowsMessage<UserError>(HasSubstr("time stands still between line 41 (0.078 s)")));
+  EXPECT_THAT(
+      [&] { still.axis(); },
+      ThrowsMessage<UserError>(HasSubstr("time does not increase between line 41 (0.078 s)")));
 }
 
 TEST(TimeAxis, RefusesASampleThatCrowdsTheOneBefore) {

@@ -22,9 +22,9 @@ using testing::ThrowsMessage;
 using Complex = std::complex<double>;
 
 using test::rate_hz;
-constexpr std::size_t period = 1024;
+constexpr std::size_t period_length = 1024;
 
-Complex resonance(double frequency_hz) {
+Complex true_resonance(double frequency_hz) {
   const double ratio = frequency_hz / 31.47;
   return 1. / Complex(1. - ratio * ratio, 2. * 0.1 * ratio);
 }
@@ -40,7 +40,7 @@ struct WienerSystem {
     fft.forward();
     for (std::size_t k = 0; resonant && k < fft.n_bins(); ++k)
       fft.spectrum()[k] *=
-          resonance(static_cast<double>(k) * rate_hz / static_cast<double>(u.size()));
+          true_resonance(static_cast<double>(k) * rate_hz / static_cast<double>(u.size()));
     fft.inverse();
     std::vector<double> y(fft.time().begin(), fft.time().end());
     for (double& x : y) x += squared * x * x + cubed * x * x * x;
@@ -50,7 +50,7 @@ struct WienerSystem {
 
 struct Measurement {
   std::vector<double> input, output;
-  PeriodAverage average() const { return average_periods(input, output, rate_hz, period); }
+  PeriodAverage average() const { return average_periods(input, output, rate_hz, period_length); }
 };
 
 /// Periods of both channels, each with white noise of its own.
@@ -71,7 +71,7 @@ Measurement measure(const std::vector<double>& drive, const WienerSystem& system
 DesignedExcitation drives(LineGrid grid, std::size_t n_realisations, std::uint64_t seed) {
   return design_excitation({.high_hz = 60.,
                             .sampling_rate_hz = rate_hz,
-                            .period_samples = period,
+                            .period_samples = period_length,
                             .grid = grid,
                             .phase = PhaseRule::random,
                             .n_realisations = n_realisations,
@@ -125,7 +125,7 @@ TEST(RobustApproximation, RecoversALinearSystemAndSeesNoDistortion) {
   EXPECT_EQ(result.n_realisations, 3u);
   EXPECT_EQ(result.n_periods, 2u);
   for (std::size_t i = 0; i < result.response.value.size(); ++i) {
-    EXPECT_LT(std::abs(result.response.value[i] - resonance(result.response.frequency_hz[i])),
+    EXPECT_LT(std::abs(result.response.value[i] - true_resonance(result.response.frequency_hz[i])),
               1e-10);
     EXPECT_LT(std::abs(result.distortion_variance[i]), 1e-20);
   }
@@ -163,7 +163,7 @@ TEST(RobustApproximation, TellsDistortionFromNoiseAtTheirKnownLevels) {
     found += mean_of(result.distortion_variance) / n_draws;
     noise += mean_of(result.noise_variance) / n_draws;
     for (const auto& one : all)
-      expected_noise += 4. * 0.01 / (period * n_periods) / std::norm(one.input[20]) /
+      expected_noise += 4. * 0.01 / (period_length * n_periods) / std::norm(one.input[20]) /
                         (n_draws * n_realisations * n_realisations);
   }
   EXPECT_NEAR(found / distortion, 1., 0.1);
@@ -247,7 +247,7 @@ FastSums fast_sums(const WienerSystem& system, const std::vector<Complex>& truth
         {.excited = excited_lines(excitation)});
     for (std::size_t i = 0; i < result.response.value.size(); ++i) {
       const double hz = result.response.frequency_hz[i];
-      const auto line = static_cast<std::size_t>(std::lround(hz * period / rate_hz));
+      const auto line = static_cast<std::size_t>(std::lround(hz * period_length / rate_hz));
       if (!truth.empty()) {
         sums.error += std::norm(result.response.value[i] - truth[(line - 3) / 2]);
         sums.stated += std::pow(result.response.standard_deviation[i], 2);
@@ -270,7 +270,7 @@ TEST(FastApproximation, RecoversALinearSystemAndSeesNoDistortion) {
 
 TEST(FastApproximation, NoiseAloneIsNoDistortion) {
   const auto sums = fast_sums({}, {}, 0., 0.1, 40);
-  const double noise = 4. * 0.01 / (period * 4);
+  const double noise = 4. * 0.01 / (period_length * 4);
   EXPECT_NEAR(sums.noise / sums.n / noise, 1., 0.05);
   EXPECT_NEAR(sums.even / sums.n / noise, 0., 0.1);
   EXPECT_NEAR(sums.odd / sums.n / noise, 0., 0.15);

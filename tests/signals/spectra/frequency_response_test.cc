@@ -273,7 +273,7 @@ TEST(WelchResponse, RefusesWhatHoldsNoAnswer) {
   EXPECT_NO_THROW(respond(x, x, 666)());
   EXPECT_THAT(respond(x, x, 668),
               ThrowsMessage<UserError>(HasSubstr("1000 samples contain 1 segments of 668")));
-  EXPECT_THAT(respond(x, x, 2048), ThrowsMessage<UserError>(HasSubstr("hold 0 segments")));
+  EXPECT_THAT(respond(x, x, 2048), ThrowsMessage<UserError>(HasSubstr("contain 0 segments")));
   EXPECT_THAT(respond(x, x, 0), ThrowsMessage<UserError>(HasSubstr("segment_samples = 0")));
   EXPECT_THAT(respond(constant, x, 256), ThrowsMessage<UserError>(HasSubstr("constant")));
   EXPECT_THAT(respond(x, shorter, 256), ThrowsMessage<UserError>(HasSubstr("999")));

@@ -69,7 +69,7 @@ std::vector<double> moment_of_modes(const World& world) {
   return moment(modes, 1., 0.);
 }
 
-TEST(SolidMotion, ChangesWithItsSolidAsTheModesDo) {
+TEST(LongSolidMotion, ChangesWithItsSolidAsTheModesDo) {
   const std::vector<double> before = moment_of_modes({});
   for (const auto& [id, size] : {std::pair("stiffness", -0.2), std::pair("mass", 0.2),
                                  std::pair("damping", 0.5), std::pair("viscoelastic", 0.3)}) {

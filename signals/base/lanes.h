@@ -3,14 +3,16 @@
 #include <Eigen/Core>
 #include <cstring>
 
-namespace vibrissa::diagnosis {
+namespace vibrissa::signals {
 
-/// One value for each of the records that are integrated in parallel (SIMD).
-using Lanes = Eigen::Array<double, 8, 1>;
+/// Numbers that are computed side by side in one SIMD instruction: one value for each record, mode
+/// or sample, as the code that uses them says.
+inline constexpr Eigen::Index n_lanes = 8;
+using Lanes = Eigen::Array<double, n_lanes, 1>;
 
 /// Lane by lane: then where test is negative, otherwise elsewhere (also where test is NaN). Written
 /// with compiler vectors, because Eigen's select and a loop are not compiled to one instruction.
-/// Proven by tests/diagnosis/model/lanes_test.cc.
+/// Proven by tests/signals/base/lanes_test.cc.
 inline Lanes where_negative(const Lanes& test, const Lanes& then, const Lanes& otherwise) {
   using Vector = double __attribute__((vector_size(sizeof(Lanes))));
   Vector t, a, b;
@@ -23,4 +25,4 @@ inline Lanes where_negative(const Lanes& test, const Lanes& then, const Lanes& o
   return out;
 }
 
-}  // namespace vibrissa::diagnosis
+}  // namespace vibrissa::signals

@@ -6,19 +6,19 @@ namespace vibrissa::materials {
 
 /// Numbers for SIMD operations; the compiler splits them on processors with shorter registers. Pass
 /// them only by reference: by value they would change the calling convention.
-inline constexpr int n_lanes = 8;
-using Lanes [[gnu::vector_size(n_lanes * sizeof(double))]] = double;
+inline constexpr int register_size = 8;
+using Register [[gnu::vector_size(register_size * sizeof(double))]] = double;
 
-inline void load(Lanes& lanes, const double* from) {
+inline void load(Register& lanes, const double* from) {
   std::memcpy(&lanes, from, sizeof lanes);
 }
-inline void store(const Lanes& lanes, double* to) {
+inline void store(const Register& lanes, double* to) {
   std::memcpy(to, &lanes, sizeof lanes);
 }
 
-/// The next multiple of n_lanes.
+/// The next multiple of register_size.
 constexpr int padded(const int n) {
-  return (n + n_lanes - 1) / n_lanes * n_lanes;
+  return (n + register_size - 1) / register_size * register_size;
 }
 
 }  // namespace vibrissa::materials

@@ -1,10 +1,10 @@
-#include "diagnosis/model/lanes.h"
+#include "signals/base/lanes.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-namespace vibrissa::diagnosis {
+namespace vibrissa::signals {
 namespace {
 
 TEST(Lanes, EachIsChosenByItsOwnSign) {
@@ -20,4 +20,4 @@ TEST(Lanes, EachIsChosenByItsOwnSign) {
 }
 
 }  // namespace
-}  // namespace vibrissa::diagnosis
+}  // namespace vibrissa::signals
