@@ -133,8 +133,8 @@ TEST_P(Checkpoint, OneThatIsDamagedCutOffMissingOrOfAnotherKindIsRefused) {
   }
   expect_refusal(write_as(whole.substr(0, whole.size() / 2)), owner, "is damaged");
   expect_refusal(write_as(whole.substr(0, 100)), owner, "is damaged");
-  expect_refusal(write_as("time_s,base_moment_N_m\n0,1\n"), owner, "is no checkpoint");
-  expect_refusal(write_as(""), owner, "is no checkpoint");
+  expect_refusal(write_as("time_s,base_moment_N_m\n0,1\n"), owner, "is not a checkpoint");
+  expect_refusal(write_as(""), owner, "is not a checkpoint");
   expect_refusal(folder / "absent.h5", owner, "there is no checkpoint");
   expect_refusal(folder, owner, "there is no checkpoint");
 }
