@@ -145,7 +145,10 @@ std::string outside_part(const Diagnosis& diagnosis) {
   double part = diagnosis.probability_of_outside;
   for (const RankedAnswer& answer : diagnosis.ranking)
     if (answer.name == outside_catalogue) part -= answer.probability;
-  return part < 0.005 ? "" : " (of it, causes outside the catalogue: " + percent(part) + ")";
+  if (part < 0.005) return "";
+  const std::string points = percent(part);
+  return " (of these, " + points.substr(0, points.find(' ')) +
+         " percentage points for causes outside the catalogue)";
 }
 
 std::string others_line(const Diagnosis& diagnosis) {

@@ -66,14 +66,15 @@ std::string location_sentence(const Location& location) {
                    : channel == "product" ? "only with base motion and wind together"
                    : channel == "base"    ? "in records with base motion"
                                           : "in records with " + channel);
-  text << joined(when, ", ");
+  text << joined(when, " and ");
   if (!location.bands_hz.empty())
     text << ", at " << location.bands_hz.front()[0] << " to " << location.bands_hz.back()[1]
          << " Hz";
   if (location.mode) text << ", strongest near mode " << *location.mode;
   if (location.level_exponent && *location.level_exponent != 0.)
     text << (*location.level_exponent > 0. ? ", rises" : ", falls")
-         << " with the level of what moves the sensor, as level^" << *location.level_exponent;
+         << " relative to the signal with the level of what moves the sensor, as level^"
+         << *location.level_exponent;
   if (location.harmonics != Harmonics::none)
     text << ", with "
          << (location.harmonics == Harmonics::both ? "odd and even" : to_string(location.harmonics))

@@ -150,7 +150,8 @@ TEST(VerdictText, TellsTheOddsOfNoKnownEffect) {
   EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["probability_of_outside"], 0.1);
   EXPECT_THAT(
       unwrapped(verdict_text(diagnosis)),
-      HasSubstr("not decided by these records: 30 % (of it, causes outside the catalogue: 10 %)"));
+      HasSubstr("not decided by these records: 30 % (of these, 10 percentage points for causes "
+                "outside the catalogue)"));
 }
 
 TEST(VerdictText, TellsWhatComesNearest) {
