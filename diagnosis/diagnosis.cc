@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/fit/calibration_choices.h"
+#include "diagnosis/checks/clock_offset.h"
 #include "diagnosis/material_estimates.h"
 #include "diagnosis/records/long_records.h"
 #include "diagnosis/search/calibrated_odds.h"
 #include "diagnosis/search/confidence_set.h"
 #include "diagnosis/validation/indistinguishable.h"
+#include "diagnosis/validation/named_answers.h"
 #include "signals/base/error.h"
-#include "signals/base/student.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -57,82 +57,59 @@ double joint_share_deviation(const Experiment& experiment, const HypothesisFit& 
                   std::sqrt(fit.covariance(index, index)));
 }
 
-/// Scores one answer's fit on held-out records.
-void score_answer(RankedAnswer& answer, const HypothesisFit& fit, const Experiment& experiment,
-                  const Experiment& held_out, const DiagnoseOptions& options) {
-  answer.held_out = score_held_out(experiment, held_out, fit, options.held_out);
-  if (!fit.hypothesis.is_discrepancy())
-    answer.residual_excess = residual_excess(experiment, held_out, fit);
-}
-
 /// Scores the first few answers; answers with the same fit share its scores.
 void score_answers(Diagnosis& out, const SearchResult& result, const Experiment& experiment,
                    const Experiment& held_out, const DiagnoseOptions& options) {
-  for (std::size_t i = 0; i < std::min(options.n_scored, out.ranking.size()); ++i) {
-    RankedAnswer& answer = out.ranking[i];
-    const std::size_t fit = result.candidates[i].fit;
-    for (std::size_t j = 0; j < i && !answer.held_out; ++j)
-      if (result.candidates[j].fit == fit) {
-        answer.held_out = out.ranking[j].held_out;
-        answer.residual_excess = out.ranking[j].residual_excess;
-      }
-    if (!answer.held_out) score_answer(answer, result.fits[fit], experiment, held_out, options);
-  }
+  for (std::size_t i = 0; i < std::min(options.n_scored, out.ranking.size()); ++i)
+    out.ranking[i].held_out = score_held_out(
+        experiment, held_out, result.fits[result.candidates[i].fit], options.held_out);
 }
 
+/// The best of the answers with a known effect.
 std::optional<RankedAnswer> nearest_known(const SearchResult& result, const Experiment& experiment,
                                           const Experiment& held_out,
                                           const DiagnoseOptions& options) {
-  for (const Candidate& candidate : result.refuted) {
-    if (candidate.name == "none") continue;
-    const HypothesisFit& fit = result.fits[candidate.fit];
-    RankedAnswer answer{.name = candidate.name,
-                        .parameters = parameter_estimates(fit, candidate.name)};
-    if (has_moving(held_out)) score_answer(answer, fit, experiment, held_out, options);
-    return answer;
-  }
-  return std::nullopt;
+  if (!result.nearest_known) return std::nullopt;
+  const HypothesisFit& fit = result.fits[*result.nearest_known];
+  const std::string name = fit.hypothesis.name();
+  RankedAnswer answer{.name = name, .parameters = parameter_estimates(fit, name)};
+  if (has_moving(held_out))
+    answer.held_out = score_held_out(experiment, held_out, fit, options.held_out);
+  return answer;
 }
 
-/// Finding where held-out records rejected the nearest known answer.
-std::optional<Finding> refuted_by_held_out(const Diagnosis& diagnosis) {
-  if (!diagnosis.nearest_known || !diagnosis.nearest_known->residual_excess) return std::nullopt;
-  const ResidualExcess& left = *diagnosis.nearest_known->residual_excess;
-  if (!contradicted_by(left)) return std::nullopt;
-  return Finding{.kind = FindingKind::not_confirmed,
-                 .record = left.record,
-                 .message = "cross-validation fails: " + diagnosis.nearest_known->name +
-                            " explains the fit records best but does not predict this record"};
+/// Two clocks are a delay, whatever else the answer is.
+void add_delay(SearchResult& result) {
+  for (Candidate& candidate : result.candidates) {
+    std::vector<std::string> ids = effect_ids(candidate.name);
+    if (candidate.name == outside_catalogue || std::ranges::find(ids, "delay") != ids.end())
+      continue;
+    ids.push_back("delay");
+    candidate.name = joined_name(std::move(ids));
+  }
 }
 
 /// Finding where held-out records do not confirm the answer.
-std::optional<Finding> contradiction(const Diagnosis& diagnosis) {
-  const RankedAnswer& best = diagnosis.ranking.front();
-  if (diagnosis.verdict == outside_catalogue) return refuted_by_held_out(diagnosis);
-  if (diagnosis.verdict == "none") return std::nullopt;
-  if (!best.held_out || !best.held_out->overall.gap_closed_ci95) return std::nullopt;
+std::optional<Finding> contradiction(const Diagnosis& diagnosis, const HypothesisFit& best) {
+  const RankedAnswer& answer = diagnosis.ranking.front();
+  if (best.hypothesis.is_discrepancy() || answer.name == "none" || !answer.held_out)
+    return std::nullopt;
   // Random effects cannot be predicted and close no gap; their power confirms them.
-  if (!best.held_out->not_predictable.empty()) return std::nullopt;
-  if ((*best.held_out->overall.gap_closed_ci95)[1] >= 0.5) return std::nullopt;
+  if (!answer.held_out->not_predictable.empty()) return std::nullopt;
+  const auto& ci95 = answer.held_out->overall.gap_closed_ci95;
+  if (!ci95 || (*ci95)[1] >= 0.5) return std::nullopt;
   return Finding{.kind = FindingKind::not_confirmed,
                  .message =
                      "held-out records do not confirm the answer: it closes less than half of "
                      "their gap, so the cause or its size is not valid for them"};
 }
 
-void set_gap(Diagnosis& out, const UpdatedModel& simulation, const signals::Dataset& real,
-             const SearchResult& result, const Experiment& experiment) {
-  if (!out.ranking.front().held_out) {
-    const Experiment fit_records =
-        prepare_experiment(simulation, real, signals::Split::fit, InputNoise::as_measured);
-    const HypothesisFit& best = result.fits[result.candidates.front().fit];
-    const ErrorScore score =
-        score_held_out(experiment, fit_records, best, {.n_resamples = 0}).overall;
-    out.gap = {score.nrmse_before, score.noise_floor, out.location.p_value};
-    return;
-  }
-  const ErrorScore& score = out.ranking.front().held_out->overall;
+void set_gap(Diagnosis& out, const SearchResult& result, const Experiment& experiment,
+             const Experiment& scored) {
+  const HypothesisFit& best = result.fits[result.candidates.front().fit];
+  const ErrorScore score = score_held_out(experiment, scored, best, {.n_resamples = 0}).overall;
   out.gap = {score.nrmse_before, score.noise_floor, out.location.p_value};
+  out.attribution = attribute_gap(experiment, scored, best);
 }
 
 void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nominal,
@@ -160,41 +137,6 @@ void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nomina
 
 }  // namespace
 
-std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
-                                                   const std::string& name) {
-  const std::vector<std::string> ids = effect_ids(name);
-  std::vector<Eigen::Index> named;
-  for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
-    const FitParameter& fit_parameter = fit.fit_parameters[i];
-    if (fit_parameter.nuisance && fit_parameter.parameter == 0 &&
-        std::find(ids.begin(), ids.end(), fit_parameter.effect->id) != ids.end())
-      named.push_back(static_cast<Eigen::Index>(i));
-  }
-  const RecalibratedPosterior posterior = recalibrated_posterior(fit, named);
-  std::vector<ParameterEstimate> out;
-  for (const std::string& id : ids)
-    for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
-      const FitParameter& fit_parameter = fit.fit_parameters[i];
-      if (fit_parameter.effect == nullptr || fit_parameter.effect->id != id) continue;
-      const auto index = static_cast<Eigen::Index>(i);
-      const Parameter& parameter = fit_parameter.description;
-      const double x = posterior.x(index), variance = posterior.covariance(index, index),
-                   half = signals::normal_quantile_975 * std::sqrt(variance);
-      const auto value = [&](double at) {
-        return parameter.value(std::clamp(at, parameter.prior.low, parameter.prior.high));
-      };
-      const double reach = 1e-6 * (parameter.prior.high - parameter.prior.low);
-      out.push_back(
-          {.effect = id,
-           .name = parameter.name,
-           .unit = parameter.unit,
-           .value = value(x),
-           .ci95 = {value(x - half), value(x + half)},
-           .at_limit = x < parameter.prior.low + reach || x > parameter.prior.high - reach});
-    }
-  return out;
-}
-
 UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fit) {
   UpdatedModel model(experiment.nominal, experiment.known);
   model.nominal.joint_share = fit.x(static_cast<Eigen::Index>(index_of_joint_share));
@@ -217,19 +159,30 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
   check_menu_names(options.possible_experiments);
   const NominalModel& nominal = simulation.nominal;
   Diagnosis out;
-  out.findings = check_data(nominal, recorded, options.simulated_rate_hz);
+  const AlignedDataset aligned = align_clocks(nominal, recorded);
+  out.findings = check_data(nominal, aligned.dataset, options.simulated_rate_hz);
+  out.findings.insert(out.findings.begin(), aligned.findings.begin(), aligned.findings.end());
   refuse_spoilt_data(out.findings);
-  refuse_poor_data(nominal, recorded, out.findings);
-  const signals::Dataset real = in_pieces(recorded);
+  refuse_poor_data(nominal, aligned.dataset, out.findings);
+  const signals::Dataset real = in_pieces(aligned.dataset);
   out.guesses = real.guesses;
-  const Experiment experiment =
+  Experiment experiment =
       prepare_experiment(simulation, real, signals::Split::fit, InputNoise::reduced);
+  experiment.simulation_accuracy = options.simulation_accuracy;
   out.untested = untested_effects(experiment);
   out.location = locate_gap(experiment);
   SearchResult result = search(experiment, options.search);
+  if (!result.is_complete)
+    out.findings.push_back({.kind = FindingKind::time_limit,
+                            .message = "the time limit ended the search: the answer is the best of "
+                                       "those tested so far"});
   const Experiment held_out =
       prepare_experiment(simulation, real, signals::Split::held_out, InputNoise::as_measured);
-  if (has_moving(held_out)) refute_contradicted(result, experiment, held_out);
+  const Experiment fitted =
+      prepare_experiment(simulation, real, signals::Split::fit, InputNoise::as_measured);
+  const Experiment& scored = has_moving(held_out) ? held_out : fitted;
+  name_answers(result, experiment, fitted, scored);
+  if (aligned.is_shifted) add_delay(result);
   const Candidate& best = result.candidates.front();
   out.verdict = best.name;
   out.location.links = likely_links(result);
@@ -238,12 +191,12 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
       confidence_set(result.candidates, 0.95, out.probability_of_tried, out.probability_of_outside);
   if (has_moving(held_out)) {
     score_answers(out, result, experiment, held_out, options);
-    out.ranking.front().shares = effect_shares(experiment, held_out, result, result.fits[best.fit]);
   }
   if (out.verdict == outside_catalogue)
     out.nearest_known = nearest_known(result, experiment, held_out, options);
-  if (const auto finding = contradiction(out)) out.findings.push_back(*finding);
-  set_gap(out, simulation, real, result, experiment);
+  if (const auto finding = contradiction(out, result.fits[best.fit]))
+    out.findings.push_back(*finding);
+  set_gap(out, result, experiment, scored);
   out.response = compare_response(experiment, result.fits[best.fit]);
   out.updated = updated_model(experiment, result.fits[best.fit]);
   if (out.verdict != outside_catalogue) out.resonance = resonance_change(experiment, out.updated);

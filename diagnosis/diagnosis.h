@@ -11,12 +11,11 @@
 #include "diagnosis/localisation/location.h"
 #include "diagnosis/planning/next_experiment.h"
 #include "diagnosis/search/search.h"
+#include "diagnosis/validation/attribution.h"
 #include "diagnosis/validation/comparison.h"
-#include "diagnosis/validation/cross_validation.h"
 #include "diagnosis/validation/held_out.h"
 #include "diagnosis/validation/resonance_change.h"
 #include "diagnosis/validation/separation_quality.h"
-#include "diagnosis/validation/shares.h"
 #include "diagnosis/validation/untested.h"
 #include "diagnosis/validation/wind_speed_error.h"
 
@@ -29,23 +28,13 @@ class TooLittleData : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A parameter of a named effect with its 95 % interval, in its own unit.
-struct ParameterEstimate {
-  std::string effect{}, name{}, unit{};
-  double value = 0.;
-  std::array<double, 2> ci95{};
-  bool at_limit = false;  // at the limit of the searched range: the interval has no meaning
-};
-
 struct RankedAnswer {
   std::string name{};
   double probability = 0.;
   std::vector<ParameterEstimate> parameters{};
   /// Stiffness and mass as parameters of the finite-element model (material_estimates.h).
   std::vector<ParameterEstimate> materials{};
-  std::optional<HeldOutScore> held_out{};           // for the first few answers
-  std::optional<ResidualExcess> residual_excess{};  // for the same answers
-  std::vector<EffectShare> shares{};  // for the first answer, when it is a combination
+  std::optional<HeldOutScore> held_out{};  // for the first few answers
 };
 
 struct Gap {
@@ -57,6 +46,8 @@ struct Gap {
 
 struct Diagnosis {
   Gap gap{};
+  /// Of the best answer, on held-out records (on fit records when there are none).
+  Attribution attribution{};
   Location location{};
   std::string verdict = "none";
   std::vector<RankedAnswer> ranking{};  // most probable first
@@ -97,6 +88,7 @@ struct DiagnoseOptions {
   std::size_t n_scored = 3;       // answers with a held-out score
   std::size_t n_ranked = 12;      // answers listed
   double simulated_rate_hz = 0.;  // 0: the simulation has no sampling rate
+  double simulation_accuracy = usual_simulation_accuracy;
   /// Experiments of the menu that the bench can make; empty: all.
   std::vector<std::string> possible_experiments = {};
 };
@@ -107,11 +99,6 @@ struct DiagnoseOptions {
 /// tests/diagnosis/diagnosis_test.cc.
 Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& real,
                    const DiagnoseOptions& options = {});
-
-/// Value and 95 % interval of each parameter of an answer, transformed back from the fit's
-/// coordinates and limited to the parameter's bounds.
-std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
-                                                   const std::string& name);
 
 /// The experiment's simulation with the effects and calibration parameters of a fit, as a model.
 UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fit);

@@ -74,13 +74,6 @@ json held_out_json(const HeldOutScore& score) {
   return out;
 }
 
-json residual_excess_json(const ResidualExcess& left) {
-  return {{"record", left.record},
-          {"excess_power", json_number(left.excess)},
-          {"deviations", json_number(left.n_deviations)},
-          {"share_of_gap", json_number(left.share_of_gap)}};
-}
-
 json estimates_json(const std::vector<ParameterEstimate>& estimates) {
   json out = json::array();
   for (const ParameterEstimate& estimate : estimates)
@@ -94,17 +87,28 @@ json estimates_json(const std::vector<ParameterEstimate>& estimates) {
 }
 
 json answer_json(const RankedAnswer& answer) {
-  json shares = json::array();
-  for (const EffectShare& share : answer.shares)
-    shares.push_back({{"effect", share.effect}, {"gap_closed", json_number(share.share)}});
   return {{"effect", answer.name},
           {"probability", json_number(answer.probability)},
           {"parameters", estimates_json(answer.parameters)},
           {"in_the_models_parameters", estimates_json(answer.materials)},
-          {"shapley_shares", shares},
-          {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)},
-          {"residual_excess",
-           answer.residual_excess ? residual_excess_json(*answer.residual_excess) : json(nullptr)}};
+          {"held_out", answer.held_out ? held_out_json(*answer.held_out) : json(nullptr)}};
+}
+
+json attribution_json(const Attribution& attribution) {
+  json changes = json::array();
+  for (const AttributedChange& change : attribution.changes)
+    changes.push_back(
+        {{"change", change.id},
+         {"calibration", change.calibration},
+         {"moved", change.moved},
+         {"alone", json_number(change.alone)},
+         {"share", json_number(change.share)},
+         {"missed", json_number(change.missed)},
+         {"share_ci95", change.share_ci95 ? interval(*change.share_ci95) : json(nullptr)},
+         {"parameters", estimates_json(change.parameters)}});
+  return {{"reducible_error_power", json_number(attribution.reducible)},
+          {"changes", changes},
+          {"unexplained_share", json_number(attribution.unexplained)}};
 }
 
 json resonance_json(const std::optional<ResonanceChange>& change) {
@@ -131,6 +135,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
        {{"nrmse", json_number(diagnosis.gap.nrmse)},
         {"noise_floor_nrmse", json_number(diagnosis.gap.noise_floor)},
         {"p_value", json_number(diagnosis.gap.p_value)}}},
+      {"attribution", attribution_json(diagnosis.attribution)},
       {"location", location_json(diagnosis.location)},
       {"verdict", diagnosis.verdict},
       {"resonance", resonance_json(diagnosis.resonance)},

@@ -1,12 +1,16 @@
 #include "diagnosis/verdict_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "diagnosis/model/words.h"
 
 namespace vibrissa::diagnosis {
 namespace {
+
+/// Share of the gap from which on a change gets a line.
+constexpr double worth_a_word = 0.005;
 
 std::string verdict_line(const Diagnosis& diagnosis) {
   const double probability = diagnosis.ranking.empty() ? 0. : diagnosis.ranking.front().probability;
@@ -99,15 +103,16 @@ std::string held_out_line(const HeldOutScore& score) {
 
 std::string vibration_part(const HeldOutScore& score) {
   if (!score.vibration_left) return "";
-  return "vibration left after subtracting the prediction, relative to the measured moment: " +
-         one_decimal(score.vibration_left->before_db) + " dB before, " +
-         one_decimal(score.vibration_left->after_db) + " dB after correction";
+  return "vibration left in the moment (0 dB: all of it): " +
+         one_decimal(score.vibration_left->before_db) + " dB with your model, " +
+         one_decimal(score.vibration_left->after_db) + " dB with the corrected model";
 }
 
 std::string wind_speed_part(const Diagnosis& diagnosis) {
   if (!diagnosis.wind_speed) return "";
   return "wind speed error (rms) " + three_digits(diagnosis.wind_speed->before_m_s) +
-         " m/s before, " + three_digits(diagnosis.wind_speed->after_m_s) + " m/s after";
+         " m/s with your model, " + three_digits(diagnosis.wind_speed->after_m_s) +
+         " m/s with the corrected model";
 }
 
 std::string separation_line(const Diagnosis& diagnosis) {
@@ -118,12 +123,19 @@ std::string separation_line(const Diagnosis& diagnosis) {
   return text.empty() ? "" : "Separation: " + text;
 }
 
-std::string shares_line(const RankedAnswer& answer) {
+/// Changes that matter, with the values of calibration parameters, and what they leave.
+std::string attribution_line(const Diagnosis& diagnosis) {
   std::string text;
-  for (const EffectShare& share : answer.shares)
-    text += (text.empty() ? "Shares of the gap closed: " : ", ") + share.effect + " " +
-            percent(share.share);
-  return text;
+  for (const AttributedChange& change : diagnosis.attribution.changes) {
+    if (!change.moved || std::max(change.share, change.missed) < worth_a_word) continue;
+    text += (text.empty() ? "What closes the gap: " : "; ") + change.id;
+    if (change.calibration && !change.parameters.empty())
+      text += " " + change.parameters.front().name + " " + value_text(change.parameters.front());
+    text += " closes " + percent(change.alone) + " alone, without it " + percent(change.missed) +
+            " returns";
+  }
+  if (text.empty()) return "";
+  return text + ". Unexplained: " + percent(diagnosis.attribution.unexplained);
 }
 
 std::string nearest_line(const Diagnosis& diagnosis) {
@@ -132,12 +144,7 @@ std::string nearest_line(const Diagnosis& diagnosis) {
   std::string text = "Nearest known answer: " + nearest.name;
   if (nearest.held_out && nearest.held_out->overall.gap_closed)
     text += " closes " + percent(*nearest.held_out->overall.gap_closed) + " of the gap";
-  if (nearest.residual_excess && contradicted_by(*nearest.residual_excess))
-    return text +
-           ", but fails the residual test: " + three_digits(1. + nearest.residual_excess->excess) +
-           " times the power that noise and model form error allow in " +
-           nearest.residual_excess->record;
-  return text + ", but fails the residual test";
+  return text + ", but an unknown cause explains the records better";
 }
 
 /// Of what is not decided, the part of causes that no effect of the catalogue is.
@@ -187,7 +194,7 @@ bool is_recalibration(const std::string& answer) {
 }
 
 std::string consequence(const Diagnosis& diagnosis) {
-  if (!is_recalibration(diagnosis.verdict)) return "The simulation does not contain this effect";
+  if (!is_recalibration(diagnosis.verdict)) return "Your simulation lacks this effect";
   std::vector<std::string> settings;
   if (!diagnosis.ranking.empty())
     for (const ParameterEstimate& p : diagnosis.ranking.front().parameters)
@@ -222,13 +229,14 @@ std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_line
       add(held_out_line(*diagnosis.ranking.front().held_out));
       add(separation_line(diagnosis));
     }
-    add(shares_line(diagnosis.ranking.front()));
+    add(attribution_line(diagnosis));
   }
   add("Where: " + location_sentence(diagnosis.location));
   add(others_line(diagnosis));
   if (!diagnosis.untested.empty()) add("Not tested: " + untested_sentence(diagnosis.untested));
   for (std::size_t i = 0; i < std::min<std::size_t>(2, diagnosis.indistinguishable.size()); ++i)
-    add("These records cannot separate: " + joined(diagnosis.indistinguishable[i], ", ") +
+    add("Group " + std::to_string(i + 1) +
+        " that these records cannot separate: " + joined(diagnosis.indistinguishable[i], ", ") +
         " (each fits about as well; prior knowledge ranks them)");
   add(diagnosis.next.name == "none"
           ? "Measure next: nothing; " + diagnosis.next.why

@@ -124,10 +124,24 @@ report::Table parameter_table(const Diagnosis& d) {
   return table;
 }
 
-report::Table share_table(const RankedAnswer& answer) {
-  report::Table table({{"effect", ""}, {"share of the gap closed", "%", 3}});
-  for (const diagnosis::EffectShare& share : answer.shares)
-    table.add_row({share.effect, 100. * share.share});
+report::Table attribution_table(const diagnosis::Attribution& attribution) {
+  report::Table table({{"change", ""},
+                       {"kind", ""},
+                       {"share alone", "%", 3},
+                       {"share in company", "%", 3},
+                       {"returns without it", "%", 3},
+                       {"95 % from", "%", 3},
+                       {"to", "%", 3}});
+  for (const diagnosis::AttributedChange& change : attribution.changes) {
+    const auto& ci = change.share_ci95;
+    table.add_row({change.id, change.calibration ? "calibration" : "effect", 100. * change.alone,
+                   100. * change.share, 100. * change.missed,
+                   ci ? report::Cell(100. * (*ci)[0]) : report::Cell(),
+                   ci ? report::Cell(100. * (*ci)[1]) : report::Cell()});
+  }
+  if (!attribution.changes.empty())
+    table.add_row({"unexplained", "", report::Cell(), 100. * attribution.unexplained,
+                   report::Cell(), report::Cell(), report::Cell()});
   return table;
 }
 
@@ -199,14 +213,13 @@ report::PageSection cause(const Diagnosis& d, const std::vector<report::Figure>&
   report::PageSection section{.heading = "Cause"};
   if (d.nearest_known)
     section.text.push_back("Nearest known answer: " + in_words(d.nearest_known->name) +
-                           "; it fails the residual test.");
+                           "; an unknown cause explains the records better.");
   for (const auto& set : d.indistinguishable)
     section.text.push_back("These records cannot separate: " + diagnosis::joined(set, ", ") + ".");
   add(section, "ranking", "Answers, the most probable first", ranking_table(d));
   add(section, "parameters", "Parameters of the answers", parameter_table(d));
-  if (!d.ranking.empty())
-    add(section, "shares", "Share of the gap that each effect of the first answer closes",
-        share_table(d.ranking.front()));
+  add(section, "attribution", "Share of the gap that each change of the simulation closes",
+      attribution_table(d.attribution));
   add_figure(section, figures, "ranking");
   return section;
 }

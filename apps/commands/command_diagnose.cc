@@ -30,6 +30,8 @@ struct DiagnoseCommand {
   std::optional<std::filesystem::path> folder;
   std::size_t max_effects = diagnosis::SearchOptions{}.max_effects;
   std::vector<std::string> possible_experiments;
+  double simulation_accuracy = diagnosis::usual_simulation_accuracy;
+  double time_limit_s = 300.;
 };
 
 constexpr std::size_t whole_verdict = 1000;
@@ -84,6 +86,8 @@ void diagnose_records(const DiagnoseCommand& options) {
   diagnosis::DiagnoseOptions settings;
   settings.simulated_rate_hz = simulation.sampling_rate_hz();
   settings.search.max_effects = options.max_effects;
+  settings.search.time_limit_s = options.time_limit_s;
+  settings.simulation_accuracy = options.simulation_accuracy;
   settings.possible_experiments = options.possible_experiments;
   settings.search.on_fit = [&] { progress.advance(); };
   const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(simulation.model, real, settings);
@@ -136,6 +140,17 @@ void add_diagnose_command(CLI::App& app) {
       "-o,--out,--output", options->folder,
       "New folder for report.html, diagnosis.json, updated_model.json, ranking.csv and pictures "
       "(default: results/diagnosis, or results/diagnosis-2, ... if it exists)");
+  command
+      ->add_option("--simulation-accuracy", options->simulation_accuracy,
+                   "Relative error of its response that the simulation may have without a cause; "
+                   "smaller errors are not named")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-4, 0.3));
+  command
+      ->add_option("--time-limit", options->time_limit_s,
+                   "Longest search for causes [s]; the answer so far is given after it")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   command
       ->add_option("--max-effects", options->max_effects,
                    "Largest number of effects that are combined; calibration parameters "

@@ -52,6 +52,10 @@ std::string to_string(const FindingKind kind) {
       return "different_rate";
     case FindingKind::unlikely_gain:
       return "unlikely_gain";
+    case FindingKind::two_clocks:
+      return "two_clocks";
+    case FindingKind::time_limit:
+      return "time_limit";
     case FindingKind::not_confirmed:
       return "not_confirmed";
   }
@@ -75,8 +79,17 @@ bool spoils_everything(const FindingKind kind) {
 }
 
 bool casts_doubt(const FindingKind kind) {
-  return kind == FindingKind::clipped_channel || kind == FindingKind::slow_rate ||
-         kind == FindingKind::unlikely_gain || kind == FindingKind::not_confirmed;
+  switch (kind) {
+    case FindingKind::clipped_channel:
+    case FindingKind::slow_rate:
+    case FindingKind::unlikely_gain:
+    case FindingKind::two_clocks:
+    case FindingKind::time_limit:
+    case FindingKind::not_confirmed:
+      return true;
+    default:
+      return false;
+  }
 }
 
 }  // namespace vibrissa::diagnosis

@@ -29,6 +29,8 @@ enum class FindingKind {
   no_held_out,
   different_rate,
   unlikely_gain,
+  two_clocks,
+  time_limit,
   not_confirmed
 };
 std::string to_string(FindingKind kind);

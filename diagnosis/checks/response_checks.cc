@@ -167,6 +167,9 @@ const std::vector<UnitMistake>& mistakes_of_base() {
       {9.80665,
        "base_acceleration_m_s2 seems to be in g; multiply it by 9.80665 (or --column "
        "'base_acceleration=COLUMN[g]')"},
+      {1. / 9.80665,
+       "base_acceleration_m_s2 seems to be ten times too large, as m/s^2 taken for g; divide it by "
+       "9.80665"},
       {9.80665e-3, "base_acceleration_m_s2 seems to be in milli-g; multiply it by 9.80665e-3"},
       {1e-3, "base_acceleration_m_s2 seems to be in mm/s^2; multiply it by 1e-3"},
       {1e3, "base_moment_N_m seems to be in N mm; multiply it by 1e-3"},

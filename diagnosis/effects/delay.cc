@@ -4,7 +4,7 @@ namespace vibrissa::diagnosis::effects {
 
 Effect delay() {
   return Effect{.id = "delay",
-                .about = "the moment is recorded too late or too early",
+                .about = "the moment is recorded too late (tau > 0) or too early (tau < 0)",
                 .link = Link::clock,
                 .equation = "M_read(t) = M(t - tau)",
                 .source = "Oppenheim, Willsky and Nawab 1997, ch. 4: time shift",

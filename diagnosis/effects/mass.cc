@@ -10,6 +10,15 @@ double change_density(NominalModel& structure, const ParameterPath& path, const 
   return std::exp(path.base_gain.front() * log_density);
 }
 
+/// m = ratio m0 of one mode; its damper and spring stay.
+void load(StructuralMode& mode, const double ratio) {
+  const double slower = 1. / std::sqrt(ratio);
+  mode.frequency_rad_s *= slower;
+  mode.damping_ratio *= slower;
+  mode.base_rate *= slower;
+  mode.wind_rate *= slower;
+}
+
 }  // namespace
 
 Effect mass() {
@@ -18,7 +27,7 @@ Effect mass() {
       .about = "more or less moving mass",
       .link = Link::structure,
       .equation =
-          "m = r m0 of the first mode, base forcing r^g; d M0 a for the modes above; with a "
+          "m = r m0 of the first mode, r^d of those above, base forcing r^g; e M0 a; with a "
           "finite-element model by the density of its fin, or else its wire, in all modes",
       .source = "Friswell and Mottershead 1995; Berman and Flannelly 1971, incomplete models",
       .confused_with =
@@ -28,14 +37,15 @@ Effect mass() {
       .needs = {.base = true},
       .parameters = {log_uniform("ratio", "1", 0.7, 1.45, 1.),
                      normal("forcing_exponent", "1", 1., 0.1, 0.6, 1.4, 1.),
-                     normal("direct", "1", 0., 0.005, -0.05, 0.05, 0.)},
-      .starts = {{0.95, 1., 0.}, {1.05, 1., 0.}},
+                     normal("direct", "1", 0., 0.005, -0.05, 0.05, 0.), spread_over_modes()},
+      .starts = {{0.95, 1., 0., 0.5}, {1.05, 1., 0., 0.5}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         double forcing = std::pow(v[0], v[1]);
         if (const auto* density = chain.structure.path(chain.structure.mass_parameter()))
           forcing /= change_density(chain.structure, *density, v[0]);
         else
-          chain.joint_change.inertia *= v[0];
+          for (std::size_t i = 0; i < chain.structure.modes.size(); ++i)
+            load(chain.structure.modes[i], i == 0 ? v[0] : std::pow(v[0], v[3]));
         chain.mount.push_back([forcing](Complex) -> Complex { return forcing; });
         chain.parallel.push_back(
             [direct = v[2] * scales.static_gain](Complex) -> Complex { return direct; });

@@ -28,6 +28,15 @@ void change_materials(Chain& chain, const ParameterPath& wire, const ParameterPa
   chain.joint_share /= chain.joint_share + (1. - chain.joint_share) * silicone_ratio;
 }
 
+/// k = ratio k0, c = ratio^q c0 of one mode: zeta = c / (2 sqrt(k m)).
+void stiffen(StructuralMode& mode, const double ratio, const double q) {
+  mode.frequency_rad_s *= std::sqrt(ratio);
+  const double damping = std::pow(ratio, q - 0.5);
+  mode.damping_ratio *= damping;
+  mode.base_rate *= damping;
+  mode.wind_rate *= damping;
+}
+
 }  // namespace
 
 Effect stiffness() {
@@ -38,15 +47,16 @@ Effect stiffness() {
       .equation =
           "k = r k0 of the first mode: r^s by itself, r^(1 - s) by its joint's spring K, "
           "p / (K / K0) + 1 - p = r^(s - 1); with a finite-element model r^s by its wire and "
-          "r^(1 - s) by its silicone, in all modes; dampers c = (k / k0)^q c0",
+          "r^(1 - s) by its silicone, in all modes; modes above the first r^d; dampers "
+          "c = (k / k0)^q c0",
       .source = "Friswell and Mottershead 1995, sensitivity methods; Gent 1958, modulus of rubber",
       .confused_with = "mass (gain), base_compliance; added known mass, static pull",
       .calibration = true,
       .model_form_error = 0.01,
       .parameters = {ratio_near_one("ratio", 0.03, 0.3, 1.6),
                      normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.),
-                     normal("modal_share", "1", 0.5, 0.5, 0., 1., 0.5)},
-      .starts = {{0.97, 0., 0.5}, {1.03, 0., 0.5}},
+                     normal("modal_share", "1", 0.5, 0.5, 0., 1., 0.5), spread_over_modes()},
+      .starts = {{0.97, 0., 0.5, 0.5}, {1.03, 0., 0.5, 0.5}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         if (chain.structure.modes.empty()) return;
         const ParameterPath *wire = chain.structure.path("wire_modulus"),
@@ -57,12 +67,9 @@ Effect stiffness() {
         const double joint = spring_ratio(v[0] / modal, chain.joint_share);
         chain.joint_change.spring *= joint;
         chain.joint_change.damper *= std::pow(joint, v[1]);
-        mode.frequency_rad_s *= std::sqrt(modal);
-        // zeta = c / (2 sqrt(k m)); the ratio of viscous to elastic moment changes likewise.
-        const double damping = std::pow(modal, v[1] - 0.5);
-        mode.damping_ratio *= damping;
-        mode.base_rate *= damping;
-        mode.wind_rate *= damping;
+        stiffen(mode, modal, v[1]);
+        for (std::size_t i = 1; i < chain.structure.modes.size(); ++i)
+          stiffen(chain.structure.modes[i], std::pow(v[0], v[3]), v[1]);
       }};
 }
 

@@ -9,9 +9,19 @@ namespace {
 
 /// Spread of the logarithm of the accelerometers' usual noise.
 constexpr double usual_spread = 0.3;
-/// Upper edges of the bands of a discrepancy, relative to the first mode's frequency; the last band
-/// has none.
-constexpr std::array<double, 4> discrepancy_edges{0.5, 0.9, 1.1, 2.};
+/// The same where neither rest nor repeats show the noise: the quietest part of the spectrum is an
+/// upper bound.
+constexpr double unknown_spread = 1.;
+/// Usual form error of an effect, relative to its documented limit.
+constexpr double usual_form_level = 0.3;
+/// Spread of the logarithm of a simulation's accuracy.
+constexpr double accuracy_spread = 1.;
+/// Logarithm of the largest level of a discrepancy relative to the usual one: what exceeds five
+/// times the accuracy has a cause.
+constexpr double most_inaccurate = 1.6;
+/// Upper edges of the bands of an unknown cause, relative to the first mode's frequency; the last
+/// band has none.
+constexpr std::array<double, 4> unknown_edges{0.5, 0.9, 1.1, 2.};
 
 /// The joint's share in the damping of the first mode is at most 1.
 double most_joint_loss(const NominalModel& nominal) {
@@ -24,14 +34,14 @@ double most_joint_loss(const NominalModel& nominal) {
 
 }  // namespace
 
-std::size_t n_discrepancy_bands() {
-  return discrepancy_edges.size() + 1;
+std::size_t n_unknown_bands() {
+  return unknown_edges.size() + 1;
 }
 
-std::size_t discrepancy_band(const double frequency_ratio) {
+std::size_t unknown_band(const double frequency_ratio) {
   return static_cast<std::size_t>(
-      std::upper_bound(discrepancy_edges.begin(), discrepancy_edges.end(), frequency_ratio) -
-      discrepancy_edges.begin());
+      std::upper_bound(unknown_edges.begin(), unknown_edges.end(), frequency_ratio) -
+      unknown_edges.begin());
 }
 
 std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
@@ -48,8 +58,10 @@ std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
       .unit = "m/s^2",
       .logarithmic = true,
       .prior = {.kind = Prior::Kind::normal,
-                .centre = std::log(usual_acceleration_noise),
-                .scale = usual_spread,
+                .centre = std::log(experiment.acceleration_noise_is_measured
+                                       ? usual_acceleration_noise
+                                       : experiment.acceleration_noise),
+                .scale = experiment.acceleration_noise_is_measured ? usual_spread : unknown_spread,
                 .low = std::log(1e-6),
                 .high = std::log(20.)}};
   fit_parameters[index_of_joint_share].description =
@@ -58,12 +70,27 @@ std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
   fit_parameters[index_of_joint_loss].description =
       normal("joint_loss_factor", "1", experiment.nominal.joint_loss_factor, 0.05, 0.7,
              most_joint_loss(experiment.nominal), 1.);
+  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
+    fit_parameters[index_of_discrepancy + kind].description = {
+        .name = "discrepancy",
+        .unit = "1",
+        .logarithmic = true,
+        .prior = {.kind = Prior::Kind::normal,
+                  .centre = std::log(experiment.simulation_accuracy),
+                  .scale = accuracy_spread,
+                  .low = std::log(1e-5),
+                  .high = std::log(experiment.simulation_accuracy) + most_inaccurate}};
   const auto add = [&](const Effect& effect, bool nuisance) {
     for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
       fit_parameters.push_back({&effect, i, effect.parameters[i], nuisance});
-      // As a named effect a calibration parameter has its full range.
-      if (effect.calibration && !nuisance && i == 0)
-        fit_parameters.back().description.prior.kind = Prior::Kind::uniform;
+      // Half of all sensors are as simulated, within a part of the building tolerance; the tails
+      // are heavy, because some are far off.
+      Prior& prior = fit_parameters.back().description.prior;
+      if (nuisance && i == 0 && prior.kind == Prior::Kind::normal) {
+        prior.kind = Prior::Kind::student;
+        prior.degrees_of_freedom = 1.;
+        prior.scale *= as_simulated;
+      }
     }
   };
   for (const std::string& id : nuisance_ids()) {
@@ -72,11 +99,21 @@ std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
   }
   for (const Effect* effect : hypothesis.effects()) add(*effect, false);
   if (hypothesis.is_discrepancy())
-    for (std::size_t i = 0; i < n_discrepancy_bands(); ++i)
-      fit_parameters.push_back({nullptr, i, log_uniform("discrepancy", "1", 1e-4, 1., 0.), false});
+    for (std::size_t i = 0; i < n_unknown_bands(); ++i)
+      fit_parameters.push_back(
+          {nullptr, i, log_uniform("unknown_cause", "1", 1e-4, 1., 0.), false});
   if (!hypothesis.effects().empty())
-    fit_parameters.push_back(
-        {nullptr, 0, uniform("model_form_error_share", "1", 0., 1., 0.), false});
+    fit_parameters.push_back({nullptr,
+                              0,
+                              {.name = form_error_level,
+                               .unit = "1",
+                               .logarithmic = true,
+                               .prior = {.kind = Prior::Kind::normal,
+                                         .centre = std::log(usual_form_level),
+                                         .scale = accuracy_spread,
+                                         .low = std::log(1e-3),
+                                         .high = 0.}},
+                              false});
   return fit_parameters;
 }
 
@@ -87,7 +124,7 @@ Chain make_chain(const Experiment& experiment, const std::vector<FitParameter>& 
   chain.joint_loss_factor = x(index_of_joint_loss);
   for (std::size_t i = n_common_parameters; i < fit_parameters.size();) {
     const Effect* effect = fit_parameters[i].effect;
-    if (effect == nullptr) break;  // model form error and discrepancy come last
+    if (effect == nullptr) break;  // form errors and the unknown cause come last
     std::vector<double> values;
     for (; i < fit_parameters.size() && fit_parameters[i].effect == effect; ++i)
       values.push_back(fit_parameters[i].description.value(x(static_cast<Eigen::Index>(i))));

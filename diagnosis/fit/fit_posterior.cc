@@ -29,19 +29,14 @@ double accelerometer_term(const PreparedRecord& record, double variance) {
 
 }  // namespace
 
-std::vector<double> model_form_error_power(const Effect& effect, std::span<const Complex> change) {
-  std::vector<double> out = neighbour_mean(powers(change), form_reach);
-  for (double& power : out) power *= effect.model_form_error * effect.model_form_error;
-  return out;
-}
-
 FitPosterior::FitPosterior(const Experiment& experiment,
                            const std::vector<FitParameter>& fit_parameters,
                            const Hypothesis& hypothesis)
     : experiment_(experiment),
       fit_parameters_(fit_parameters),
-      model_form_error_(!hypothesis.effects().empty()),
-      discrepancy_(hypothesis.is_discrepancy()) {}
+      effects_(hypothesis.effects()),
+      unknown_(hypothesis.is_discrepancy()),
+      discrepancy_(experiment) {}
 
 std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
   assert(x.allFinite());
@@ -49,31 +44,47 @@ std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
   return ChainSimulator(chain).predict(experiment_.records);
 }
 
+Eigen::VectorXcd FitPosterior::change_by(const Effect& effect, const Eigen::VectorXd& x,
+                                         const Eigen::VectorXcd& mean) const {
+  const Chain without = make_chain(experiment_, fit_parameters_, x, &effect);
+  Eigen::VectorXcd out = mean;
+  Eigen::Index row = 0;
+  for (const std::vector<Complex>& there : ChainSimulator(without).means(experiment_.records))
+    for (const Complex& value : there) out(row++) -= value;
+  return effect.model_form_error * out;
+}
+
+/// The form error of an effect is a term of the discrepancy. A part of that of a nonlinear one
+/// differs from record to record and from bin to bin.
 void FitPosterior::update_slow_variance(const Eigen::VectorXd& x,
                                         const std::vector<Prediction>& at) {
   for (BinVariances* parts : {&misfit_, &power_, &form_}) parts->clear();
+  DiscrepancyShapes shapes{.mean = Eigen::VectorXcd(discrepancy_.n_rows()), .changes = {}};
+  Eigen::Index row = 0;
   for (std::size_t r = 0; r < at.size(); ++r) {
     const PreparedRecord& record = experiment_.records[r];
-    power_.push_back(neighbour_mean(powers(at[r].mean), form_reach));
+    power_.push_back(neighbour_mean(powers(at[r].mean), power_reach));
     const double share = nominal_misfit(experiment_.nominal, record);
     misfit_.push_back(power_.back());
     for (double& value : misfit_.back()) value *= share * share;
     form_.emplace_back(record.n_bins(), 0.);
+    for (const Complex& mean : at[r].mean) shapes.mean(row++) = mean;
   }
-  for (const FitParameter& fit_parameter : fit_parameters_)
-    if (fit_parameter.effect != nullptr && !fit_parameter.nuisance && fit_parameter.parameter == 0)
-      add_model_form_error(x, at, *fit_parameter.effect);
-}
-
-void FitPosterior::add_model_form_error(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                                        const Effect& effect) {
-  const Chain without = make_chain(experiment_, fit_parameters_, x, &effect);
-  const std::vector<std::vector<Complex>> mean = ChainSimulator(without).means(experiment_.records);
-  for (std::size_t r = 0; r < at.size(); ++r) {
-    const std::vector<double> power =
-        model_form_error_power(effect, difference(at[r].mean, mean[r]));
-    for (std::size_t b = 0; b < power.size(); ++b) form_[r][b] += power[b];
+  shapes.changes.resize(discrepancy_.n_rows(), 0);
+  for (const Effect* effect : effects_) {
+    const Eigen::VectorXcd change = change_by(*effect, x, shapes.mean);
+    shapes.changes.conservativeResize(Eigen::NoChange, shapes.changes.cols() + 1);
+    shapes.changes.rightCols(1) = change;
+    if (!is_nonlinear(*effect)) continue;
+    row = 0;
+    for (std::vector<double>& form : form_) {
+      const std::vector<double> power =
+          neighbour_mean(powers(std::span(change.data() + row, form.size())), power_reach);
+      for (std::size_t b = 0; b < form.size(); ++b) form[b] += power[b];
+      row += static_cast<Eigen::Index>(form.size());
+    }
   }
+  discrepancy_.set_shapes(std::move(shapes));
 }
 
 double FitPosterior::acceleration_variance(const Eigen::VectorXd& x, const Chain& chain) const {
@@ -84,42 +95,92 @@ double FitPosterior::acceleration_variance(const Eigen::VectorXd& x) const {
   return acceleration_variance(x, make_chain(experiment_, fit_parameters_, x));
 }
 
-Eigen::Index FitPosterior::discrepancy_index(std::size_t record, std::size_t b) const {
+Eigen::Index FitPosterior::unknown_index(std::size_t record, std::size_t b) const {
   const double ratio = 2. * std::numbers::pi * static_cast<double>(b + 1) *
                        experiment_.records[record].bin_hz() / experiment_.scales.first_mode_rad_s;
-  return static_cast<Eigen::Index>(fit_parameters_.size() - n_discrepancy_bands() +
-                                   discrepancy_band(ratio));
+  return static_cast<Eigen::Index>(fit_parameters_.size() - n_unknown_bands() +
+                                   unknown_band(ratio));
 }
 
 std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Prediction& prediction,
                                            std::size_t record, double acceleration_variance) const {
   const double moment = std::exp(2. * x(index_of_moment_noise));
-  const double form = model_form_error_ ? x(x.size() - 1) : 0.;
   std::vector<double> out(prediction.mean.size());
   for (std::size_t b = 0; b < out.size(); ++b)
     out[b] = moment * prediction.moment_noise[b] +
              acceleration_variance * prediction.acceleration_noise[b] +
-             prediction.process_noise[b] + misfit_[record][b] + form * form_[record][b];
-  if (discrepancy_)
+             prediction.process_noise[b] + misfit_[record][b];
+  if (has_form_errors()) {
+    const double level = form_level(x);
+    for (std::size_t b = 0; b < out.size(); ++b) out[b] += level * level * form_[record][b];
+  }
+  if (unknown_)
     for (std::size_t b = 0; b < out.size(); ++b) {
-      const double share = std::exp(x(discrepancy_index(record, b)));
+      const double share = std::exp(x(unknown_index(record, b)));
       out[b] += share * share * power_[record][b];
     }
   return out;
 }
 
+Eigen::VectorXcd FitPosterior::errors(const std::vector<Prediction>& at,
+                                      const BinVariances& s) const {
+  Eigen::VectorXcd out(discrepancy_.n_rows());
+  Eigen::Index row = 0;
+  for (std::size_t r = 0; r < at.size(); ++r) {
+    std::vector<Complex> error = difference(experiment_.records[r].moment, at[r].mean);
+    IntegratedNuisances(at[r].unknowns, error, s[r]).remove_from(error);
+    for (const Complex& value : error) out(row++) = value;
+  }
+  return out;
+}
+
+namespace {
+
+Eigen::VectorXd inverse_deviations(const std::vector<std::vector<double>>& variances,
+                                   const Eigen::Index n) {
+  Eigen::VectorXd out(n);
+  Eigen::Index row = 0;
+  for (const std::vector<double>& bins : variances)
+    for (const double variance : bins) out(row++) = 1. / std::sqrt(variance);
+  return out;
+}
+
+std::array<double, n_record_kinds> levels(const Eigen::VectorXd& x) {
+  std::array<double, n_record_kinds> out{};
+  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
+    out[kind] = std::exp(x(static_cast<Eigen::Index>(index_of_discrepancy + kind)));
+  return out;
+}
+
+}  // namespace
+
+FitPosterior::WhitenedErrors FitPosterior::whitened_errors(
+    const Eigen::VectorXd& x, const std::vector<Prediction>& at) const {
+  const BinVariances s = variances(x, at, acceleration_variance(x));
+  WhitenedErrors out{errors(at, s), inverse_deviations(s, discrepancy_.n_rows())};
+  out.error.array() *= out.per_deviation.array();
+  return out;
+}
+
+ModelDiscrepancy::Solution FitPosterior::discrepancy(const Eigen::VectorXd& x,
+                                                     const std::vector<Prediction>& at) const {
+  const WhitenedErrors whitened = whitened_errors(x, at);
+  return discrepancy_.solve(whitened.error, whitened.per_deviation, levels(x), form_level(x));
+}
+
 double FitPosterior::log_likelihood(const Eigen::VectorXd& x,
                                     const std::vector<Prediction>& at) const {
   const double a_variance = acceleration_variance(x);
+  const BinVariances s = variances(x, at, a_variance);
   double sum = 0.;
   for (std::size_t r = 0; r < at.size(); ++r) {
-    const PreparedRecord& record = experiment_.records[r];
-    const std::vector<double> s = variance(x, at[r], r, a_variance);
-    const std::vector<Complex> error = difference(record.moment, at[r].mean);
-    for (std::size_t b = 0; b < s.size(); ++b) sum -= std::norm(error[b]) / s[b] + std::log(s[b]);
-    sum += IntegratedNuisances(at[r].unknowns, error, s).log_likelihood_gain() -
-           accelerometer_term(record, a_variance);
+    const std::vector<Complex> error = difference(experiment_.records[r].moment, at[r].mean);
+    for (std::size_t b = 0; b < s[r].size(); ++b)
+      sum -= std::norm(error[b]) / s[r][b] + std::log(s[r][b]);
+    sum += IntegratedNuisances(at[r].unknowns, error, s[r]).log_likelihood_gain() -
+           accelerometer_term(experiment_.records[r], a_variance);
   }
+  sum += discrepancy(x, at).log_likelihood_gain();
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
 }
 
@@ -128,31 +189,6 @@ double FitPosterior::log_prior(const Eigen::VectorXd& x) const {
   for (std::size_t i = 0; i < fit_parameters_.size(); ++i)
     sum += fit_parameters_[i].description.prior.log_density(x(static_cast<Eigen::Index>(i)));
   return sum;
-}
-
-std::vector<EffectAction> FitPosterior::actions(const Eigen::VectorXd& x,
-                                                const std::vector<Prediction>& at) const {
-  std::vector<EffectAction> actions;
-  const double a_variance = acceleration_variance(x);
-  for (const FitParameter& fit_parameter : fit_parameters_) {
-    if (fit_parameter.effect == nullptr || fit_parameter.parameter != 0) continue;
-    const Chain chain = make_chain(experiment_, fit_parameters_, x, fit_parameter.effect);
-    const std::vector<Prediction> without = ChainSimulator(chain).predict(experiment_.records);
-    const double a_without = acceleration_variance(x, chain);
-    EffectAction action{.effect = fit_parameter.effect};
-    for (std::size_t r = 0; r < at.size(); ++r) {
-      const std::vector<double> s = variance(x, at[r], r, a_variance);
-      const std::vector<double> s_without = variance(x, without[r], r, a_without);
-      std::vector<Complex> change = difference(at[r].mean, without[r].mean);
-      for (std::size_t b = 0; b < s.size(); ++b)
-        action.energy +=
-            (std::norm(change[b]) + (fit_parameter.nuisance ? 0. : std::abs(s[b] - s_without[b]))) /
-            s[b];
-      action.change.push_back(std::move(change));
-    }
-    actions.push_back(std::move(action));
-  }
-  return actions;
 }
 
 FitPosterior::BinVariances FitPosterior::variances(const Eigen::VectorXd& x,
@@ -177,15 +213,16 @@ void FitPosterior::set_noise_column(const Eigen::VectorXd& x, const std::vector<
   if (!moment) out.acceleration(index) = level / acceleration_variance;
 }
 
-void FitPosterior::set_share_column(const Eigen::VectorXd& x, const BinVariances& s,
+/// Of the level of form errors or of the unknown cause.
+void FitPosterior::set_level_column(const Eigen::VectorXd& x, const BinVariances& s,
                                     const Eigen::Index index, Derivatives& out) const {
   const double level = 2. * std::exp(2. * x(index));
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r)
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
-      if (!discrepancy_)
-        out.variance(row, index) = form_[r][b] / s[r][b];
-      else if (discrepancy_index(r, b) == index)
+      if (has_form_errors())
+        out.variance(row, index) = level * form_[r][b] / s[r][b];
+      else if (unknown_index(r, b) == index)
         out.variance(row, index) = level * power_[r][b] / s[r][b];
 }
 
@@ -225,7 +262,7 @@ Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
   std::vector<Eigen::Index> indices;
   for (std::size_t i = n_noise_parameters; i < fit_parameters_.size(); ++i) {
     const FitParameter& fit_parameter = fit_parameters_[i];
-    const bool is_of_chain = fit_parameter.effect != nullptr || i < n_common_parameters;
+    const bool is_of_chain = fit_parameter.effect != nullptr || i < index_of_discrepancy;
     if (is_of_chain && fit_parameter.description.prior.low < fit_parameter.description.prior.high)
       indices.push_back(static_cast<Eigen::Index>(i));
   }
@@ -265,7 +302,7 @@ Derivatives FitPosterior::whitened(const Eigen::VectorXd& x, const std::vector<P
     if (i < n_noise_parameters)
       set_noise_column(x, at, s, acceleration_variance, index, out);
     else if (fit_parameters_[i].effect == nullptr && i >= n_common_parameters)
-      set_share_column(x, s, index, out);
+      set_level_column(x, s, index, out);
   }
   return out;
 }
@@ -276,17 +313,19 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
   const double a_variance = acceleration_variance(x);
   const BinVariances s = variances(x, at, a_variance);
   const Derivatives d = whitened(x, at, s, a_variance, derivatives);
-  Eigen::VectorXd error(d.mean.rows()), excess(d.variance.rows());
-  Eigen::Index row = 0;
+  const Eigen::VectorXd per_deviation = inverse_deviations(s, discrepancy_.n_rows());
+  const Eigen::VectorXcd whole = errors(at, s).cwiseProduct(per_deviation);
+  const ModelDiscrepancy::Solution terms =
+      discrepancy_.solve(whole, per_deviation, levels(x), form_level(x));
+  Eigen::VectorXd error(d.mean.rows());
+  for (Eigen::Index row = 0; row < whole.size(); ++row) {
+    error(2 * row) = whole(row).real();
+    error(2 * row + 1) = whole(row).imag();
+  }
+  const Eigen::VectorXd excess =
+      (whole - terms.mean()).cwiseAbs2().array() - 1. + terms.leverage().array();
   double a_gradient = 0., a_lines = 0.;
-  for (std::size_t r = 0; r < s.size(); ++r) {
-    const PreparedRecord& record = experiment_.records[r];
-    for (std::size_t b = 0; b < s[r].size(); ++b, ++row) {
-      const Complex e = (record.moment[b] - at[r].mean[b]) / std::sqrt(s[r][b]);
-      error(2 * row) = e.real();
-      error(2 * row + 1) = e.imag();
-      excess(row) = std::norm(e) - 1.;
-    }
+  for (const PreparedRecord& record : experiment_.records) {
     const double lines = static_cast<double>(record.n_acceleration_noise);
     a_lines += lines;
     if (lines > 0.)
@@ -298,7 +337,18 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
              d.acceleration * a_gradient;
   information = 2. * d.mean.transpose() * d.mean + d.variance.transpose() * d.variance +
                 a_lines * d.acceleration * d.acceleration.transpose();
-  remove_unknowns(at, s, d.mean, gradient, information);
+  Eigen::MatrixXd columns = d.mean;
+  remove_unknowns(at, s, columns, information);
+  terms.project(columns, gradient, information);
+  for (std::size_t kind = 0; kind < n_record_kinds; ++kind) {
+    const auto i = static_cast<Eigen::Index>(index_of_discrepancy + kind);
+    gradient(i) += terms.gradient()[kind];
+    information(i, i) += terms.information()[kind];
+  }
+  if (has_form_errors()) {
+    gradient(x.size() - 1) += terms.gradient()[n_record_kinds];
+    information(x.size() - 1, x.size() - 1) += terms.information()[n_record_kinds];
+  }
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Prior& prior = fit_parameters_[static_cast<std::size_t>(i)].description.prior;
     gradient(i) += prior.slope(x(i));
@@ -306,10 +356,9 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
   }
 }
 
-/// Projects the per-record nuisance parameters out of gradient and information.
+/// Projects the per-record nuisance parameters out of the information and of the columns.
 void FitPosterior::remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
-                                   const Eigen::MatrixXd& mean_columns, Eigen::VectorXd& gradient,
-                                   Eigen::MatrixXd& information) const {
+                                   Eigen::MatrixXd& columns, Eigen::MatrixXd& information) const {
   Eigen::Index first = 0;
   for (std::size_t r = 0; r < at.size(); ++r) {
     const auto n_rows = static_cast<Eigen::Index>(2 * s[r].size());
@@ -317,9 +366,10 @@ void FitPosterior::remove_unknowns(const std::vector<Prediction>& at, const BinV
                                        difference(experiment_.records[r].moment, at[r].mean), s[r]);
     if (unknowns.any()) {
       const Eigen::MatrixXd overlap =
-          2. * mean_columns.middleRows(first, n_rows).transpose() * unknowns.whitened_shapes();
-      gradient -= overlap * unknowns.mean();
-      information -= overlap * unknowns.covariance() * overlap.transpose();
+          2. * columns.middleRows(first, n_rows).transpose() * unknowns.whitened_shapes();
+      const Eigen::MatrixXd weighed = unknowns.covariance() * overlap.transpose();
+      information -= overlap * weighed;
+      columns.middleRows(first, n_rows) -= unknowns.whitened_shapes() * weighed;
     }
     first += n_rows;
   }

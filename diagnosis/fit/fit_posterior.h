@@ -1,28 +1,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "diagnosis/fit/fit_parameters.h"
+#include "diagnosis/fit/model_discrepancy.h"
 #include "diagnosis/prediction/chain_simulation.h"
 
 namespace vibrissa::diagnosis {
 
-/// Influence of an effect or nuisance.
-struct EffectAction {
-  const Effect* effect = nullptr;
-  /// Whitened energy, sum |mean - mean without it|^2 / S; for effects including the change of S.
-  double energy = 0.;
-  std::vector<std::vector<Complex>> change{};  // of the mean [record][bin], N m
-};
-
-/// A model form error also appears in neighbouring bins, up to this distance.
-inline constexpr std::size_t form_reach = 10;
-
-/// Power of an effect's model form error around each bin, given its change of the mean.
-std::vector<double> model_form_error_power(const Effect& effect, std::span<const Complex> change);
+/// Bins around one over which the power of a prediction is averaged.
+inline constexpr std::size_t power_reach = 10;
 
 /// Derivatives by the parameters: of the mean (real and imaginary parts in turn) [N m], of its
 /// variance [(N m)^2], and of the accelerometer's variance [(m/s^2)^2].
@@ -31,9 +22,10 @@ struct Derivatives {
   Eigen::VectorXd acceleration;
 };
 
-/// Log posterior of a fit's parameters by Whittle's likelihood (see fit_hypothesis()). The parts of
-/// the variance that depend on the mean (misfit of the nominal model, model form errors) are
-/// constant between updates. experiment and parameters must outlive this object.
+/// Log posterior of a fit's parameters by Whittle's likelihood with the simulation's discrepancy
+/// (see fit_hypothesis()). The parts of the covariance that depend on the mean (misfit of the
+/// nominal model, discrepancy) are constant between updates. experiment and parameters must outlive
+/// this object.
 class FitPosterior {
  public:
   FitPosterior(const Experiment& experiment, const std::vector<FitParameter>& fit_parameters,
@@ -50,6 +42,17 @@ class FitPosterior {
                                std::size_t record, double acceleration_variance) const;
   double log_likelihood(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
   double log_prior(const Eigen::VectorXd& x) const;
+  /// The discrepancy given the errors at x.
+  ModelDiscrepancy::Solution discrepancy(const Eigen::VectorXd& x,
+                                         const std::vector<Prediction>& at) const;
+
+  /// Errors of all records, divided by the standard deviations of their noise, without the most
+  /// probable per-record nuisance parameters.
+  struct WhitenedErrors {
+    Eigen::VectorXcd error;
+    Eigen::VectorXd per_deviation;
+  };
+  WhitenedErrors whitened_errors(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
 
   /// Derivatives by the free parameters; those by the noise parameters are left at zero.
   Derivatives derivatives(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
@@ -59,12 +62,19 @@ class FitPosterior {
                  const Derivatives& derivatives, Eigen::VectorXd& gradient,
                  Eigen::MatrixXd& information) const;
 
-  /// Whitened energies in the order of the parameters.
-  std::vector<EffectAction> actions(const Eigen::VectorXd& x,
-                                    const std::vector<Prediction>& at) const;
-
  private:
   using BinVariances = std::vector<std::vector<double>>;  // [record][bin]
+
+  /// Does the last parameter scale the form errors of effects?
+  bool has_form_errors() const {
+    return fit_parameters_.back().description.name == form_error_level;
+  }
+  double form_level(const Eigen::VectorXd& x) const {
+    return has_form_errors() ? std::exp(x(x.size() - 1)) : 0.;
+  }
+  /// Change of the mean by one effect.
+  Eigen::VectorXcd change_by(const Effect& effect, const Eigen::VectorXd& x,
+                             const Eigen::VectorXcd& mean) const;
 
   /// Finite-difference step of a parameter.
   double step_of(const Eigen::VectorXd& x, Eigen::Index index) const;
@@ -80,24 +90,25 @@ class FitPosterior {
   void set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                         const BinVariances& s, double acceleration_variance, Eigen::Index index,
                         Derivatives& out) const;
-  void set_share_column(const Eigen::VectorXd& x, const BinVariances& s, Eigen::Index index,
+  void set_level_column(const Eigen::VectorXd& x, const BinVariances& s, Eigen::Index index,
                         Derivatives& out) const;
   BinVariances variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                          double acceleration_variance) const;
   void remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
-                       const Eigen::MatrixXd& mean_columns, Eigen::VectorXd& gradient,
-                       Eigen::MatrixXd& information) const;
-  void add_model_form_error(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                            const Effect& effect);
-  /// Parameter of the discrepancy for a bin.
-  Eigen::Index discrepancy_index(std::size_t record, std::size_t b) const;
+                       Eigen::MatrixXd& columns, Eigen::MatrixXd& information) const;
+  /// The error of all records [N m], without the most probable per-record nuisance parameters.
+  Eigen::VectorXcd errors(const std::vector<Prediction>& at, const BinVariances& s) const;
+  /// Parameter of the unknown cause for a bin.
+  Eigen::Index unknown_index(std::size_t record, std::size_t b) const;
   /// Variance of the accelerometer under a given chain.
   double acceleration_variance(const Eigen::VectorXd& x, const Chain& chain) const;
 
   const Experiment& experiment_;
   const std::vector<FitParameter>& fit_parameters_;
-  bool model_form_error_, discrepancy_;
-  BinVariances misfit_, form_, power_;
+  std::vector<const Effect*> effects_;
+  bool unknown_;
+  BinVariances misfit_, power_, form_;
+  ModelDiscrepancy discrepancy_;
 };
 
 }  // namespace vibrissa::diagnosis

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/fit/calibration_choices.h"
 #include "diagnosis/fit/fit_posterior.h"
 #include "diagnosis/fit/optimiser.h"
 #include "diagnosis/prediction/record_nuisances.h"
@@ -13,6 +12,9 @@
 
 namespace vibrissa::diagnosis {
 namespace {
+
+/// Iterations with the usual level of the discrepancy, before it is free.
+constexpr int n_held_iterations = 8;
 
 /// Starting coordinates: noise levels as estimated, nuisances nominal or from start, effects at one
 /// of their own starts or from start.
@@ -24,6 +26,8 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
   x(index_of_acceleration_noise) = std::log(experiment.acceleration_noise);
   x(index_of_joint_share) = experiment.nominal.joint_share;
   x(index_of_joint_loss) = 1.;
+  x.segment(index_of_discrepancy, n_record_kinds)
+      .setConstant(std::log(experiment.simulation_accuracy));
   if (start != nullptr)
     x.head(nominal_nuisances ? n_noise_parameters : n_common_parameters) =
         start->x.head(nominal_nuisances ? n_noise_parameters : n_common_parameters);
@@ -31,8 +35,9 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
     const FitParameter& fit_parameter = fit_parameters[i];
     double& value = x(static_cast<Eigen::Index>(i));
     if (fit_parameter.effect == nullptr) {
-      // The share of model form errors begins at a fifth, discrepancies at two percent.
-      value = fit_parameter.description.logarithmic ? std::log(0.02) : 0.2;
+      value = fit_parameter.description.name == form_error_level
+                  ? fit_parameter.description.prior.centre
+                  : std::log(0.02);
       continue;
     }
     const double at = fit_parameter.effect->starts.front()[fit_parameter.parameter];
@@ -96,47 +101,34 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix, double& log_determinant) 
          solver.eigenvectors().transpose() * scale.asDiagonal();
 }
 
-/// The fit of each record.
-std::vector<FormErrors> model_form_errors_of(const std::vector<EffectAction>& actions,
-                                             const std::vector<Prediction>& predictions) {
-  std::vector<FormErrors> out;
-  for (const Prediction& prediction : predictions) {
-    const std::vector<double> zero(prediction.mean.size(), 0.);
-    out.push_back({zero, zero});
-  }
-  for (const EffectAction& action : actions) {
-    const bool nonlinear = is_nonlinear(*action.effect);
-    for (std::size_t r = 0; r < out.size(); ++r) {
-      const std::vector<double> power = model_form_error_power(*action.effect, action.change[r]);
-      std::vector<double>& sum = nonlinear ? out[r].nonlinear : out[r].linear;
-      for (std::size_t b = 0; b < power.size(); ++b) sum[b] += power[b];
-    }
-  }
-  return out;
-}
-
 std::vector<FittedRecord> fitted_records(const Experiment& experiment,
                                          const FitPosterior& posterior, const HypothesisFit& fit,
-                                         const std::vector<Prediction>& predictions,
-                                         const std::vector<EffectAction>& actions) {
+                                         const std::vector<Prediction>& predictions) {
   const double a_variance = posterior.acceleration_variance(fit.x);
   const double a_excess = fit.chain(experiment).reference_variance;
-  std::vector<FormErrors> model_form_errors = model_form_errors_of(actions, predictions);
+  const Eigen::VectorXcd discrepancy = posterior.discrepancy(fit.x, predictions).mean();
   std::vector<FittedRecord> records;
+  Eigen::Index row = 0;
   for (std::size_t r = 0; r < predictions.size(); ++r) {
     FittedRecord record{.mean = predictions[r].mean,
                         .process_noise = predictions[r].process_noise,
                         .variance = posterior.variance(fit.x, predictions[r], r, a_variance),
-                        .unknowns = predictions[r].unknowns,
-                        .model_form_errors = std::move(model_form_errors[r])};
-    for (std::size_t b = 0; b < record.process_noise.size(); ++b)
+                        .unknowns = predictions[r].unknowns};
+    for (std::size_t b = 0; b < record.process_noise.size(); ++b, ++row) {
       record.process_noise[b] += a_excess * predictions[r].acceleration_noise[b];
+      record.noise.push_back(experiment.moment_noise * experiment.moment_noise *
+                                 predictions[r].moment_noise[b] +
+                             experiment.acceleration_noise * experiment.acceleration_noise *
+                                 predictions[r].acceleration_noise[b]);
+      record.discrepancy.push_back(discrepancy(row) * std::sqrt(record.variance[b]));
+    }
     records.push_back(std::move(record));
   }
   return records;
 }
 
-/// Is a nuisance of the fit outside its tolerance?
+}  // namespace
+
 bool has_recalibrated(const HypothesisFit& fit) {
   for (std::size_t i = n_common_parameters; i < fit.fit_parameters.size(); ++i) {
     const Prior& prior = fit.fit_parameters[i].description.prior;
@@ -146,7 +138,23 @@ bool has_recalibrated(const HypothesisFit& fit) {
   return false;
 }
 
-/// Parameters with the nuisances fixed at their nominal values.
+namespace {
+
+/// The level of the discrepancy stays at its prior's centre: far from the optimum it would explain
+/// what the parameters should.
+std::vector<FitParameter> with_usual_discrepancy(std::vector<FitParameter> fit_parameters) {
+  for (std::size_t kind = 0; kind < n_record_kinds; ++kind) {
+    Prior& prior = fit_parameters[index_of_discrepancy + kind].description.prior;
+    prior.low = prior.high = prior.centre;
+  }
+  if (fit_parameters.back().description.name == form_error_level) {
+    Prior& prior = fit_parameters.back().description.prior;
+    prior.low = prior.high = prior.centre;
+  }
+  return fit_parameters;
+}
+
+/// Calibration parameters fixed at their nominal values.
 std::vector<FitParameter> with_nominal_calibrations(std::vector<FitParameter> fit_parameters) {
   for (FitParameter& fit_parameter : fit_parameters)
     if (fit_parameter.nuisance) {
@@ -156,60 +164,28 @@ std::vector<FitParameter> with_nominal_calibrations(std::vector<FitParameter> fi
   return fit_parameters;
 }
 
-/// Optimises the other parameters first and the nuisances afterwards.
-OptimiserState optimise_before_nuisances(FitPosterior& posterior, const Experiment& experiment,
-                                         const std::vector<FitParameter>& fit_parameters,
-                                         const Hypothesis& hypothesis, const HypothesisFit* start,
-                                         const FitOptions& options) {
-  constexpr int n_alone = 12;
-  const std::vector<FitParameter> held = with_nominal_calibrations(fit_parameters);
-  FitPosterior posterior_of_held(experiment, held, hypothesis);
-  OptimiserState state =
-      best_start(posterior_of_held, held,
-                 start_vectors(experiment, fit_parameters, hypothesis, start, true), options);
-  optimise(posterior_of_held, held, state, n_alone, options);
-  state.ended = false;
-  state.derivatives.reset();
-  optimise(posterior, fit_parameters, state, n_alone, options);
-  return state;
-}
-
-/// Limits calibration ratios to negligible values, and fixes their other parameters.
-std::vector<FitParameter> with_negligible_calibrations(const NominalModel& nominal,
-                                                       std::vector<FitParameter> fit_parameters) {
-  for (FitParameter& fit_parameter : fit_parameters) {
-    if (!fit_parameter.nuisance) continue;
-    Prior& prior = fit_parameter.description.prior;
-    if (fit_parameter.parameter == 0)
-      prior.scale = negligible_calibration(nominal, fit_parameter.effect->id);
-    else
-      prior = {.kind = Prior::Kind::normal,
-               .centre = prior.centre,
-               .low = prior.centre,
-               .high = prior.centre};
+/// Coarse grid of resonances, because a narrow resonance has a narrow basin of attraction: by the
+/// mass where the hypothesis holds it, otherwise by the stiffness.
+std::vector<Eigen::VectorXd> with_shifted_resonances(
+    const std::vector<FitParameter>& fit_parameters, const Hypothesis& hypothesis,
+    const std::vector<Eigen::VectorXd>& starts) {
+  const std::string shifted = hypothesis.contains("mass") ? "mass" : "stiffness";
+  std::vector<Eigen::VectorXd> out = starts;
+  for (std::size_t i = 0; i < fit_parameters.size(); ++i) {
+    const FitParameter& parameter = fit_parameters[i];
+    if (parameter.effect == nullptr || parameter.effect->id != shifted || parameter.parameter != 0)
+      continue;
+    for (const Eigen::VectorXd& x : starts)
+      for (const double ratio : {0.5, 0.6, 0.7, 0.8, 0.9, 1.1, 1.2, 1.35}) {
+        out.push_back(x);
+        out.back()(static_cast<Eigen::Index>(i)) = std::log(ratio);
+        clamp(fit_parameters, out.back());
+      }
   }
-  return fit_parameters;
+  return out;
 }
 
-/// Widens the calibration priors to the shifts that model form errors may cause. Returns whether
-/// any prior was much too narrow.
-bool loosen_by_forms(HypothesisFit& fit) {
-  constexpr double much = 1.5;
-  bool was_narrow = false;
-  for (const Eigen::Index i : calibrations_but(fit, {})) {
-    FitParameter& fit_parameter = fit.fit_parameters[static_cast<std::size_t>(i)];
-    double& scale = fit_parameter.description.prior.scale;
-    const double of_data = fit.information(i, i) - 1. / (scale * scale);
-    if (!(of_data > 0.)) continue;
-    const double wider =
-        std::sqrt(scale * scale + fit.shift_by_forms(fit_parameter.effect, of_data));
-    was_narrow |= wider > much * scale;
-    scale = wider;
-  }
-  return was_narrow;
-}
-
-/// Sets all results of a fit at its optimum, except the choices.
+/// Sets all results of a fit at its optimum.
 void set_at(HypothesisFit& fit, const Experiment& experiment, FitPosterior& posterior,
             OptimiserState& state) {
   fit.x = state.x;
@@ -219,18 +195,13 @@ void set_at(HypothesisFit& fit, const Experiment& experiment, FitPosterior& post
   if (!state.derivatives) state.derivatives = posterior.derivatives(fit.x, state.predictions);
   Eigen::VectorXd gradient;
   posterior.linearise(fit.x, state.predictions, *state.derivatives, gradient, fit.information);
-  const std::vector<EffectAction> actions = posterior.actions(fit.x, state.predictions);
-  fit.effect_energy.clear();
-  for (const EffectAction& action : actions)
-    fit.effect_energy.emplace_back(action.effect, action.energy);
   double log_determinant = 0.;
   fit.covariance = inverse(fit.information, log_determinant);
   fit.log_likelihood = posterior.log_likelihood(fit.x, state.predictions);
   fit.log_evidence = fit.log_likelihood + posterior.log_prior(fit.x) - 0.5 * log_determinant +
                      0.5 * static_cast<double>(fit.x.size()) * std::log(2. * std::numbers::pi);
   if (!std::isfinite(fit.log_evidence)) fit.log_evidence = -std::numeric_limits<double>::infinity();
-  fit.records = fitted_records(experiment, posterior, fit, state.predictions, actions);
-  fit.goodness = goodness_of_fit(experiment, whitened_residual(experiment, fit));
+  fit.records = fitted_records(experiment, posterior, fit, state.predictions);
 }
 
 }  // namespace
@@ -244,20 +215,68 @@ std::optional<std::size_t> HypothesisFit::index(const std::string& effect,
   return std::nullopt;
 }
 
-double HypothesisFit::form_energy(const Effect* but) const {
-  double sum = 0.;
-  for (const auto& [effect, energy] : effect_energy)
-    if (effect != but) sum += effect->model_form_error * effect->model_form_error * energy;
-  return sum;
-}
-
-double HypothesisFit::shift_by_forms(const Effect* calibration, const double information) const {
-  return 0.5 * form_energy(calibration) / information;
+std::vector<const Effect*> HypothesisFit::changes() const {
+  std::vector<const Effect*> out;
+  for (const FitParameter& parameter : fit_parameters)
+    if (parameter.effect != nullptr && parameter.parameter == 0) out.push_back(parameter.effect);
+  return out;
 }
 
 Chain HypothesisFit::chain(const Experiment& experiment) const {
   return make_chain(experiment, fit_parameters, x);
 }
+
+namespace {
+
+/// Calibration parameters fixed at their nominal values, but one.
+std::vector<FitParameter> with_nominal_calibrations_but(const std::vector<FitParameter>& all,
+                                                        const std::string& id) {
+  std::vector<FitParameter> out = with_nominal_calibrations(all);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].effect != nullptr && all[i].effect->id == id) out[i] = all[i];
+  return out;
+}
+
+/// Optimisations of one hypothesis from several starts; keeps the best result.
+class Attempts {
+ public:
+  Attempts(const Experiment& experiment, const Hypothesis& hypothesis,
+           const std::vector<FitParameter>& fit_parameters, const FitOptions& options)
+      : experiment_(experiment),
+        hypothesis_(hypothesis),
+        fit_parameters_(fit_parameters),
+        options_(options),
+        posterior_(experiment, fit_parameters, hypothesis) {}
+
+  /// First with the parameters held as in held (and the usual discrepancy), then with all free.
+  void from(const std::vector<Eigen::VectorXd>& starts, const std::vector<FitParameter>& held) {
+    const std::vector<FitParameter> first = with_usual_discrepancy(held);
+    FitPosterior of_first(experiment_, first, hypothesis_);
+    // Held parameters keep the posterior low, which does not make the basin hopeless.
+    FitOptions patient = options_;
+    patient.to_beat = -std::numeric_limits<double>::infinity();
+    OptimiserState state = best_start(of_first, first, starts, patient);
+    optimise(of_first, first, state, n_held_iterations, patient);
+    state.ended = false;
+    state.derivatives.reset();
+    optimise(posterior_, fit_parameters_, state, options_.max_iterations, options_);
+    if (!best_ || state.log_posterior > best_->log_posterior) best_ = std::move(state);
+  }
+  void from(const std::vector<Eigen::VectorXd>& starts) { from(starts, fit_parameters_); }
+
+  FitPosterior& posterior() { return posterior_; }
+  OptimiserState& best() { return *best_; }
+
+ private:
+  const Experiment& experiment_;
+  const Hypothesis& hypothesis_;
+  const std::vector<FitParameter>& fit_parameters_;
+  const FitOptions& options_;
+  FitPosterior posterior_;
+  std::optional<OptimiserState> best_;
+};
+
+}  // namespace
 
 HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hypothesis,
                              const HypothesisFit* start, const FitOptions& options,
@@ -265,68 +284,44 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   HypothesisFit fit;
   fit.hypothesis = hypothesis;
   fit.fit_parameters = make_fit_parameters(experiment, hypothesis);
-  FitPosterior posterior(experiment, fit.fit_parameters, fit.hypothesis);
-  const auto optimise_from = [&](bool nominal_nuisances) {
-    return best_start(
-        posterior, fit.fit_parameters,
-        start_vectors(experiment, fit.fit_parameters, hypothesis, start, nominal_nuisances),
-        options);
-  };
-  OptimiserState state = optimise_from(start == nullptr);
-  // Calibration parameters of another fit may have absorbed the effect, so both basins are tried.
-  if (start != nullptr && options.n_promising > 1 && has_recalibrated(*start)) {
-    OptimiserState other = optimise_from(true);
-    if (other.log_posterior > state.log_posterior) state = std::move(other);
-  }
-  // A calibration effect is aliased with the nuisances: when they absorb its influence, it stays
-  // near zero. Combined with other effects it would absorb what none of them explains.
-  const auto& effects = hypothesis.effects();
-  if (effects.size() == 1 && effects.front()->calibration) {
-    OptimiserState other = optimise_before_nuisances(posterior, experiment, fit.fit_parameters,
-                                                     hypothesis, start, options);
-    if (other.log_posterior > state.log_posterior) state = std::move(other);
-  }
-  if (further) {
-    OptimiserState other =
-        best_start(posterior, fit.fit_parameters,
-                   {further_start(experiment, fit.fit_parameters, *further)}, options);
-    // The noise levels are those of a fit without the effect, so more iterations are needed.
-    for (OptimiserState* c : {&state, &other})
-      optimise(posterior, fit.fit_parameters, *c, options.max_iterations, options);
-    if (other.log_posterior > state.log_posterior) state = std::move(other);
-  }
-  optimise(posterior, fit.fit_parameters, state, options.max_iterations, options);
-  set_at(fit, experiment, posterior, state);
-  fit.choices = calibration_choices(experiment.nominal, fit);
+  Attempts attempts(experiment, hypothesis, fit.fit_parameters, options);
+  const std::vector<Eigen::VectorXd> nominal =
+      start_vectors(experiment, fit.fit_parameters, hypothesis, start, /*nominal_nuisances=*/true);
+  if (start != nullptr)
+    attempts.from(start_vectors(experiment, fit.fit_parameters, hypothesis, start, false));
+  else
+    attempts.from(with_shifted_resonances(fit.fit_parameters, hypothesis, nominal));
+  // Calibration parameters may absorb an effect, and share the change of one of them: the other
+  // basins of attraction are reached with the others held.
+  if (start != nullptr && has_recalibrated(*start))
+    attempts.from(hypothesis.contains("mass")
+                      ? with_shifted_resonances(fit.fit_parameters, hypothesis, nominal)
+                      : nominal,
+                  with_nominal_calibrations(fit.fit_parameters));
+  if (start == nullptr && !hypothesis.effects().empty())
+    attempts.from(nominal, with_nominal_calibrations(fit.fit_parameters));
+  if (start == nullptr && hypothesis.effects().empty() && !hypothesis.is_discrepancy())
+    for (const std::string& id : nuisance_ids())
+      attempts.from(id == "stiffness"
+                        ? with_shifted_resonances(fit.fit_parameters, hypothesis, nominal)
+                        : nominal,
+                    with_nominal_calibrations_but(fit.fit_parameters, id));
+  if (further) attempts.from({further_start(experiment, fit.fit_parameters, *further)});
+  set_at(fit, experiment, attempts.posterior(), attempts.best());
   return fit;
 }
 
-HypothesisFit fit_as_simulated(const Experiment& experiment, const HypothesisFit& free,
-                               const FitOptions& options) {
-  constexpr int n_with_calibrations = 5;
+HypothesisFit fit_as_simulated(const Experiment& experiment) {
   HypothesisFit fit;
-  fit.hypothesis = free.hypothesis;
-  fit.as_simulated = true;
-  const std::vector<FitParameter> held = with_nominal_calibrations(free.fit_parameters);
+  fit.fit_parameters = make_fit_parameters(experiment, fit.hypothesis);
+  const std::vector<FitParameter> held = with_nominal_calibrations(fit.fit_parameters);
   FitPosterior of_held(experiment, held, fit.hypothesis);
-  std::vector<Eigen::VectorXd> starts =
-      start_vectors(experiment, held, fit.hypothesis, nullptr, true);
-  for (Eigen::VectorXd& x : starts) x.head(n_noise_parameters) = free.x.head(n_noise_parameters);
-  starts.push_back(free.x);
-  clamp(held, starts.back());
-  OptimiserState state = best_start(of_held, held, starts, options);
-  optimise(of_held, held, state, options.max_iterations, options);
-  fit.fit_parameters = with_negligible_calibrations(experiment.nominal, free.fit_parameters);
-  bool ends = false;
-  for (int pass = 0; pass < 2 && !ends; ++pass) {
-    FitPosterior posterior(experiment, fit.fit_parameters, fit.hypothesis);
-    state.derivatives.reset();
-    state.ended = false;
-    optimise(posterior, fit.fit_parameters, state, n_with_calibrations, options);
-    set_at(fit, experiment, posterior, state);
-    ends = pass > 0 || !loosen_by_forms(fit);
-  }
-  fit.choices = {as_simulated_choice(fit)};
+  OptimiserState state =
+      best_start(of_held, held, start_vectors(experiment, held, fit.hypothesis, nullptr, true), {});
+  optimise(of_held, held, state, n_held_iterations, {});
+  state.derivatives.reset();
+  FitPosterior posterior(experiment, fit.fit_parameters, fit.hypothesis);
+  set_at(fit, experiment, posterior, state);
   return fit;
 }
 
@@ -337,6 +332,7 @@ std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
     const FittedRecord& fitted = fit.records[r];
     std::vector<Complex> error = difference(experiment.records[r].moment, fitted.mean);
     IntegratedNuisances(fitted.unknowns, error, fitted.variance).remove_from(error);
+    error = difference(error, fitted.discrepancy);
     for (std::size_t b = 0; b < error.size(); ++b) {
       const double deviation = std::sqrt(fitted.variance[b]);
       records[r].deviation.push_back(deviation);

@@ -16,8 +16,7 @@ struct NoiseLevels {
 
 /// Noise levels measured at rest, so that the error of a poor fit does not count as noise; without
 /// such records as fitted. A fit that names reference_noise includes it. chain: the fit's chain.
-/// Proven by tests/diagnosis/validation/held_out_test.cc and
-/// tests/diagnosis/validation/cross_validation_test.cc.
+/// Proven by tests/diagnosis/validation/held_out_test.cc.
 NoiseLevels noise_levels(const Experiment& experiment, const HypothesisFit& fit,
                          const Chain& chain);
 

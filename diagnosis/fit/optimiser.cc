@@ -96,7 +96,11 @@ void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_para
   constexpr double most_astray = 0.2;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;
+  // The covariance follows the mean between steps, so that steps alone need not converge.
+  constexpr int n_steps_per_iteration = 4;
+  int n_steps = 0;
   for (int n_computed = 0; !state.ended;) {
+    if (n_steps++ == n_steps_per_iteration * n_iterations) return;
     posterior.update_slow_variance(state.x, state.predictions);
     state.log_posterior =
         posterior.log_likelihood(state.x, state.predictions) + posterior.log_prior(state.x);

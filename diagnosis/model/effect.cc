@@ -8,11 +8,11 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-constexpr double student_dof = 6.;
-/// Logarithm of the density's denominator at zero, scale 1: sqrt(6 pi) G(3) / G(3.5).
-const double student_log_norm =
-    std::log(std::sqrt(student_dof * std::numbers::pi) * std::tgamma(0.5 * student_dof) /
-             std::tgamma(0.5 * (student_dof + 1.)));
+/// Logarithm of the denominator of Student's density at zero, scale 1.
+double student_log_norm(const double dof) {
+  return 0.5 * std::log(dof * std::numbers::pi) + std::lgamma(0.5 * dof) -
+         std::lgamma(0.5 * (dof + 1.));
+}
 
 }  // namespace
 
@@ -22,8 +22,8 @@ double Prior::log_density(const double x) const {
     case Kind::normal:
       return -0.5 * z * z - std::log(scale * std::sqrt(2. * std::numbers::pi));
     case Kind::student:
-      return -0.5 * (student_dof + 1.) * std::log1p(z * z / student_dof) - std::log(scale) -
-             student_log_norm;
+      return -0.5 * (degrees_of_freedom + 1.) * std::log1p(z * z / degrees_of_freedom) -
+             std::log(scale) - student_log_norm(degrees_of_freedom);
     case Kind::uniform:
       return -std::log(high - low);
   }
@@ -36,7 +36,7 @@ double Prior::slope(const double x) const {
     case Kind::normal:
       return -z / scale;
     case Kind::student:
-      return -(student_dof + 1.) * z / (student_dof + z * z) / scale;
+      return -(degrees_of_freedom + 1.) * z / (degrees_of_freedom + z * z) / scale;
     case Kind::uniform:
       return 0.;
   }
@@ -49,7 +49,7 @@ double Prior::curvature(const double x) const {
     case Kind::normal:
       return 1. / (scale * scale);
     case Kind::student:
-      return (student_dof + 1.) / (student_dof + z * z) / (scale * scale);
+      return (degrees_of_freedom + 1.) / (degrees_of_freedom + z * z) / (scale * scale);
     // Curvature of the Gaussian with the same variance, so that the posterior is never wider than
     // the prior.
     case Kind::uniform:
@@ -114,6 +114,12 @@ Parameter normal(std::string name, std::string unit, const double centre, const 
                     .high = high},
           .neutral = neutral,
           .step = 1e-3 * scale};
+}
+
+Parameter spread_over_modes() {
+  Parameter out = uniform("spread", "1", -0.25, 1.25, 0.5);
+  out.step = 1e-3;
+  return out;
 }
 
 std::vector<double> geometric_series(const double low, const double high, const double ratio) {

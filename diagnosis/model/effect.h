@@ -17,9 +17,10 @@ using signals::Link;  // of the measuring chain (docs/effects.md)
 /// Prior of a parameter in its fitted coordinate (value or logarithm).
 struct Prior {
   enum class Kind { normal, student, uniform } kind = Kind::uniform;
-  double centre = 0.;  // of normal and student (six degrees of freedom), in the fitted coordinate
+  double centre = 0.;  // of normal and student, in the fitted coordinate
   double scale = 1.;
-  double low = 0., high = 1.;  // bounds of the fitted coordinate, for all kinds of priors
+  double low = 0., high = 1.;      // bounds of the fitted coordinate, for all kinds of priors
+  double degrees_of_freedom = 6.;  // of student
 
   double log_density(double x) const;
   double slope(double x) const;      // d log_density / dx
@@ -50,6 +51,10 @@ Parameter uniform(std::string name, std::string unit, double low, double high, d
 Parameter ratio_near_one(std::string name, double relative_scale, double low, double high);
 Parameter normal(std::string name, std::string unit, double centre, double scale, double low,
                  double high, double neutral);
+
+/// How a change of the first mode spreads over those above: 0 leaves them as they are, 1 changes
+/// all alike. No record of the simulation tells it, so its prior is flat.
+Parameter spread_over_modes();
 
 /// Reference values of the experiment that make parameters dimensionless.
 struct Scales {

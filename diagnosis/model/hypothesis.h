@@ -33,6 +33,9 @@ class Hypothesis {
   bool discrepancy_ = false;
 };
 
+/// Share of the gap from which on a change of the simulation is named.
+inline constexpr double least_share = 0.05;
+
 inline const std::string outside_catalogue = "outside_catalogue";
 /// An unknown effect is as probable as each of the known ones.
 constexpr double log_prior_of_outside_catalogue = -4.;

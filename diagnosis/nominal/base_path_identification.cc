@@ -17,7 +17,7 @@ using Entries = std::vector<const signals::DatasetRecord*>;
 using separation::Bvrm;
 namespace channel = signals::channel;
 
-constexpr std::size_t max_order = 6;
+constexpr std::size_t max_order = 12;
 /// A further pair of poles must lower the misfit to this share.
 constexpr double worthwhile = 0.5;
 /// Lowest useful misfit, given records with six digits and remaining transients.
@@ -95,25 +95,50 @@ double mean_square_moment(std::span<const separation::Segment> segments) {
   return sum / n;
 }
 
-/// Welch's window widens a resonance, so the fit continues with the records themselves.
+/// Viscous part of the modes' moments relative to the elastic part.
+double viscous_share(const Bvrm& model) {
+  double viscous = 0., elastic = 0.;
+  for (const separation::ModalTerm& term : model.modes) {
+    viscous += std::abs(term.b1) / std::sqrt(term.a0);
+    elastic += std::abs(term.b0) / term.a0;
+  }
+  return viscous / elastic;
+}
+
+/// Of two holds that fit about equally well, the wrong one delays the modes by half a sample, which
+/// looks like a viscous moment (separation/identification/hold_check.h).
+bool is_better(const PathCandidate& a, const PathCandidate& b) {
+  constexpr double alike = 0.5, exact = 1e-6;
+  if (std::max(a.misfit, exact) < alike * std::max(b.misfit, exact)) return true;
+  if (std::max(b.misfit, exact) < alike * std::max(a.misfit, exact)) return false;
+  return viscous_share(a.model) < viscous_share(b.model);
+}
+
+/// Welch's window widens a resonance, so the fit continues with the records themselves, under the
+/// behaviour of the input between samples that fits them best: simulations hold it, interpolate it
+/// linearly or sample a continuous motion.
 std::optional<PathCandidate> refined(const Bvrm& start, const Entries& entries) {
   const std::vector<separation::Segment> segments = segments_of(entries);
-  try {
-    const separation::FittedBvrm fit =
-        separation::refine_output_error(start, segments, entries.front()->record.sampling_rate_hz(),
-                                        {.hold = separation::Hold::band_limited});
-    return PathCandidate{fit.model,
-                         std::sqrt(fit.residual_variance / mean_square_moment(segments))};
-  } catch (const signals::UserError&) {
-    return std::nullopt;  // the order is too high for these records
-  }
+  std::optional<PathCandidate> best;
+  for (const separation::Hold hold : {separation::Hold::band_limited, separation::Hold::first_order,
+                                      separation::Hold::zero_order})
+    try {
+      const separation::FittedBvrm fit = separation::refine_output_error(
+          start, segments, entries.front()->record.sampling_rate_hz(), {.hold = hold});
+      const PathCandidate candidate{
+          fit.model, std::sqrt(fit.residual_variance / mean_square_moment(segments))};
+      if (!best || is_better(candidate, *best)) best = candidate;
+    } catch (const signals::UserError&) {
+      // The order is too high for these records.
+    }
+  return best;
 }
 
 std::optional<PathCandidate> best_candidate(const signals::FrequencyResponse& response,
                                             const Entries& entries, const bool periodic) {
   std::optional<PathCandidate> best;
   for (const auto& fit : separation::identify_frequency_orders(response, {.order = max_order})) {
-    if (best && best->misfit < exact_misfit && !periodic) break;
+    if (best && best->misfit < exact_misfit) break;
     const std::optional<PathCandidate> candidate =
         periodic ? PathCandidate{fit.model, relative_misfit(fit.model, response)}
                  : refined(fit.model, entries);
@@ -154,6 +179,7 @@ void identify_base_path(NominalModel& model, std::span<const signals::DatasetRec
   if (const std::optional<PathCandidate> best = best_candidate(response, entries, periodic)) {
     set_modes(model, best->model);
     model.has_base = true;
+    model.base_misfit = best->misfit;
   }
 }
 

@@ -151,7 +151,11 @@ void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
       (record.excitation.wind ? wind_power : base_power) += power;
     }
   }
-  if (base_power > 0.) model.base_misfit = std::sqrt(base_error / base_power);
+  // Records with another behaviour of the input between samples are misfitted by this prediction.
+  if (base_power > 0.)
+    model.base_misfit = model.base_misfit > 0.
+                            ? std::min(model.base_misfit, std::sqrt(base_error / base_power))
+                            : std::sqrt(base_error / base_power);
   if (wind_power > 0.) model.wind_misfit = std::sqrt(wind_error / wind_power);
 }
 

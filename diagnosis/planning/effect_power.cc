@@ -5,7 +5,6 @@
 #include <limits>
 #include <mutex>
 
-#include "diagnosis/fit/model_form_errors.h"
 #include "diagnosis/model/parallel.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/planning/projection.h"
@@ -14,6 +13,8 @@
 namespace vibrissa::diagnosis {
 namespace {
 
+/// Upper limit of what model form errors of linear effects explain [nats].
+constexpr double most_hidden_by_form = 40.;
 /// A model form error hides at most this share of the nats by which an effect is detected.
 constexpr double most_share = 0.25;
 
@@ -267,7 +268,8 @@ class PowerStudy {
     std::vector<Eigen::VectorXd> columns = point_.columns();
     std::vector<double> half_priors;
     for (const FitParameter& fit_parameter : point_.fit_parameters())
-      half_priors.push_back(half_prior(fit_parameter, fit_parameter.description.prior.centre, 1.));
+      half_priors.push_back(half_prior(fit_parameter, fit_parameter.description.prior.centre,
+                                       fit_parameter.nuisance ? spreads_of_tolerance : 1.));
     for (StudiedEffect& effect : effects_) {
       effect.first_column = columns.size();
       for (const FaintStart& start : effect.faint) {

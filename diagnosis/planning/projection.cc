@@ -80,7 +80,8 @@ class LeastSquaresProjection {
     if (i < fit_parameters_.size()) {
       const FitParameter& fit_parameter = point_.fit_parameters()[fit_parameters_[i]];
       z_(index) = centre_(index) = point_.x()(static_cast<Eigen::Index>(fit_parameters_[i]));
-      half_prior_(index) = half_prior(fit_parameter, parameter.prior.centre, 1.);
+      half_prior_(index) = half_prior(fit_parameter, parameter.prior.centre,
+                                      fit_parameter.nuisance ? spreads_of_tolerance : 1.);
     } else {
       z_(index) = std::clamp(parameter.coordinate(alternative_->values[i - fit_parameters_.size()]),
                              low_(index), high_(index));

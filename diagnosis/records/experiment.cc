@@ -372,6 +372,22 @@ double quietest_deviation(const signals::Dataset& dataset, const std::string& na
   return std::isfinite(least) ? std::sqrt(least) : 0.;
 }
 
+/// The quietest part of the acceleration; at most the usual noise where the drive leaves no part
+/// quiet.
+double quietest_part_of_drive(const signals::Dataset& dataset) {
+  constexpr double quiet = 0.25;
+  const double least = quietest_deviation(dataset, channel::base_acceleration);
+  double largest = 0.;
+  for (const DatasetRecord& entry : dataset.records) {
+    if (entry.split != signals::Split::fit || !entry.record.has(channel::base_acceleration))
+      continue;
+    double square = 0.;
+    for (const double a : entry.record.channel(channel::base_acceleration)) square += a * a;
+    largest = std::max(largest, square / static_cast<double>(entry.record.n_samples()));
+  }
+  return least > quiet * std::sqrt(largest) ? std::min(usual_acceleration_noise, least) : least;
+}
+
 /// Quantisation noise of a 13-bit step. Smaller values occur only in simulated records, which no
 /// model follows more closely.
 double least_noise(const signals::Dataset& dataset, const std::string& name) {
@@ -415,10 +431,9 @@ ChannelNoise channel_noise(const signals::Dataset& dataset) {
   ChannelNoise noise;
   noise.moment_n_m = n_moment > 0. ? std::sqrt(moment / n_moment)
                                    : quietest_deviation(dataset, channel::base_moment);
-  noise.acceleration_m_s2 = n_acceleration > 0.
-                                ? std::sqrt(acceleration / n_acceleration)
-                                : std::min(usual_acceleration_noise,
-                                           quietest_deviation(dataset, channel::base_acceleration));
+  noise.acceleration_m_s2 = n_acceleration > 0. ? std::sqrt(acceleration / n_acceleration)
+                                                : quietest_part_of_drive(dataset);
+  noise.acceleration_is_measured = n_acceleration > 0.;
   noise.moment_n_m = std::max(noise.moment_n_m, least_noise(dataset, channel::base_moment));
   noise.acceleration_m_s2 =
       std::max(noise.acceleration_m_s2, least_noise(dataset, channel::base_acceleration));
@@ -434,8 +449,10 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
   const ChannelNoise noise = channel_noise(dataset);
   experiment.moment_noise = noise.moment_n_m;
   experiment.acceleration_noise = noise.acceleration_m_s2;
+  experiment.acceleration_noise_is_measured = noise.acceleration_is_measured;
   const ExcitedHarmonics excited = excited_harmonics(dataset, split, noise.acceleration_m_s2);
-  const ChannelColours colours = channel_colours(dataset, nominal.narrowest_mode_hz());
+  const ChannelColours colours =
+      channel_colours(dataset, nominal.narrowest_mode_hz(), noise.acceleration_m_s2);
   for (std::size_t i = 0; i < dataset.records.size(); ++i) {
     const DatasetRecord& entry = dataset.records[i];
     if (entry.split != split || !is_comparable(nominal, entry)) continue;

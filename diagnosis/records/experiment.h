@@ -55,6 +55,8 @@ struct PreparedRecord {
 /// Preparation of a record: with reduced input noise (fit records) or as measured.
 enum class InputNoise { reduced, as_measured };
 
+inline constexpr double usual_simulation_accuracy = 0.01;
+
 /// The prepared fit records of one sensor with the nominal model.
 struct Experiment {
   NominalModel nominal;
@@ -63,7 +65,10 @@ struct Experiment {
   Scales scales;
   double moment_noise = 0.;        // estimate per sample [N m]
   double acceleration_noise = 0.;  // estimate per sample [m/s^2]
+  bool acceleration_noise_is_measured = true;
   bool has_base = false, has_wind = false, has_cross = false, has_repeats = false;
+  /// Relative error of its form that a simulation usually has (model_discrepancy.h).
+  double simulation_accuracy = usual_simulation_accuracy;
 
   /// The chain of the simulation without further effects.
   Chain nominal_chain() const { return UpdatedModel(nominal, known).chain(); }
@@ -98,9 +103,11 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
 
 /// Noise standard deviations per sample of both channels, from records at rest and from differences
 /// between periods; otherwise from the quietest part of the spectrum, which is an upper bound (for
-/// the acceleration at most the usual noise). Proven by tests/diagnosis/records/experiment_test.cc.
+/// the acceleration at most the usual noise where no part is quiet). Proven by
+/// tests/diagnosis/records/experiment_test.cc.
 struct ChannelNoise {
   double moment_n_m = 0., acceleration_m_s2 = 0.;
+  bool acceleration_is_measured = false;  // at rest or from repeats
 };
 ChannelNoise channel_noise(const signals::Dataset& dataset);
 

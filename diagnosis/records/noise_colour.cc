@@ -113,12 +113,13 @@ void add_still_acceleration(std::vector<NoiseLine>& out, const signals::Record& 
   add_lines(out, record, noise_lines(x, record.sampling_rate_hz(), false), 1);
 }
 
-/// Mean power of the residual of the response, by band; empty when the record does not determine
-/// it.
+/// Mean power of the residual of the response, by band, without the accelerometer noise that the
+/// response carries into it; empty when the record does not determine it.
 std::vector<double> powers_beside_response(const signals::Record& record,
-                                           const double narrowest_mode_hz) {
+                                           const double narrowest_mode_hz,
+                                           const double acceleration_noise) {
   // Width of the smooth response in lines, and enough lines for each band.
-  constexpr double n_smooth = 20.;
+  constexpr double n_smooth = 20., least_share = 0.1;
   constexpr std::size_t n_bands = 128, fewest_lines = 400;
   if (narrowest_mode_hz * record.duration_s() < n_smooth) return {};
   const auto local = signals::local_polynomial_response(
@@ -127,23 +128,28 @@ std::vector<double> powers_beside_response(const signals::Record& record,
   const std::size_t n_lines = local.noise_variance.size();
   const std::size_t n = std::min(n_bands, n_lines / fewest_lines);
   if (n == 0) return {};
-  std::vector<double> sums(n, 0.), counts(n, 0.);
+  // The noise of the response is given as squared amplitude, 4 / n times the variance of a sample.
+  const double of_input =
+      4. * acceleration_noise * acceleration_noise / static_cast<double>(record.n_samples());
+  std::vector<double> sums(n, 0.), carried(n, 0.), counts(n, 0.);
   for (std::size_t k = 0; k < n_lines; ++k) {
     if (!std::isfinite(local.noise_variance[k])) continue;
-    sums[k * n / n_lines] += local.noise_variance[k];
-    counts[k * n / n_lines] += 1.;
+    const std::size_t band = k * n / n_lines;
+    sums[band] += local.noise_variance[k];
+    carried[band] += std::norm(local.response.value[k]) * of_input;
+    counts[band] += 1.;
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (counts[i] == 0. || sums[i] <= 0.) return {};
-    sums[i] /= counts[i];
+    sums[i] = std::max(least_share * sums[i], sums[i] - carried[i]) / counts[i];
   }
   return sums;
 }
 
 }  // namespace
 
-NoiseColour colour_beside_response(const signals::Dataset& dataset,
-                                   const double narrowest_mode_hz) {
+NoiseColour colour_beside_response(const signals::Dataset& dataset, const double narrowest_mode_hz,
+                                   const double acceleration_noise) {
   NoiseColour colour;
   double longest_s = 0.;
   for (const signals::DatasetRecord& entry : dataset.records) {
@@ -151,7 +157,8 @@ NoiseColour colour_beside_response(const signals::Dataset& dataset,
     if (entry.split != signals::Split::fit || !entry.excitation.base || entry.excitation.wind ||
         !record.has(signals::channel::base_acceleration) || record.duration_s() <= longest_s)
       continue;
-    std::vector<double> powers = powers_beside_response(record, narrowest_mode_hz);
+    std::vector<double> powers =
+        powers_beside_response(record, narrowest_mode_hz, acceleration_noise);
     if (powers.empty()) continue;
     longest_s = record.duration_s();
     colour.band_hz = 0.5 * record.sampling_rate_hz() / static_cast<double>(powers.size());
@@ -163,7 +170,8 @@ NoiseColour colour_beside_response(const signals::Dataset& dataset,
   return colour;
 }
 
-ChannelColours channel_colours(const signals::Dataset& dataset, const double narrowest_mode_hz) {
+ChannelColours channel_colours(const signals::Dataset& dataset, const double narrowest_mode_hz,
+                               const double acceleration_noise) {
   std::vector<NoiseLine> moment, acceleration;
   double rate_hz = 0.;
   for (const signals::DatasetRecord& entry : dataset.records) {
@@ -180,9 +188,9 @@ ChannelColours channel_colours(const signals::Dataset& dataset, const double nar
       add_moment(moment, record, still ? 1 : n_periods);
     if (!entry.excitation.base) add_still_acceleration(acceleration, record);
   }
-  return {
-      moment.empty() ? colour_beside_response(dataset, narrowest_mode_hz) : noise_colour(moment),
-      noise_colour(acceleration)};
+  return {moment.empty() ? colour_beside_response(dataset, narrowest_mode_hz, acceleration_noise)
+                         : noise_colour(moment),
+          noise_colour(acceleration)};
 }
 
 }  // namespace vibrissa::diagnosis

@@ -35,7 +35,8 @@ NoiseColour noise_colour(std::span<const NoiseLine> lines);
 /// response that is smooth over a few lines (signals::local_polynomial_response). White when no
 /// such record is long enough to resolve modes of this bandwidth. Proven by
 /// tests/diagnosis/records/noise_colour_test.cc.
-NoiseColour colour_beside_response(const signals::Dataset& dataset, double narrowest_mode_hz);
+NoiseColour colour_beside_response(const signals::Dataset& dataset, double narrowest_mode_hz,
+                                   double acceleration_noise);
 
 /// Noise colour of both channels, from fit records at rest (for the acceleration: with the base at
 /// rest); for the moment also from differences between periods well below the first mode, and
@@ -43,6 +44,7 @@ NoiseColour colour_beside_response(const signals::Dataset& dataset, double narro
 struct ChannelColours {
   NoiseColour moment, acceleration;
 };
-ChannelColours channel_colours(const signals::Dataset& dataset, double narrowest_mode_hz);
+ChannelColours channel_colours(const signals::Dataset& dataset, double narrowest_mode_hz,
+                               double acceleration_noise);
 
 }  // namespace vibrissa::diagnosis

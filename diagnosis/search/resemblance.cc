@@ -53,29 +53,6 @@ void keep_loud(std::vector<NoisyBin>& bins) {
   std::erase_if(bins, [&](const NoisyBin& bin) { return bin.share <= least * peak; });
 }
 
-Overlap overlap(const Experiment& experiment, const HypothesisFit& fit,
-                const std::vector<WhitenedRecord>& residual, const Effect& effect,
-                const std::vector<double>& values) {
-  Chain chain = fit.chain(experiment);
-  effect.extend(chain, values, experiment.scales);
-  const std::vector<Prediction> moved = ChainSimulator(chain).predict(experiment.records);
-  const double reference = chain.reference_variance;
-  Overlap sum;
-  for (std::size_t r = 0; r < experiment.records.size(); ++r) {
-    const Prediction& there = moved[r];
-    for (std::size_t b = 0; b < there.mean.size(); ++b) {
-      const Complex d = (there.mean[b] - fit.records[r].mean[b]) / residual[r].deviation[b];
-      sum.cross += (std::conj(d) * residual[r].error[b]).real();
-      sum.own += std::norm(d);
-      const double v = (there.process_noise[b] + reference * there.acceleration_noise[b]) /
-                       (residual[r].deviation[b] * residual[r].deviation[b]);
-      sum.noisy.push_back({v, std::norm(residual[r].error[b])});
-    }
-  }
-  keep_loud(sum.noisy);
-  return sum;
-}
-
 /// A multiple of the values, when it lies within the effect's ranges.
 std::vector<double> resized(const Effect& effect, const std::vector<double>& values,
                             const double factor) {
@@ -92,15 +69,78 @@ std::vector<double> resized(const Effect& effect, const std::vector<double>& val
 
 }  // namespace
 
-Resemblance resemblance(const Experiment& experiment, const HypothesisFit& fit,
-                        const std::vector<WhitenedRecord>& residual, const Effect& effect,
-                        const std::vector<std::vector<double>>& tried) {
+struct FitResidual::State {
+  const Experiment& experiment;
+  const HypothesisFit& fit;
+  FitPosterior posterior;
+  Chain chain;
+  Eigen::VectorXcd mean, error;  // whitened error, without per-record nuisance parameters
+  Eigen::VectorXd per_deviation, noise_power;  // power of the error without the discrepancy
+  Eigen::MatrixXd columns;                     // whitened derivatives of the mean
+  ModelDiscrepancy::Solution discrepancy;
+
+  State(const Experiment& of, const HypothesisFit& best)
+      : experiment(of),
+        fit(best),
+        posterior(of, best.fit_parameters, best.hypothesis),
+        chain(best.chain(of)) {
+    const std::vector<Prediction> at = posterior.predict(fit.x);
+    posterior.update_slow_variance(fit.x, at);
+    discrepancy = posterior.discrepancy(fit.x, at);
+    const FitPosterior::WhitenedErrors whitened = posterior.whitened_errors(fit.x, at);
+    error = whitened.error;
+    per_deviation = whitened.per_deviation;
+    noise_power = (error - discrepancy.mean()).cwiseAbs2();
+    mean.resize(error.size());
+    Eigen::Index row = 0;
+    for (const Prediction& prediction : at)
+      for (const Complex& value : prediction.mean) mean(row++) = value;
+    columns = posterior.derivatives(fit.x, at).mean;
+    for (Eigen::Index i = 0; i < per_deviation.size(); ++i)
+      columns.middleRows(2 * i, 2) *= per_deviation(i);
+  }
+
+  Overlap overlap(const Effect& effect, const std::vector<double>& values) const {
+    Chain extended = chain;
+    effect.extend(extended, values, experiment.scales);
+    const std::vector<Prediction> moved = ChainSimulator(extended).predict(experiment.records);
+    Eigen::VectorXcd change(mean.size());
+    Overlap out;
+    Eigen::Index row = 0;
+    for (const Prediction& there : moved)
+      for (std::size_t b = 0; b < there.mean.size(); ++b, ++row) {
+        change(row) = (there.mean[b] - mean(row)) * per_deviation(row);
+        const double v =
+            (there.process_noise[b] + extended.reference_variance * there.acceleration_noise[b]) *
+            per_deviation(row) * per_deviation(row);
+        out.noisy.push_back({v, noise_power(row)});
+      }
+    const Eigen::VectorXcd weighed = discrepancy.apply_inverse(change);
+    out.cross = weighed.dot(error).real();
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(columns.cols());
+    for (row = 0; row < weighed.size(); ++row)
+      along += weighed(row).real() * columns.row(2 * row).transpose() +
+               weighed(row).imag() * columns.row(2 * row + 1).transpose();
+    // The information is twice the Gram matrix of the columns.
+    const double whole = weighed.dot(change).real();
+    out.own = std::max(whole - 2. * along.dot(fit.covariance * along), 1e-9 * whole);
+    keep_loud(out.noisy);
+    return out;
+  }
+};
+
+FitResidual::FitResidual(const Experiment& experiment, const HypothesisFit& fit)
+    : state_(std::make_unique<State>(experiment, fit)) {}
+FitResidual::~FitResidual() = default;
+
+Resemblance FitResidual::resemblance(const Effect& effect,
+                                     const std::vector<std::vector<double>>& tried) const {
   Resemblance best;
   for (const std::vector<double>& values : tried) {
-    const Overlap sum = overlap(experiment, fit, residual, effect, values);
+    const Overlap sum = state_->overlap(effect, values);
     const double multiple = sum.best_multiple(), of_mean = sum.of_mean(),
                  of_noise = sum.of_noise(multiple), gain = std::max(of_mean, of_noise);
-    if (gain <= best.gain) continue;
+    if (!(gain > best.gain)) continue;
     // Changes of variances are proportional to the square of an effect's size.
     const double factor = of_mean > of_noise ? sum.cross / sum.own : std::sqrt(multiple);
     best = {gain, resized(effect, values, factor)};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "diagnosis/fit/hypothesis_fit.h"
@@ -15,10 +16,21 @@ struct Resemblance {
   std::vector<double> values{};
 };
 
-/// The given values whose shape matches the residual of fit best. A shape is a change of the mean
-/// or of the noise. Proven by tests/diagnosis/search/resemblance_test.cc.
-Resemblance resemblance(const Experiment& experiment, const HypothesisFit& fit,
-                        const std::vector<WhitenedRecord>& residual, const Effect& effect,
-                        const std::vector<std::vector<double>>& tried);
+/// The residual of a fit, against which further effects are held. The fit's parameters and the
+/// discrepancy are free to follow an effect's shape: only what neither explains counts.
+class FitResidual {
+ public:
+  FitResidual(const Experiment& experiment, const HypothesisFit& fit);
+  ~FitResidual();
+
+  /// The given values whose shape matches the residual best. A shape is a change of the mean or of
+  /// the noise. Proven by tests/diagnosis/search/resemblance_test.cc.
+  Resemblance resemblance(const Effect& effect,
+                          const std::vector<std::vector<double>>& tried) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace vibrissa::diagnosis

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "diagnosis/fit/calibration_choices.h"
 #include "diagnosis/localisation/location.h"
 #include "diagnosis/search/effect_size.h"
 #include "diagnosis/search/fisher_changes.h"
@@ -30,8 +29,9 @@ struct Direction {
   double half_prior = 0.;          // nats of a unit step
 };
 
-/// Factor on the spreads of the nuisance priors, so that the data dominate.
-constexpr double n_spreads = 2.;
+/// Factor on the spreads of the nuisance priors: their tails are so heavy that a change may pass
+/// from one calibration parameter to another at no cost.
+constexpr double n_spreads = 100.;
 
 class Directions {
  public:
@@ -55,7 +55,6 @@ class Directions {
     Eigen::Index column = 0;
     for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
       const FitParameter& fit_parameter = fit.fit_parameters[i];
-      if (fit_parameter.description.name == "model_form_error_share") continue;
       if (fit_parameter.effect == &effect) {
         const Parameter& parameter = fit_parameter.description;
         const double neutral = parameter.coordinate(parameter.neutral);
@@ -79,7 +78,6 @@ class Directions {
                       std::vector<Eigen::VectorXd>& columns) {
     for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
       const FitParameter& fit_parameter = fit.fit_parameters[i];
-      if (fit_parameter.description.name == "model_form_error_share") continue;
       const auto index = static_cast<Eigen::Index>(i);
       Eigen::VectorXd x = fit.x;
       double h = fit_parameter.description.step;
@@ -182,39 +180,6 @@ void add_refitted(const SearchResult& result, const HypothesisFit& best, const E
   }
 }
 
-/// Log likelihood of a fit whose calibration parameters, except the given ones, are exactly nominal
-/// (Gaussian approximation, without the tolerance priors).
-double likelihood_at_nominal_but(const HypothesisFit& fit, const std::vector<std::string>& ids) {
-  const std::vector<Eigen::Index> all = calibrations_but(fit, {});
-  const RecalibratedPosterior free = recalibrated_posterior(fit, all);
-  const auto nats_to = [&](const Eigen::VectorXd& x, const std::vector<Eigen::Index>& indices) {
-    if (indices.empty()) return 0.;
-    const Eigen::VectorXd way = free.x(indices) - x(indices);
-    const Eigen::MatrixXd covariance = free.covariance(indices, indices);
-    return 0.5 * way.dot(covariance.ldlt().solve(way));
-  };
-  return fit.log_likelihood + nats_to(fit.x, all) -
-         nats_to(Eigen::VectorXd::Zero(fit.x.size()), calibrations_but(fit, ids));
-}
-
-/// Effects whose own fit is as good as that of a named calibration effect in the best fit.
-void add_refitted_for_calibration(const SearchResult& result, const HypothesisFit& best,
-                                  const std::vector<std::string>& calibrations,
-                                  const std::string& named,
-                                  std::vector<std::vector<std::string>>& sets) {
-  std::vector<std::string> others = calibrations;
-  std::erase(others, named);
-  const double of_best = likelihood_at_nominal_but(best, calibrations);
-  for (const Effect& alternative : effect_catalogue()) {
-    if (alternative.id == named || best.hypothesis.contains(alternative.id)) continue;
-    const std::string name = best.hypothesis.with(alternative).name();
-    for (const HypothesisFit& fit : result.fits)
-      if (fit.hypothesis.name() == name && fit.index(named, 0) &&
-          of_best - likelihood_at_nominal_but(fit, others) < enough_nats)
-        sets.push_back({named, alternative.id});
-  }
-}
-
 /// Removes duplicates.
 void add_new(std::vector<std::vector<std::string>>& sets, std::vector<std::string> set) {
   if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
@@ -231,8 +196,6 @@ std::vector<std::vector<std::string>> indistinguishable_sets(const Experiment& e
   for (const Effect* effect : best.hypothesis.effects()) add_refitted(result, best, *effect, sets);
   if (candidate.calibrations.empty()) return sets;
   const Directions directions(experiment, best);
-  for (const std::string& id : candidate.calibrations)
-    add_refitted_for_calibration(result, best, candidate.calibrations, id, sets);
   for (const std::string& id : candidate.calibrations) {
     const Effect& effect = find_effect(id);
     Eigen::VectorXd change = directions.change_of(effect, experiment, best);

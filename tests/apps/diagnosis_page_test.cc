@@ -29,8 +29,10 @@ diagnosis::Diagnosis example() {
       .name = d.verdict,
       .probability = 0.9,
       .parameters = {{"stiffness", "ratio", "1", 0.71, {0.7, 0.72}}},
-      .held_out = diagnosis::HeldOutScore{.overall = score, .records = {score}},
-      .shares = {{"stiffness", 0.8}, {"joint_friction", 0.2}}};
+      .held_out = diagnosis::HeldOutScore{.overall = score, .records = {score}}};
+  d.attribution = {.reducible = 0.6,
+                   .changes = {{.id = "stiffness", .calibration = true, .share = 0.8},
+                               {.id = "joint_friction", .share = 0.2}}};
   d.ranking = {first,
                {.name = "stiffness", .probability = 0.1},
                {.name = "delay", .probability = 1e-6, .parameters = {{"delay", "time", "s"}}}};
@@ -50,8 +52,8 @@ TEST(DiagnosisPage, SaysVerdictLocationCauseImprovementAndNextExperiment) {
   const report::Page page = views::diagnosis_page(example());
   EXPECT_EQ(page.headline,
             "Joint friction and stiffness explain why the bench differs from the simulation");
-  EXPECT_THAT(page.verdict, ElementsAre("The simulation does not contain this effect.",
-                                        HasSubstr("Doubtful: a</script>")));
+  EXPECT_THAT(page.verdict,
+              ElementsAre("Your simulation lacks this effect.", HasSubstr("Doubtful: a</script>")));
   std::vector<std::string> headings;
   for (const report::PageSection& section : page.sections) headings.push_back(section.heading);
   EXPECT_THAT(headings, ElementsAre("Where", "Cause", "Improvement", "Next experiment"));

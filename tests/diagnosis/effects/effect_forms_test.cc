@@ -35,7 +35,7 @@ TEST(Stiffness, IsThatOfTheFirstModeWhateverShareOfItTheJointHas) {
   for (const double ratio : {0.6, 0.95, 1.2})
     for (const double joint_share : {0.5, 0.7, 1.})
       for (const double modal_share : {0., 0.4, 1.}) {
-        const Chain chain = with("stiffness", {ratio, 0.5, modal_share}, joint_share);
+        const Chain chain = with("stiffness", {ratio, 0.5, modal_share, 0.5}, joint_share);
         // Light damping shifts the peak by a few ten-thousandths.
         EXPECT_NEAR(resonance_rad_s(chain) / (220. * std::sqrt(ratio)), 1., 2e-3)
             << ratio << " " << joint_share << " " << modal_share;
@@ -43,9 +43,10 @@ TEST(Stiffness, IsThatOfTheFirstModeWhateverShareOfItTheJointHas) {
 }
 
 TEST(Stiffness, LeavesTheStaticMomentAlone) {
-  const double nominal = std::abs(LinearResponse(with("stiffness", {1., 0., 0.5})).at(0.).base);
+  const double nominal =
+      std::abs(LinearResponse(with("stiffness", {1., 0., 0.5, 0.5})).at(0.).base);
   for (const double modal_share : {0., 1.}) {
-    const Chain softer = with("stiffness", {0.6, 0., modal_share});
+    const Chain softer = with("stiffness", {0.6, 0., modal_share, 0.5});
     EXPECT_NEAR(std::abs(LinearResponse(softer).at(0.).base) / nominal, 1., 1e-12);
   }
 }
@@ -74,7 +75,7 @@ Chain solid_with(const std::string& id, const std::vector<double>& values) {
 TEST(Stiffness, FollowsSiliconeAndWireOfAModelThatKnowsThem) {
   const double ratio = 0.8;
   for (const double wire_share : {0., 0.3, 1.}) {
-    const Chain chain = solid_with("stiffness", {ratio, 0.5, wire_share});
+    const Chain chain = solid_with("stiffness", {ratio, 0.5, wire_share, 0.5});
     EXPECT_NEAR(chain.structure.modes[0].frequency_rad_s, 220. * std::sqrt(ratio), 1e-9);
     // Springs in series: 1 / r = p / x + 1 - p.
     const double silicone = 0.56 / (std::pow(ratio, wire_share - 1.) - 0.44),

@@ -42,8 +42,7 @@ struct Trial {
       : fit_records(prepare_experiment(nominal, real, signals::Split::fit, InputNoise::reduced)),
         held_out(
             prepare_experiment(nominal, real, signals::Split::held_out, InputNoise::as_measured)),
-        fit(fit_hypothesis(fit_records,
-                           Hypothesis({&find_effect("delay"), &find_effect("stiffness")}))) {}
+        fit(fit_hypothesis(fit_records, Hypothesis({&find_effect("delay")}))) {}
 };
 
 /// joint_error: error of the simulated joint share in its stated standard deviations, which limits

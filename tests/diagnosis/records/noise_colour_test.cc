@@ -94,7 +94,7 @@ signals::Dataset coloured_bench(const NoiseColour& colour) {
 }
 
 TEST(ChannelColours, EachChannelHasItsOwn) {
-  const ChannelColours colours = channel_colours(coloured_bench({5., 5.}), 2.);
+  const ChannelColours colours = channel_colours(coloured_bench({5., 5.}), 2., 0.);
   EXPECT_NEAR(colours.moment.density(0.5), 6., 3.);
   EXPECT_EQ(colours.acceleration.excess, 0.);
 }
@@ -133,7 +133,7 @@ signals::Dataset moving_bench(const std::size_t n) {
 
 TEST(ChannelColours, OfAMovedRecordAreWhatNoResponseMakes) {
   constexpr double bandwidth_hz = 3.;
-  const NoiseColour colour = channel_colours(moving_bench(30000), bandwidth_hz).moment;
+  const NoiseColour colour = channel_colours(moving_bench(30000), bandwidth_hz, 0.).moment;
   for (const double f : {5., 30., 40., 100., 200., 249.}) {
     EXPECT_GT(colour.density(f), 0.9) << f;
     EXPECT_LT(colour.density(f), 2.) << f;
@@ -141,14 +141,31 @@ TEST(ChannelColours, OfAMovedRecordAreWhatNoResponseMakes) {
   EXPECT_NEAR(colour.density(70.) / colour.density(100.), 100., 25.);
 }
 
+/// White noise of the accelerometer is no colour of the moment, although the response paints it.
+TEST(ChannelColours, LeaveOutTheAccelerometerNoiseThatTheResponseCarries) {
+  signals::Dataset bench = moving_bench(30000);
+  signals::Record& record = bench.records.front().record;
+  const auto a = record.channel(signals::channel::base_acceleration);
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0., 0.05);
+  std::vector<double> read(a.begin(), a.end());
+  for (double& value : read) value += noise(random);
+  record.set_channel(signals::channel::base_acceleration, read);
+  const auto near_mode = [&](double acceleration_noise) {
+    const NoiseColour colour = channel_colours(bench, 3., acceleration_noise).moment;
+    return colour.density(30.) / colour.density(200.);
+  };
+  EXPECT_GT(near_mode(0.), 4. * near_mode(0.05));
+}
+
 TEST(ChannelColours, AreWhiteWhereAMovedRecordIsTooShortForItsModes) {
-  EXPECT_TRUE(channel_colours(moving_bench(2000), 3.).moment.bands.empty());
+  EXPECT_TRUE(channel_colours(moving_bench(2000), 3., 0.).moment.bands.empty());
 }
 
 TEST(ChannelColours, NeedNoMovedRecordWhereOneIsAtRest) {
   signals::Dataset bench = coloured_bench({5., 5.});
   bench.records.push_back(moving_bench(30000).records.front());
-  EXPECT_TRUE(channel_colours(bench, 3.).moment.bands.empty());
+  EXPECT_TRUE(channel_colours(bench, 3., 0.).moment.bands.empty());
 }
 
 }  // namespace

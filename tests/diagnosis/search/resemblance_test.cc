@@ -15,8 +15,7 @@ class ResemblanceTest : public testing::Test {
     fit_ = fit_hypothesis(experiment_, Hypothesis{});
   }
   Resemblance of(const std::string& effect, const std::vector<std::vector<double>>& tried) const {
-    return resemblance(experiment_, fit_, whitened_residual(experiment_, fit_), find_effect(effect),
-                       tried);
+    return FitResidual(experiment_, fit_).resemblance(find_effect(effect), tried);
   }
 
   Experiment experiment_;

@@ -37,25 +37,25 @@ TEST(Search, ASensorThatIsALittleOffEverywhereIsAsBuilt) {
   EXPECT_EQ(search(experiment_of(rig, {.wind = true})).candidates.front().name, "none");
 }
 
-TEST(Search, NamesACalibrationThatIsFarOff) {
-  test::OneModeRig rig = test::noisy_rig();
-  rig.drag *= 1.5;
-  EXPECT_EQ(search(experiment_of(rig, {.wind = true})).candidates.front().name, "drag_error");
+double fitted_ratio(const SearchResult& result, const std::string& calibration) {
+  const HypothesisFit& fit = result.fits[result.candidates.front().fit];
+  return std::exp(fit.x(static_cast<Eigen::Index>(*fit.index(calibration, 0))));
 }
 
-TEST(Search, PrefersASmallCalibrationToWhatImitatesIt) {
-  // 0.15 %. A compliant base, more mass or backlash have nearly the same influence; none of them
-  // may be more probable because of its prior range.
+TEST(Search, FollowsACalibrationThatIsFarOff) {
   test::OneModeRig rig = test::noisy_rig();
-  rig.moment_noise *= 10.;
-  rig.stiffness = 0.9985;
-  const SearchResult result = search(experiment_of(rig, {.wind = true}), {.max_effects = 1});
-  const Candidate& best = result.candidates.front();
-  EXPECT_EQ(best.name, "stiffness");
-  constexpr double sixty_times = 4.1;
-  for (const Candidate& other : result.candidates) {
-    if (other.name.find("stiffness") != std::string::npos) continue;
-    EXPECT_GT(best.log_posterior - other.log_posterior, sixty_times) << other.name;
+  rig.drag *= 1.5;
+  const SearchResult result = search(experiment_of(rig, {.wind = true}));
+  EXPECT_EQ(result.candidates.front().name, "none");
+  EXPECT_NEAR(fitted_ratio(result, "drag_error"), 1.5, 0.02);
+}
+
+TEST(Search, FollowsAResonanceThatIsFarOff) {
+  for (const double stiffness : {0.55, 1.3}) {
+    test::OneModeRig rig = test::noisy_rig();
+    rig.stiffness = stiffness;
+    const SearchResult result = search(experiment_of(rig), {.max_effects = 1});
+    EXPECT_NEAR(fitted_ratio(result, "stiffness"), stiffness, 0.01 * stiffness);
   }
 }
 
@@ -72,19 +72,6 @@ TEST(Search, FindsAWeakNarrowModeWhereverItLies) {
     ASSERT_TRUE(index.has_value()) << hz;
     EXPECT_NEAR(std::exp(fit.x(static_cast<Eigen::Index>(*index))), hz, 0.01 * hz);
   }
-}
-
-TEST(Search, AnAnswerThatLeavesMoreThanNoiseIsNone) {
-  // Other joint effects approximate a hardening spring, but not down to the noise.
-  test::OneModeRig rig = test::noisy_rig();
-  rig.cubic = 1e7;
-  const SearchResult result = search(experiment_of(rig), {.left_out = {"hardening"}});
-  EXPECT_EQ(result.candidates.front().name, outside_catalogue);
-  ASSERT_FALSE(result.refuted.empty());
-  EXPECT_TRUE(std::is_sorted(
-      result.refuted.begin(), result.refuted.end(),
-      [](const Candidate& a, const Candidate& b) { return a.log_posterior > b.log_posterior; }));
-  for (const Candidate& candidate : result.refuted) EXPECT_EQ(candidate.probability, 0.);
 }
 
 TEST(Search, ASensorThatIsMerelyOffIsNoAnswerWhereMuchIsLeft) {

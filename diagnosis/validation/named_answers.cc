@@ -1,0 +1,185 @@
+#include "diagnosis/validation/named_answers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "diagnosis/validation/attribution.h"
+#include "diagnosis/validation/held_out.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// Answers below this share of the best one's probability are not reduced.
+constexpr double hopeless = 1e-3;
+/// No simulation is more accurate than this share of its usual accuracy: the first percentile of
+/// the level of the discrepancy, whose logarithm has the spread 1.
+constexpr double best_of_usual = 0.1;
+
+/// Does the effect change predictions? Noise has no time course, and the ages of repeated samples
+/// are unknown in each record.
+bool is_predictable(const Effect& effect) {
+  return !effect.irreducible && probe(effect).new_sample_share == 0.;
+}
+
+class Reduction {
+ public:
+  Reduction(const SearchResult& result, const Experiment& experiment, const Experiment& fitted,
+            const Experiment& scored)
+      : result_(result), experiment_(experiment), fitted_(fitted), scored_(scored) {
+    for (std::size_t i = 0; i < result.fits.size(); ++i)
+      known_[result.fits[i].hypothesis.name()] = i;
+  }
+
+  /// The fit of the simplest answer that closes the gap as well as the given fit.
+  std::size_t simplest(const std::size_t whole) {
+    for (std::size_t fit = whole;;) {
+      const std::optional<std::size_t> fewer = without_least_needed(fit);
+      // Several effects may each close too little for a name, and much together.
+      if (!fewer || need_of(whole, *fewer) >= 1.) return fit;
+      fit = *fewer;
+    }
+  }
+
+  const Attribution& attribution(std::size_t fit) {
+    const auto [found, is_new] = attributions_.try_emplace(fit);
+    if (is_new) found->second = attribute_gap(experiment_, scored_, result_.fits[fit]);
+    return found->second;
+  }
+
+  /// Does a fit leave an error that no simulation has? Random effects explain a power that no
+  /// prediction can.
+  bool leaves_much(std::size_t fit) {
+    const Attribution& all = attribution(fit);
+    const auto& effects = result_.fits[fit].hypothesis.effects();
+    if (!std::ranges::all_of(effects, [](const Effect* e) { return is_predictable(*e); }))
+      return false;
+    // Without rest and repeats the noise is a guess.
+    return experiment_.acceleration_noise_is_measured && all.unexplained >= least_share &&
+           all.reducible * all.unexplained > std::pow(experiment_.simulation_accuracy, 2);
+  }
+
+  /// The fit with a known effect that leaves the least error, of the most probable ones.
+  std::optional<std::size_t> nearest_known() {
+    constexpr std::size_t n_compared = 5;
+    std::optional<std::size_t> best;
+    std::size_t n = 0;
+    for (const Candidate& candidate : result_.candidates) {
+      if (result_.fits[candidate.fit].hypothesis.effects().empty()) continue;
+      if (n++ == n_compared) break;
+      if (!best || error_power(candidate.fit) < error_power(*best)) best = candidate.fit;
+    }
+    return best;
+  }
+
+  /// The fit with calibration parameters alone.
+  std::size_t recalibrated() const { return known_.at("none"); }
+
+  /// Is the error that recalibration leaves so small that no unknown cause is worth a name?
+  bool is_all_explained() {
+    const double recalibrated = error_power(known_.at("none"));
+    return recalibrated - floor_[&scored_] < std::pow(experiment_.simulation_accuracy, 2);
+  }
+
+ private:
+  /// Mean square error relative to the measured moment, in the scored records.
+  double error_power(std::size_t fit) { return error_power(fit, scored_); }
+  double error_power(std::size_t fit, const Experiment& records) {
+    const auto [found, is_new] = power_.try_emplace({fit, &records}, 0.);
+    if (is_new) {
+      const ErrorScore score =
+          score_held_out(experiment_, records, result_.fits[fit], {.n_resamples = 0}).overall;
+      found->second = score.nrmse_after * score.nrmse_after;
+      floor_[&records] = score.noise_floor * score.noise_floor;
+    }
+    return found->second;
+  }
+
+  /// What a fit without one effect leaves more than the whole fit, in the records that show it
+  /// best, relative to what is worth a name.
+  double need_of(std::size_t whole, std::size_t without) {
+    double need = 0.;
+    for (const Experiment* records : {&scored_, &fitted_}) {
+      const double with = error_power(whole, *records),
+                   recalibrated = error_power(known_.at("none"), *records),
+                   gap = recalibrated - std::min(with, floor_[records]);
+      need = std::max(
+          need, (error_power(without, *records) - with) / std::max(least_share * gap, any_error()));
+    }
+    return need;
+  }
+
+  double any_error() const { return std::pow(best_of_usual * experiment_.simulation_accuracy, 2); }
+
+  std::optional<std::size_t> without_least_needed(std::size_t fit) {
+    const Hypothesis& hypothesis = result_.fits[fit].hypothesis;
+    if (hypothesis.is_discrepancy()) return std::nullopt;
+    std::optional<std::size_t> best;
+    double least = 1.;
+    for (const Effect* effect : hypothesis.effects()) {
+      const auto found = known_.find(hypothesis.without(*effect).name());
+      if (!is_predictable(*effect) || found == known_.end()) continue;
+      const double need = need_of(fit, found->second);
+      if (need >= least || closes_in_company(fit, *effect)) continue;
+      least = need;
+      best = found->second;
+    }
+    return best;
+  }
+
+  /// Does the effect close a part of the gap as it was brought? Recalibration alone might have
+  /// closed it, too.
+  bool closes_in_company(std::size_t fit, const Effect& effect) {
+    const Attribution& all = attribution(fit);
+    return std::ranges::any_of(all.changes, [&](const AttributedChange& change) {
+      return change.id == effect.id && change.share >= least_share &&
+             change.share * all.reducible >= any_error();
+    });
+  }
+
+  const SearchResult& result_;
+  const Experiment& experiment_;
+  const Experiment& fitted_;  // its records as measured
+  const Experiment& scored_;
+  std::map<std::string, std::size_t> known_;  // hypothesis -> index of its fit
+  std::map<std::pair<std::size_t, const Experiment*>, double> power_;
+  std::map<std::size_t, Attribution> attributions_;
+  std::map<const Experiment*, double> floor_;
+};
+
+}  // namespace
+
+void name_answers(SearchResult& result, const Experiment& experiment, const Experiment& fitted,
+                  const Experiment& scored) {
+  Reduction reduction(result, experiment, fitted, scored);
+  result.nearest_known = reduction.nearest_known();
+  std::vector<Candidate> named;
+  for (Candidate candidate : result.candidates) {
+    if (result.fits[candidate.fit].hypothesis.is_discrepancy() && reduction.is_all_explained())
+      candidate.fit = reduction.recalibrated();
+    const bool is_known = !result.fits[candidate.fit].hypothesis.is_discrepancy();
+    if (candidate.probability > hopeless && is_known) {
+      candidate.fit = reduction.simplest(candidate.fit);
+      candidate.calibrations =
+          named_calibrations(reduction.attribution(candidate.fit), experiment.simulation_accuracy);
+      std::vector<std::string> ids = effect_ids(result.fits[candidate.fit].hypothesis.name());
+      ids.insert(ids.end(), candidate.calibrations.begin(), candidate.calibrations.end());
+      candidate.name = joined_name(std::move(ids));
+      if (reduction.leaves_much(candidate.fit)) candidate.name = outside_catalogue;
+    }
+    const auto same = std::find_if(named.begin(), named.end(), [&](const Candidate& other) {
+      return other.name == candidate.name;
+    });
+    if (same == named.end())
+      named.push_back(std::move(candidate));
+    else
+      same->probability += candidate.probability;
+  }
+  std::stable_sort(named.begin(), named.end(), [](const Candidate& a, const Candidate& b) {
+    return a.probability > b.probability;
+  });
+  result.candidates = std::move(named);
+}
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "diagnosis/fit/hypothesis_fit.h"
+
+namespace vibrissa::diagnosis {
+
+/// A parameter of an effect with its 95 % interval, in its own unit.
+struct ParameterEstimate {
+  std::string effect{}, name{}, unit{};
+  double value = 0.;
+  std::array<double, 2> ci95{};
+  bool at_limit = false;  // at the limit of the searched range: the interval has no meaning
+};
+
+/// Value and 95 % interval of each parameter of the effects of an answer ("a+b"), transformed back
+/// from the fit's coordinates and limited to the parameter's bounds.
+std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
+                                                   const std::string& name);
+
+}  // namespace vibrissa::diagnosis

@@ -1,0 +1,78 @@
+#include "diagnosis/validation/named_answers.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/diagnosis/one_mode_rig.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+class NamedAnswers : public testing::Test {
+ protected:
+  void measure(const test::OneModeRig& rig) {
+    const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
+    const signals::Dataset dataset = test::rig_dataset(rig);
+    fit_records_ = prepare_experiment(nominal, dataset, signals::Split::fit, InputNoise::reduced);
+    fit_as_measured_ =
+        prepare_experiment(nominal, dataset, signals::Split::fit, InputNoise::as_measured);
+    held_out_ =
+        prepare_experiment(nominal, dataset, signals::Split::held_out, InputNoise::as_measured);
+  }
+  /// Answers in this order, the first with most of the probability.
+  std::vector<Candidate> named(const std::vector<Hypothesis>& hypotheses) {
+    SearchResult result;
+    double probability = 0.9;
+    for (const Hypothesis& hypothesis : hypotheses) {
+      result.candidates.push_back({.name = hypothesis.name(),
+                                   .fit = result.fits.size(),
+                                   .calibrations = {},
+                                   .probability = probability});
+      result.fits.push_back(fit_hypothesis(fit_records_, hypothesis));
+      probability *= 0.1;
+    }
+    name_answers(result, fit_records_, fit_as_measured_, held_out_);
+    return result.candidates;
+  }
+  static Hypothesis of(const std::vector<std::string>& ids) {
+    std::vector<const Effect*> effects;
+    for (const std::string& id : ids) effects.push_back(&find_effect(id));
+    return Hypothesis(effects);
+  }
+
+  Experiment fit_records_, fit_as_measured_, held_out_;
+};
+
+TEST_F(NamedAnswers, AreReducedToTheSimplestThatClosesTheGap) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.cubic = 1e7;
+  measure(rig);
+  const auto answers = named(
+      {of({"coil_feedthrough", "hardening"}), of({"hardening"}), of({}), of({"coil_feedthrough"})});
+  EXPECT_EQ(answers.front().name, "hardening");
+  EXPECT_NEAR(answers.front().probability, 0.99, 1e-9);
+}
+
+TEST_F(NamedAnswers, KeepTwoEffectsThatBothAreNeeded) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.cubic = 2e6;
+  rig.delay_s = 2e-3;
+  measure(rig);
+  SearchResult result = search(fit_records_);
+  name_answers(result, fit_records_, fit_as_measured_, held_out_);
+  EXPECT_EQ(result.candidates.front().name, "delay+hardening");
+}
+
+TEST_F(NamedAnswers, HoldTheCalibrationsThatMoved) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.stiffness = 0.8;
+  measure(rig);
+  EXPECT_EQ(named({of({})}).front().name, "stiffness");
+}
+
+TEST_F(NamedAnswers, KnowNoUnknownCauseWhereRecalibrationLeavesNothing) {
+  measure(test::noisy_rig());
+  EXPECT_EQ(named({Hypothesis::discrepancy(), of({})}).front().name, "none");
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis
