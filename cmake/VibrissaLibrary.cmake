@@ -7,9 +7,9 @@ get_filename_component(VIBRISSA_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
 set(VIBRISSA_SOLID_HEADERS <Eigen/Dense> <nlohmann/json.hpp> <deal.II/base/parameter_handler.h>
     <deal.II/fe/fe_values.h> <deal.II/grid/tria.h>)
 
-function(vibrissa_batch target size)
+function(vibrissa_batch target)
   if(VIBRISSA_BATCHES)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
 endfunction()
 
@@ -30,7 +30,7 @@ function(vibrissa_library room)
   elseif(VIBRISSA_PRECOMPILE AND room MATCHES "^(case|views|reproduction|suite|apps)$")
     target_precompile_headers(vibrissa_${room} REUSE_FROM vibrissa_fem)
   endif()
-  vibrissa_batch(vibrissa_${room} 8)
+  vibrissa_batch(vibrissa_${room})
 endfunction()
 
 # vibrissa_tests(ROOM LINK ... [SOURCES ...]): the GoogleTest program of one room, of every *_test.cc of
@@ -42,7 +42,7 @@ function(vibrissa_tests room)
   file(GLOB_RECURSE tests CONFIGURE_DEPENDS *_test.cc)
   list(APPEND ARG_SOURCES ${tests})
   add_executable(test_${room} ${ARG_SOURCES})
-  vibrissa_batch(test_${room} 8)
+  vibrissa_batch(test_${room})
   # The time of a test is spent in the rooms; of the test program itself it is spent in compiling it.
   target_compile_options(test_${room} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(VIBRISSA_PRECOMPILE AND room MATCHES "^(materials|meshes|flow|fem)$")

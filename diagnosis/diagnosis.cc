@@ -57,7 +57,7 @@ double joint_share_deviation(const Experiment& experiment, const HypothesisFit& 
                   std::sqrt(fit.covariance(index, index)));
 }
 
-/// Scores the first few answers; answers with the same fit share its scores.
+/// Scores the first few answers.
 void score_answers(Diagnosis& out, const SearchResult& result, const Experiment& experiment,
                    const Experiment& held_out, const DiagnoseOptions& options) {
   for (std::size_t i = 0; i < std::min(options.n_scored, out.ranking.size()); ++i)

@@ -27,13 +27,8 @@ Effect damping() {
         const double most = v[0] / modal, least = std::pow(most, v[1]);
         chain.joint_change.damper *= joint_damps_most ? most : least;
         chain.joint_change.rest_damping *= joint_damps_most ? least : most;
-        for (std::size_t i = 0; i < chain.structure.modes.size(); ++i) {
-          StructuralMode& mode = chain.structure.modes[i];
-          const double factor = i == 0 ? modal : std::pow(v[0], v[3]);
-          mode.damping_ratio *= factor;
-          mode.base_rate *= factor;
-          mode.wind_rate *= factor;
-        }
+        for (std::size_t i = 0; i < chain.structure.modes.size(); ++i)
+          chain.structure.modes[i].scale_damping(i == 0 ? modal : std::pow(v[0], v[3]));
       }};
 }
 

@@ -14,9 +14,7 @@ double change_density(NominalModel& structure, const ParameterPath& path, const 
 void load(StructuralMode& mode, const double ratio) {
   const double slower = 1. / std::sqrt(ratio);
   mode.frequency_rad_s *= slower;
-  mode.damping_ratio *= slower;
-  mode.base_rate *= slower;
-  mode.wind_rate *= slower;
+  mode.scale_damping(slower);
 }
 
 }  // namespace

@@ -19,10 +19,7 @@ void change_materials(Chain& chain, const ParameterPath& wire, const ParameterPa
   chain.structure.modes.front().frequency_rad_s = before.front() * std::sqrt(v[0]);
   for (std::size_t k = 0; k < before.size(); ++k) {
     StructuralMode& mode = chain.structure.modes[k];
-    const double damping = std::pow(mode.frequency_rad_s / before[k], 2. * v[1] - 1.);
-    mode.damping_ratio *= damping;
-    mode.base_rate *= damping;
-    mode.wind_rate *= damping;
+    mode.scale_damping(std::pow(mode.frequency_rad_s / before[k], 2. * v[1] - 1.));
   }
   chain.joint_stiffness *= silicone_ratio;
   chain.joint_share /= chain.joint_share + (1. - chain.joint_share) * silicone_ratio;
@@ -31,10 +28,7 @@ void change_materials(Chain& chain, const ParameterPath& wire, const ParameterPa
 /// k = ratio k0, c = ratio^q c0 of one mode: zeta = c / (2 sqrt(k m)).
 void stiffen(StructuralMode& mode, const double ratio, const double q) {
   mode.frequency_rad_s *= std::sqrt(ratio);
-  const double damping = std::pow(ratio, q - 0.5);
-  mode.damping_ratio *= damping;
-  mode.base_rate *= damping;
-  mode.wind_rate *= damping;
+  mode.scale_damping(std::pow(ratio, q - 0.5));
 }
 
 }  // namespace

@@ -59,7 +59,9 @@ Eigen::VectorXcd FitPosterior::change_by(const Effect& effect, const Eigen::Vect
 void FitPosterior::update_slow_variance(const Eigen::VectorXd& x,
                                         const std::vector<Prediction>& at) {
   for (BinVariances* parts : {&misfit_, &power_, &form_}) parts->clear();
-  DiscrepancyShapes shapes{.mean = Eigen::VectorXcd(discrepancy_.n_rows()), .changes = {}};
+  const auto n_effects = static_cast<Eigen::Index>(effects_.size());
+  DiscrepancyShapes shapes{.mean = Eigen::VectorXcd(discrepancy_.n_rows()),
+                           .changes = Eigen::MatrixXcd(discrepancy_.n_rows(), n_effects)};
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < at.size(); ++r) {
     const PreparedRecord& record = experiment_.records[r];
@@ -70,12 +72,11 @@ void FitPosterior::update_slow_variance(const Eigen::VectorXd& x,
     form_.emplace_back(record.n_bins(), 0.);
     for (const Complex& mean : at[r].mean) shapes.mean(row++) = mean;
   }
-  shapes.changes.resize(discrepancy_.n_rows(), 0);
-  for (const Effect* effect : effects_) {
-    const Eigen::VectorXcd change = change_by(*effect, x, shapes.mean);
-    shapes.changes.conservativeResize(Eigen::NoChange, shapes.changes.cols() + 1);
-    shapes.changes.rightCols(1) = change;
-    if (!is_nonlinear(*effect)) continue;
+  for (Eigen::Index i = 0; i < n_effects; ++i) {
+    const Effect& effect = *effects_[static_cast<std::size_t>(i)];
+    const Eigen::VectorXcd change = change_by(effect, x, shapes.mean);
+    shapes.changes.col(i) = change;
+    if (!is_nonlinear(effect)) continue;
     row = 0;
     for (std::vector<double>& form : form_) {
       const std::vector<double> power =
@@ -154,18 +155,26 @@ std::array<double, n_record_kinds> levels(const Eigen::VectorXd& x) {
 
 }  // namespace
 
-FitPosterior::WhitenedErrors FitPosterior::whitened_errors(
-    const Eigen::VectorXd& x, const std::vector<Prediction>& at) const {
-  const BinVariances s = variances(x, at, acceleration_variance(x));
+FitPosterior::WhitenedErrors FitPosterior::whitened_errors(const std::vector<Prediction>& at,
+                                                           const BinVariances& s) const {
   WhitenedErrors out{errors(at, s), inverse_deviations(s, discrepancy_.n_rows())};
   out.error.array() *= out.per_deviation.array();
   return out;
 }
 
+FitPosterior::WhitenedErrors FitPosterior::whitened_errors(
+    const Eigen::VectorXd& x, const std::vector<Prediction>& at) const {
+  return whitened_errors(at, variances(x, at, acceleration_variance(x)));
+}
+
+ModelDiscrepancy::Solution FitPosterior::discrepancy(const Eigen::VectorXd& x,
+                                                     const WhitenedErrors& whitened) const {
+  return discrepancy_.solve(whitened.error, whitened.per_deviation, levels(x), form_level(x));
+}
+
 ModelDiscrepancy::Solution FitPosterior::discrepancy(const Eigen::VectorXd& x,
                                                      const std::vector<Prediction>& at) const {
-  const WhitenedErrors whitened = whitened_errors(x, at);
-  return discrepancy_.solve(whitened.error, whitened.per_deviation, levels(x), form_level(x));
+  return discrepancy(x, whitened_errors(x, at));
 }
 
 double FitPosterior::log_likelihood(const Eigen::VectorXd& x,
@@ -180,7 +189,7 @@ double FitPosterior::log_likelihood(const Eigen::VectorXd& x,
     sum += IntegratedNuisances(at[r].unknowns, error, s[r]).log_likelihood_gain() -
            accelerometer_term(experiment_.records[r], a_variance);
   }
-  sum += discrepancy(x, at).log_likelihood_gain();
+  sum += discrepancy(x, whitened_errors(at, s)).log_likelihood_gain();
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
 }
 
@@ -313,10 +322,9 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
   const double a_variance = acceleration_variance(x);
   const BinVariances s = variances(x, at, a_variance);
   const Derivatives d = whitened(x, at, s, a_variance, derivatives);
-  const Eigen::VectorXd per_deviation = inverse_deviations(s, discrepancy_.n_rows());
-  const Eigen::VectorXcd whole = errors(at, s).cwiseProduct(per_deviation);
-  const ModelDiscrepancy::Solution terms =
-      discrepancy_.solve(whole, per_deviation, levels(x), form_level(x));
+  const WhitenedErrors whitened_error = whitened_errors(at, s);
+  const Eigen::VectorXcd& whole = whitened_error.error;
+  const ModelDiscrepancy::Solution terms = discrepancy(x, whitened_error);
   Eigen::VectorXd error(d.mean.rows());
   for (Eigen::Index row = 0; row < whole.size(); ++row) {
     error(2 * row) = whole(row).real();

@@ -96,6 +96,9 @@ class FitPosterior {
                          double acceleration_variance) const;
   void remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
                        Eigen::MatrixXd& columns, Eigen::MatrixXd& information) const;
+  WhitenedErrors whitened_errors(const std::vector<Prediction>& at, const BinVariances& s) const;
+  ModelDiscrepancy::Solution discrepancy(const Eigen::VectorXd& x,
+                                         const WhitenedErrors& whitened) const;
   /// The error of all records [N m], without the most probable per-record nuisance parameters.
   Eigen::VectorXcd errors(const std::vector<Prediction>& at, const BinVariances& s) const;
   /// Parameter of the unknown cause for a bin.

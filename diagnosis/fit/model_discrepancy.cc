@@ -65,7 +65,6 @@ ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment) {
         position_.back() = 2. * (f - edges[above - 1]) / (edges[above] - edges[above - 1]) - 1.;
     }
   }
-  n_blocks_ = kind_of_block_.size();
 }
 
 ModelDiscrepancy::Solution ModelDiscrepancy::solve(const Eigen::VectorXcd& error,
@@ -76,8 +75,8 @@ ModelDiscrepancy::Solution ModelDiscrepancy::solve(const Eigen::VectorXcd& error
   out.of_ = this;
   const Eigen::Index n_terms = n_of_prediction + shapes_.changes.cols();
   out.whitened_.setZero(n_rows(), n_terms);
-  out.inverse_.assign(n_blocks_, Eigen::MatrixXcd::Zero(n_terms, n_terms));
-  out.weights_.assign(n_blocks_, Eigen::VectorXcd::Zero(n_terms));
+  out.inverse_.assign(n_blocks(), Eigen::MatrixXcd::Zero(n_terms, n_terms));
+  out.weights_.assign(n_blocks(), Eigen::VectorXcd::Zero(n_terms));
   for (Eigen::Index row = 0; row < n_rows(); ++row) {
     const auto i = static_cast<std::size_t>(row);
     if (block_[i] < 0) continue;
@@ -93,7 +92,7 @@ ModelDiscrepancy::Solution ModelDiscrepancy::solve(const Eigen::VectorXcd& error
     }
   }
   const Eigen::MatrixXcd identity = Eigen::MatrixXcd::Identity(n_terms, n_terms);
-  for (std::size_t k = 0; k < n_blocks_; ++k) {
+  for (std::size_t k = 0; k < n_blocks(); ++k) {
     const Eigen::MatrixXcd gram = out.inverse_[k].selfadjointView<Eigen::Lower>();
     const Eigen::LLT<Eigen::MatrixXcd> llt(identity + gram);
     const Eigen::VectorXcd products = out.weights_[k];

@@ -34,7 +34,7 @@ class ModelDiscrepancy {
  public:
   explicit ModelDiscrepancy(const Experiment& experiment);
 
-  std::size_t n_blocks() const { return n_blocks_; }
+  std::size_t n_blocks() const { return kind_of_block_.size(); }
   /// Block of a row; -1 for a record at rest.
   int block(Eigen::Index row) const { return block_[static_cast<std::size_t>(row)]; }
   Eigen::Index n_rows() const { return static_cast<Eigen::Index>(block_.size()); }
@@ -76,7 +76,6 @@ class ModelDiscrepancy {
   std::vector<int> block_;        // of each row; -1: at rest
   std::vector<double> position_;  // t of each row
   std::vector<std::size_t> kind_of_block_;
-  std::size_t n_blocks_ = 0;
   DiscrepancyShapes shapes_;
 };
 

@@ -25,6 +25,12 @@ struct StructuralMode {
 
   Complex base_response(Complex s) const;
   Complex wind_response(Complex s) const;
+  /// Multiplies the damping ratio, and with it the viscous part of both moments.
+  void scale_damping(double factor) {
+    damping_ratio *= factor;
+    base_rate *= factor;
+    wind_rate *= factor;
+  }
 };
 
 /// Sensitivity of the structure to one physical parameter x, from the finite-element model: d
