@@ -8,6 +8,8 @@
 #include "diagnosis/records/long_records.h"
 #include "diagnosis/search/calibrated_odds.h"
 #include "diagnosis/search/confidence_set.h"
+#include "diagnosis/search/misplaced_record.h"
+#include "diagnosis/search/readout_choice.h"
 #include "diagnosis/validation/indistinguishable.h"
 #include "diagnosis/validation/named_answers.h"
 #include "signals/base/error.h"
@@ -28,6 +30,23 @@ void refuse_spoilt_data(const std::vector<Finding>& findings) {
 bool tells_something(const NominalModel& nominal, const signals::DatasetRecord& entry) {
   return entry.split == signals::Split::fit && entry.excitation != signals::Excitation{} &&
          is_comparable(nominal, entry);
+}
+
+Finding finding_of(const MisplacedRecord& misplaced) {
+  const std::string asked = misplaced.asks_for();
+  return {.kind = FindingKind::misplaced_record,
+          .record = misplaced.name,
+          .message = "it contradicts all other records and is left out" +
+                     (asked.empty() ? "" : "; alone it asks for " + asked) +
+                     ". Check its sensor, mount, level and file name"};
+}
+
+/// The dataset without a record, or without the one of which the record is a piece.
+signals::Dataset without(signals::Dataset dataset, const std::string& name) {
+  if (std::erase_if(dataset.records, [&](const auto& entry) { return name == entry.name; }) == 0)
+    std::erase_if(dataset.records,
+                  [&](const auto& entry) { return name.starts_with(entry.name + "_"); });
+  return dataset;
 }
 
 void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
@@ -172,6 +191,15 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
   out.untested = untested_effects(experiment);
   out.location = locate_gap(experiment);
   SearchResult result = search(experiment, options.search);
+  if (is_rotation({simulation, real}, experiment, result)) {
+    const SimulationAndRecords other = read_as_rotation({simulation, recorded});
+    return diagnose(other.simulation, other.real, options);
+  }
+  if (const auto misplaced = misplaced_record(experiment, result, options.search.n_threads)) {
+    out = diagnose(simulation, without(recorded, misplaced->name), options);
+    out.findings.insert(out.findings.begin(), finding_of(*misplaced));
+    return out;
+  }
   if (!result.is_complete)
     out.findings.push_back({.kind = FindingKind::time_limit,
                             .message = "the time limit ended the search: the answer is the best of "

@@ -54,6 +54,8 @@ std::string to_string(const FindingKind kind) {
       return "unlikely_gain";
     case FindingKind::two_clocks:
       return "two_clocks";
+    case FindingKind::misplaced_record:
+      return "misplaced_record";
     case FindingKind::time_limit:
       return "time_limit";
     case FindingKind::not_confirmed:
@@ -84,6 +86,7 @@ bool casts_doubt(const FindingKind kind) {
     case FindingKind::slow_rate:
     case FindingKind::unlikely_gain:
     case FindingKind::two_clocks:
+    case FindingKind::misplaced_record:
     case FindingKind::time_limit:
     case FindingKind::not_confirmed:
       return true;

@@ -30,6 +30,7 @@ enum class FindingKind {
   different_rate,
   unlikely_gain,
   two_clocks,
+  misplaced_record,
   time_limit,
   not_confirmed
 };

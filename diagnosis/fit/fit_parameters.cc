@@ -16,6 +16,8 @@ constexpr double unknown_spread = 1.;
 constexpr double usual_form_level = 0.3;
 /// Spread of the logarithm of a simulation's accuracy.
 constexpr double accuracy_spread = 1.;
+/// Usual relative error that a bench adds anew in each record and at each frequency.
+constexpr double usual_incoherence = 0.002, largest_incoherence = 0.04;
 /// Logarithm of the largest level of a discrepancy relative to the usual one: what exceeds five
 /// times the accuracy has a cause.
 constexpr double most_inaccurate = 1.6;
@@ -80,6 +82,15 @@ std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
                   .scale = accuracy_spread,
                   .low = std::log(1e-5),
                   .high = std::log(experiment.simulation_accuracy) + most_inaccurate}};
+  fit_parameters[index_of_incoherence].description = {
+      .name = "incoherent_error",
+      .unit = "1",
+      .logarithmic = true,
+      .prior = {.kind = Prior::Kind::normal,
+                .centre = std::log(usual_incoherence),
+                .scale = accuracy_spread,
+                .low = std::log(1e-6),
+                .high = std::log(largest_incoherence)}};
   const auto add = [&](const Effect& effect, bool nuisance) {
     for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
       fit_parameters.push_back({&effect, i, effect.parameters[i], nuisance});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "diagnosis/prediction/record_nuisances.h"
 #include "diagnosis/records/spectrum.h"
@@ -14,6 +15,15 @@ namespace {
 
 /// Relative misfit of the nominal model that is always assumed.
 constexpr double least_misfit = 1e-4;
+
+/// A half at its own frequencies, a half at all: another law of the same size changes the same
+/// frequencies in another way, and puts as much at other ones.
+std::vector<double> spread_out(std::vector<double> power) {
+  const double mean =
+      std::accumulate(power.begin(), power.end(), 0.) / static_cast<double>(power.size());
+  for (double& value : power) value = 0.5 * (value + mean);
+  return power;
+}
 
 double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
   const double misfit = record.excitation.wind ? nominal.wind_misfit : nominal.base_misfit;
@@ -58,7 +68,7 @@ Eigen::VectorXcd FitPosterior::change_by(const Effect& effect, const Eigen::Vect
 /// differs from record to record and from bin to bin.
 void FitPosterior::update_slow_variance(const Eigen::VectorXd& x,
                                         const std::vector<Prediction>& at) {
-  for (BinVariances* parts : {&misfit_, &power_, &form_}) parts->clear();
+  for (BinVariances* parts : {&misfit_, &power_, &incoherent_, &form_}) parts->clear();
   const auto n_effects = static_cast<Eigen::Index>(effects_.size());
   DiscrepancyShapes shapes{.mean = Eigen::VectorXcd(discrepancy_.n_rows()),
                            .changes = Eigen::MatrixXcd(discrepancy_.n_rows(), n_effects)};
@@ -69,6 +79,7 @@ void FitPosterior::update_slow_variance(const Eigen::VectorXd& x,
     const double share = nominal_misfit(experiment_.nominal, record);
     misfit_.push_back(power_.back());
     for (double& value : misfit_.back()) value *= share * share;
+    incoherent_.push_back(spread_out(power_.back()));
     form_.emplace_back(record.n_bins(), 0.);
     for (const Complex& mean : at[r].mean) shapes.mean(row++) = mean;
   }
@@ -79,8 +90,8 @@ void FitPosterior::update_slow_variance(const Eigen::VectorXd& x,
     if (!is_nonlinear(effect)) continue;
     row = 0;
     for (std::vector<double>& form : form_) {
-      const std::vector<double> power =
-          neighbour_mean(powers(std::span(change.data() + row, form.size())), power_reach);
+      const std::vector<double> power = spread_out(
+          neighbour_mean(powers(std::span(change.data() + row, form.size())), power_reach));
       for (std::size_t b = 0; b < form.size(); ++b) form[b] += power[b];
       row += static_cast<Eigen::Index>(form.size());
     }
@@ -111,6 +122,8 @@ std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Predi
     out[b] = moment * prediction.moment_noise[b] +
              acceleration_variance * prediction.acceleration_noise[b] +
              prediction.process_noise[b] + misfit_[record][b];
+  const double incoherent = std::exp(2. * x(index_of_incoherence));
+  for (std::size_t b = 0; b < out.size(); ++b) out[b] += incoherent * incoherent_[record][b];
   if (has_form_errors()) {
     const double level = form_level(x);
     for (std::size_t b = 0; b < out.size(); ++b) out[b] += level * level * form_[record][b];
@@ -222,14 +235,16 @@ void FitPosterior::set_noise_column(const Eigen::VectorXd& x, const std::vector<
   if (!moment) out.acceleration(index) = level / acceleration_variance;
 }
 
-/// Of the level of form errors or of the unknown cause.
+/// Of the level of incoherent errors, of form errors or of the unknown cause.
 void FitPosterior::set_level_column(const Eigen::VectorXd& x, const BinVariances& s,
                                     const Eigen::Index index, Derivatives& out) const {
   const double level = 2. * std::exp(2. * x(index));
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r)
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
-      if (has_form_errors())
+      if (index == static_cast<Eigen::Index>(index_of_incoherence))
+        out.variance(row, index) = level * incoherent_[r][b] / s[r][b];
+      else if (has_form_errors())
         out.variance(row, index) = level * form_[r][b] / s[r][b];
       else if (unknown_index(r, b) == index)
         out.variance(row, index) = level * power_[r][b] / s[r][b];
@@ -272,7 +287,7 @@ Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
   for (std::size_t i = n_noise_parameters; i < fit_parameters_.size(); ++i) {
     const FitParameter& fit_parameter = fit_parameters_[i];
     const bool is_of_chain = fit_parameter.effect != nullptr || i < index_of_discrepancy;
-    if (is_of_chain && fit_parameter.description.prior.low < fit_parameter.description.prior.high)
+    if (is_of_chain && !fit_parameter.description.prior.is_fixed())
       indices.push_back(static_cast<Eigen::Index>(i));
   }
   for (std::size_t first = 0; first < indices.size(); first += n_together) {
@@ -310,7 +325,7 @@ Derivatives FitPosterior::whitened(const Eigen::VectorXd& x, const std::vector<P
     const auto index = static_cast<Eigen::Index>(i);
     if (i < n_noise_parameters)
       set_noise_column(x, at, s, acceleration_variance, index, out);
-    else if (fit_parameters_[i].effect == nullptr && i >= n_common_parameters)
+    else if (fit_parameters_[i].effect == nullptr && i >= index_of_incoherence)
       set_level_column(x, s, index, out);
   }
   return out;

@@ -28,6 +28,7 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
   x(index_of_joint_loss) = 1.;
   x.segment(index_of_discrepancy, n_record_kinds)
       .setConstant(std::log(experiment.simulation_accuracy));
+  x(index_of_incoherence) = fit_parameters[index_of_incoherence].description.prior.centre;
   if (start != nullptr)
     x.head(nominal_nuisances ? n_noise_parameters : n_common_parameters) =
         start->x.head(nominal_nuisances ? n_noise_parameters : n_common_parameters);
@@ -140,28 +141,32 @@ bool has_recalibrated(const HypothesisFit& fit) {
 
 namespace {
 
-/// The level of the discrepancy stays at its prior's centre: far from the optimum it would explain
-/// what the parameters should.
+/// The levels of the discrepancy stay at the centres of their priors: far from the optimum they
+/// would explain what the parameters should.
 std::vector<FitParameter> with_usual_discrepancy(std::vector<FitParameter> fit_parameters) {
-  for (std::size_t kind = 0; kind < n_record_kinds; ++kind) {
-    Prior& prior = fit_parameters[index_of_discrepancy + kind].description.prior;
-    prior.low = prior.high = prior.centre;
-  }
-  if (fit_parameters.back().description.name == form_error_level) {
-    Prior& prior = fit_parameters.back().description.prior;
-    prior.low = prior.high = prior.centre;
-  }
+  for (std::size_t i = 0; i < fit_parameters.size(); ++i)
+    if ((i >= index_of_discrepancy && i < n_common_parameters) ||
+        fit_parameters[i].description.name == form_error_level) {
+      Prior& prior = fit_parameters[i].description.prior;
+      prior.low = prior.high = prior.centre;
+    }
   return fit_parameters;
 }
 
-/// Calibration parameters fixed at their nominal values.
-std::vector<FitParameter> with_nominal_calibrations(std::vector<FitParameter> fit_parameters) {
+/// Calibration parameters of the chosen effects fixed at their nominal values.
+template <typename Chosen>
+std::vector<FitParameter> with_nominal(std::vector<FitParameter> fit_parameters,
+                                       const Chosen& is_chosen) {
   for (FitParameter& fit_parameter : fit_parameters)
-    if (fit_parameter.nuisance) {
+    if (fit_parameter.nuisance && is_chosen(fit_parameter.effect->id)) {
       Prior& prior = fit_parameter.description.prior;
       prior.low = prior.high = prior.centre;
     }
   return fit_parameters;
+}
+
+std::vector<FitParameter> with_nominal_calibrations(const std::vector<FitParameter>& all) {
+  return with_nominal(all, [](const std::string&) { return true; });
 }
 
 /// Coarse grid of resonances, because a narrow resonance has a narrow basin of attraction: by the
@@ -222,20 +227,19 @@ std::vector<const Effect*> HypothesisFit::changes() const {
   return out;
 }
 
+std::vector<std::string> HypothesisFit::nominal_calibrations() const {
+  std::vector<std::string> out;
+  for (const FitParameter& parameter : fit_parameters)
+    if (parameter.nuisance && parameter.parameter == 0 && parameter.description.prior.is_fixed())
+      out.push_back(parameter.effect->id);
+  return out;
+}
+
 Chain HypothesisFit::chain(const Experiment& experiment) const {
   return make_chain(experiment, fit_parameters, x);
 }
 
 namespace {
-
-/// Calibration parameters fixed at their nominal values, but one.
-std::vector<FitParameter> with_nominal_calibrations_but(const std::vector<FitParameter>& all,
-                                                        const std::string& id) {
-  std::vector<FitParameter> out = with_nominal_calibrations(all);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i].effect != nullptr && all[i].effect->id == id) out[i] = all[i];
-  return out;
-}
 
 /// Optimisations of one hypothesis from several starts; keeps the best result.
 class Attempts {
@@ -259,7 +263,10 @@ class Attempts {
     optimise(of_first, first, state, n_held_iterations, patient);
     state.ended = false;
     state.derivatives.reset();
-    optimise(posterior_, fit_parameters_, state, options_.max_iterations, options_);
+    // A start that stays hopelessly below a previous one is given up.
+    FitOptions of_all = options_;
+    if (best_) of_all.to_beat = std::max(of_all.to_beat, best_->log_posterior);
+    optimise(posterior_, fit_parameters_, state, options_.max_iterations, of_all);
     if (!best_ || state.log_posterior > best_->log_posterior) best_ = std::move(state);
   }
   void from(const std::vector<Eigen::VectorXd>& starts) { from(starts, fit_parameters_); }
@@ -283,7 +290,10 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
                              const std::optional<FurtherStart>& further) {
   HypothesisFit fit;
   fit.hypothesis = hypothesis;
-  fit.fit_parameters = make_fit_parameters(experiment, hypothesis);
+  fit.fit_parameters =
+      with_nominal(make_fit_parameters(experiment, hypothesis), [&](const std::string& id) {
+        return std::ranges::find(options.nominal, id) != options.nominal.end();
+      });
   Attempts attempts(experiment, hypothesis, fit.fit_parameters, options);
   const std::vector<Eigen::VectorXd> nominal =
       start_vectors(experiment, fit.fit_parameters, hypothesis, start, /*nominal_nuisances=*/true);
@@ -291,21 +301,16 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
     attempts.from(start_vectors(experiment, fit.fit_parameters, hypothesis, start, false));
   else
     attempts.from(with_shifted_resonances(fit.fit_parameters, hypothesis, nominal));
-  // Calibration parameters may absorb an effect, and share the change of one of them: the other
-  // basins of attraction are reached with the others held.
-  if (start != nullptr && has_recalibrated(*start))
+  // Calibration parameters may absorb an effect: the other basins of attraction are reached with
+  // them held.
+  const bool is_refit = start != nullptr && start->hypothesis.name() == hypothesis.name();
+  if (start != nullptr && has_recalibrated(*start) && !is_refit)
     attempts.from(hypothesis.contains("mass")
                       ? with_shifted_resonances(fit.fit_parameters, hypothesis, nominal)
                       : nominal,
                   with_nominal_calibrations(fit.fit_parameters));
   if (start == nullptr && !hypothesis.effects().empty())
     attempts.from(nominal, with_nominal_calibrations(fit.fit_parameters));
-  if (start == nullptr && hypothesis.effects().empty() && !hypothesis.is_discrepancy())
-    for (const std::string& id : nuisance_ids())
-      attempts.from(id == "stiffness"
-                        ? with_shifted_resonances(fit.fit_parameters, hypothesis, nominal)
-                        : nominal,
-                    with_nominal_calibrations_but(fit.fit_parameters, id));
   if (further) attempts.from({further_start(experiment, fit.fit_parameters, *further)});
   set_at(fit, experiment, attempts.posterior(), attempts.best());
   return fit;

@@ -41,6 +41,8 @@ struct HypothesisFit {
   std::optional<std::size_t> index(const std::string& effect, std::size_t parameter) const;
   /// The effects and calibration parameters of the fit, each once, in the order of its parameters.
   std::vector<const Effect*> changes() const;
+  /// The calibration effects that the fit held at their nominal values.
+  std::vector<std::string> nominal_calibrations() const;
   Chain chain(const Experiment& experiment) const;
 };
 

@@ -15,7 +15,7 @@ Eigen::VectorXd damped_step(const std::vector<FitParameter>& fit_parameters,
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Prior& prior = fit_parameters[static_cast<std::size_t>(i)].description.prior;
-    if (prior.low == prior.high) continue;
+    if (prior.is_fixed()) continue;
     const bool at_low = x(i) <= prior.low && gradient(i) < 0.;
     const bool at_high = x(i) >= prior.high && gradient(i) > 0.;
     if (!at_low && !at_high) free.push_back(i);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "diagnosis/fit/fit_parameters.h"
@@ -18,6 +19,8 @@ struct FitOptions {
   double to_beat = -std::numeric_limits<double>::infinity();
   /// Number of starts that get a few iterations before the best basin is chosen.
   std::size_t n_promising = 2;
+  /// Calibration effects that stay nominal.
+  std::vector<std::string> nominal{};
 };
 
 /// Sets coordinates outside the bounds of their priors to the bounds.

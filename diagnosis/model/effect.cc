@@ -25,7 +25,7 @@ double Prior::log_density(const double x) const {
       return -0.5 * (degrees_of_freedom + 1.) * std::log1p(z * z / degrees_of_freedom) -
              std::log(scale) - student_log_norm(degrees_of_freedom);
     case Kind::uniform:
-      return -std::log(high - low);
+      return is_fixed() ? 0. : -std::log(high - low);
   }
   return 0.;
 }
@@ -53,7 +53,7 @@ double Prior::curvature(const double x) const {
     // Curvature of the Gaussian with the same variance, so that the posterior is never wider than
     // the prior.
     case Kind::uniform:
-      return 12. / ((high - low) * (high - low));
+      return is_fixed() ? 1. : 12. / ((high - low) * (high - low));
   }
   return 0.;
 }

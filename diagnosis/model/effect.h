@@ -22,6 +22,8 @@ struct Prior {
   double low = 0., high = 1.;      // bounds of the fitted coordinate, for all kinds of priors
   double degrees_of_freedom = 6.;  // of student
 
+  /// Are the bounds equal, so that the parameter has one value?
+  bool is_fixed() const { return low == high; }
   double log_density(double x) const;
   double slope(double x) const;      // d log_density / dx
   double curvature(double x) const;  // > 0, of the Gaussian that approximates the prior near x

@@ -63,6 +63,7 @@ struct DragCurve {
 struct NominalModel {
   /// Quantity of the gains and rates: the base moment, or k_nominal times the joint's rotation.
   signals::Readout readout = signals::Readout::moment;
+  bool readout_is_given = true;  // otherwise the readout is a guess
   std::vector<StructuralMode> modes;
   double base_direct = 0.;                  // N m / (m/s^2)
   double wind_direct = 0.;                  // N m / (m/s)^2

@@ -164,6 +164,8 @@ void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
 NominalModel identify_nominal(const signals::Dataset& simulation) {
   NominalModel model;
   model.readout = readout_of(simulation);
+  model.readout_is_given =
+      !simulation.records.empty() && simulation.records.front().readout_is_given;
   const auto base = choose(simulation, true, false);
   if (!base.empty()) identify_base_path(model, base);
   set_wind_path(model, simulation);

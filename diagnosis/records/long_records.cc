@@ -32,7 +32,8 @@ void add_pieces(const signals::DatasetRecord& entry, signals::Dataset& out) {
          .split = entry.split,
          .readout = entry.readout,
          .setup = entry.setup,
-         .clock_start_s = entry.clock_start_s + record.time_s(first) - record.time_s(0)});
+         .clock_start_s = entry.clock_start_s + record.time_s(first) - record.time_s(0),
+         .readout_is_given = entry.readout_is_given});
   }
   const double piece_s = static_cast<double>(length) / record.sampling_rate_hz();
   std::ostringstream guess;

@@ -11,6 +11,7 @@
 
 #include "diagnosis/model/parallel.h"
 #include "diagnosis/search/calibrated_odds.h"
+#include "diagnosis/search/needless_calibrations.h"
 #include "diagnosis/search/resemblance.h"
 #include "signals/base/error.h"
 
@@ -19,11 +20,15 @@ namespace {
 
 /// Number of hypotheses of each size that are extended, and of partners for each of them.
 constexpr std::size_t n_extended = 3, n_partners = 5;
-/// Number of effects that are tested although recalibration leaves nothing of them.
-constexpr std::size_t n_absorbed = 6;
+/// Hypotheses are fitted so many at a time, the most promising first.
+constexpr std::size_t n_at_a_time = 4;
 /// First-order gain in twice the log likelihood from which on an effect is worth a fit: less does
 /// not pay for the prior of one more effect.
 constexpr double least_resemblance = 6.;
+/// A fit gains at most this many times its first-order gain.
+constexpr double optimism = 2.;
+/// An answer so far below the best one has no probability that matters [nats].
+constexpr double hopeless_nats = 7.;
 
 bool testable(const Experiment& experiment, const Effect& effect, const SearchOptions& options) {
   const auto& out = options.left_out;
@@ -75,14 +80,16 @@ class Searcher {
 
   SearchResult run() {
     fit_all({{Hypothesis{}, std::nullopt}});
-    fit_all({{Hypothesis::discrepancy(), std::size_t{0}}});
     for (std::size_t size = 1; size <= options_.max_effects; ++size) {
       if (is_late() || (size > 1 && !has_improved(size))) break;
-      const std::vector<Task> tasks = size == 1 ? single_effects() : extensions(size);
-      if (tasks.empty()) break;
-      fit_all(tasks);
+      const std::size_t n_before = fits_.size();
+      fit_promising(size == 1 ? single_effects() : extensions(size));
+      if (fits_.size() == n_before) break;
       refine_parts(size);
+      // A part that is fitted again may be a better one to extend.
+      if (size > 1) fit_promising(extensions(size));
     }
+    settle_calibrations();
     SearchResult result;
     result.is_complete = !is_late();
     result.candidates = candidates();
@@ -99,6 +106,7 @@ class Searcher {
     std::optional<std::size_t> start;  // index of a fit
     const Effect* effect = nullptr;    // the new one
     std::vector<double> values{};      // at which it resembles the residual of that fit
+    double hoped = 0.;                 // log posterior, at most
   };
 
   /// Nonlinear hypotheses take longer and are started first, so that all threads end at about the
@@ -146,6 +154,44 @@ class Searcher {
       if (!tasks[i].hypothesis.is_discrepancy())
         best_log_posterior_ = std::max(best_log_posterior_, fits_[first + i].log_posterior);
     }
+  }
+
+  /// Fits the most promising first; ends when the next ones cannot come near the best answer.
+  void fit_promising(std::vector<Task> tasks) {
+    std::stable_sort(tasks.begin(), tasks.end(),
+                     [](const Task& a, const Task& b) { return a.hoped > b.hoped; });
+    for (std::size_t first = 0; first < tasks.size(); first += n_at_a_time) {
+      if (is_late() || tasks[first].hoped < best_posterior() - hopeless_nats) return;
+      const std::size_t end = std::min(tasks.size(), first + n_at_a_time);
+      fit_all({tasks.begin() + static_cast<std::ptrdiff_t>(first),
+               tasks.begin() + static_cast<std::ptrdiff_t>(end)});
+    }
+  }
+
+  /// Fits the answers that may be probable again, each with the calibration parameters that it
+  /// needs alone.
+  void settle_calibrations() {
+    constexpr double still_hopeful_nats = 20.;
+    if (is_late()) return;
+    std::vector<std::size_t> hopeful;
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      if (posterior_of(i) > best_posterior() - still_hopeful_nats) hopeful.push_back(i);
+    for_each_parallel(hopeful.size(), options_.n_threads, [&](std::size_t nth) {
+      HypothesisFit& fit = fits_[hopeful[nth]];
+      HypothesisFit settled = fit_hypothesis(experiment_, fit.hypothesis, &fit,
+                                             {.nominal = needless_calibrations(fit)});
+      if (settled.log_evidence > fit.log_evidence) fit = std::move(settled);
+      const std::lock_guard lock(mutex_);
+      if (options_.on_fit) options_.on_fit();
+    });
+  }
+
+  /// Of all answers with known effects, and none.
+  double best_posterior() const {
+    double best = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      if (!fits_[i].hypothesis.is_discrepancy()) best = std::max(best, posterior_of(i));
+    return best;
   }
 
   /// The best combinations may be in a better basin of attraction than their parts. The parts are
@@ -229,65 +275,74 @@ class Searcher {
     std::vector<Task> tasks;
     std::set<std::string> names;
     const bool noise_alone = !leaves_much(bases.front());
-    for (const std::size_t base : bases)
-      for (const Partner& partner : partners(base, n_partners)) {
-        if (noise_alone && (base != bases.front() || !partner.effect->irreducible)) continue;
-        const Hypothesis joint = fits_[base].hypothesis.with(*partner.effect);
-        if (known_.count(joint.name()) != 0 || !names.insert(joint.name()).second) continue;
-        tasks.push_back({joint, base, partner.effect, partner.values});
+    for (const std::size_t base : bases) {
+      if (!extended_.insert(base).second) continue;
+      std::vector<Task> of_base = extended(base, fits_[base], 0.);
+      keep_first(of_base, n_partners);
+      for (Task& task : of_base) {
+        if (noise_alone && (base != bases.front() || !task.effect->irreducible)) continue;
+        const std::string name = task.hypothesis.name();
+        if (known_.count(name) == 0 && names.insert(name).second) tasks.push_back(std::move(task));
       }
+    }
     return tasks;
   }
 
-  struct Partner {
-    double gain = -1.;
-    const Effect* effect = nullptr;
-    std::vector<double> values{};
-  };
-
-  /// Effects that the residual of a fit resembles, the most similar first.
-  std::vector<Partner> partners(std::size_t base, std::size_t most) {
-    std::vector<Partner> out = resembling(fits_[base]);
-    keep_first(out, most);
-    return out;
-  }
-
-  std::vector<Partner> resembling(const HypothesisFit& fit) {
-    const FitResidual residual(experiment_, fit);
-    std::vector<Partner> scored(testable_.size());
+  /// The hypothesis of a fit with one effect more, for each effect that the residual of the fit
+  /// resembles, the most promising first. seen: the fit whose residual it is, of the same
+  /// hypothesis; lost: log posterior that it lacks.
+  std::vector<Task> extended(const std::size_t base, const HypothesisFit& seen, const double lost) {
+    const FitResidual residual(experiment_, seen);
+    const std::size_t size = seen.hypothesis.effects().size();
+    const double before = posterior_of(base) - lost +
+                          log_prior_of_number(size + 1, testable_.size()) -
+                          log_prior_of_number(size, testable_.size());
+    std::vector<Task> out(testable_.size());
     for_each_parallel(testable_.size(), options_.n_threads, [&](std::size_t i) {
       const Effect* effect = testable_[i];
-      scored[i].effect = effect;
-      if (fit.hypothesis.contains(effect->id)) return;
+      out[i].hoped = -std::numeric_limits<double>::infinity();
+      if (seen.hypothesis.contains(effect->id)) return;
       std::vector<std::vector<double>> tried = effect->starts;
       tried.insert(tried.end(), effect->scanned.begin(), effect->scanned.end());
       const Resemblance found = residual.resemblance(*effect, tried);
-      scored[i].gain = found.gain;
-      scored[i].values = found.values;
-      if (tells_noise(*effect)) scored[i].gain += 2. * noise_strain(fit);
+      const double gain = found.gain + (tells_noise(*effect) ? 2. * noise_strain(seen) : 0.);
+      if (!(gain > least_resemblance)) return;
+      out[i] = {.hypothesis = seen.hypothesis.with(*effect),
+                .start = base,
+                .effect = effect,
+                .values = found.values,
+                .hoped = before + effect->log_prior + 0.5 * optimism * gain};
     });
-    std::erase_if(scored, [](const Partner& p) { return !(p.gain > least_resemblance); });
-    std::stable_sort(scored.begin(), scored.end(),
-                     [](const Partner& a, const Partner& b) { return a.gain > b.gain; });
-    return scored;
+    std::erase_if(out, [](const Task& task) { return task.effect == nullptr; });
+    std::stable_sort(out.begin(), out.end(),
+                     [](const Task& a, const Task& b) { return a.hoped > b.hoped; });
+    return out;
   }
 
-  /// Single effects: those that the residual of the recalibrated simulation resembles, and those
-  /// that calibration parameters may have absorbed.
+  /// An unknown cause, and single effects: those that the residual of the recalibrated simulation
+  /// resembles, and those that calibration parameters may have absorbed.
   std::vector<Task> single_effects() {
-    std::vector<Task> tasks;
-    std::set<std::string> names;
-    const auto add = [&](const Partner& partner) {
-      if (names.insert(partner.effect->id).second)
-        tasks.push_back(
-            {Hypothesis({partner.effect}), std::size_t{0}, partner.effect, partner.values});
-    };
-    for (const Partner& partner : partners(0, testable_.size())) add(partner);
+    std::vector<Task> tasks = extended(0, fits_.front(), 0.);
+    tasks.push_back({.hypothesis = Hypothesis::discrepancy(),
+                     .start = 0,
+                     .hoped = std::numeric_limits<double>::infinity()});
     if (!has_recalibrated(fits_.front())) return tasks;
-    std::vector<Partner> absorbed = resembling(fit_as_simulated(experiment_));
-    std::erase_if(absorbed, [&](const Partner& p) { return names.contains(p.effect->id); });
-    keep_first(absorbed, n_absorbed);
-    for (const Partner& partner : absorbed) add(partner);
+    // Stiffness, damping and gain together do what another mass does, so no residual shows it.
+    const auto mass = std::ranges::find(testable_, "mass", &Effect::id);
+    if (mass != testable_.end() && std::ranges::find(tasks, *mass, &Task::effect) == tasks.end())
+      tasks.push_back({.hypothesis = Hypothesis({*mass}),
+                       .start = 0,
+                       .effect = *mass,
+                       .hoped = std::numeric_limits<double>::infinity()});
+    const HypothesisFit as_simulated = fit_as_simulated(experiment_);
+    for (Task& task :
+         extended(0, as_simulated, fits_.front().log_posterior - as_simulated.log_posterior)) {
+      const auto same = std::ranges::find(tasks, task.effect, &Task::effect);
+      if (same == tasks.end())
+        tasks.push_back(std::move(task));
+      else if (task.hoped > same->hoped)
+        *same = std::move(task);
+    }
     return tasks;
   }
 
@@ -313,6 +368,7 @@ class Searcher {
   std::mutex mutex_;
   double best_log_posterior_ = -std::numeric_limits<double>::infinity();
   std::map<std::string, std::size_t> known_;  // hypothesis -> index of its fit
+  std::set<std::size_t> extended_;            // fits to which effects were added
 };
 
 }  // namespace

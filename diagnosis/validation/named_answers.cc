@@ -5,14 +5,16 @@
 #include <map>
 #include <optional>
 
+#include "diagnosis/prediction/chain_simulation.h"
 #include "diagnosis/validation/attribution.h"
 #include "diagnosis/validation/held_out.h"
 
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Answers below this share of the best one's probability are not reduced.
-constexpr double hopeless = 1e-3;
+/// Answers below this probability are not reduced; below the other one they keep the names of all
+/// calibration parameters that close a part of the gap.
+constexpr double hopeless = 1e-3, not_probable = 0.02;
 /// No simulation is more accurate than this share of its usual accuracy: the first percentile of
 /// the level of the discrepancy, whose logarithm has the spread 1.
 constexpr double best_of_usual = 0.1;
@@ -23,9 +25,15 @@ bool is_predictable(const Effect& effect) {
   return !effect.irreducible && probe(effect).new_sample_share == 0.;
 }
 
+double power_of(const std::vector<Complex>& bins) {
+  double sum = 0.;
+  for (const Complex& bin : bins) sum += std::norm(bin);
+  return sum;
+}
+
 class Reduction {
  public:
-  Reduction(const SearchResult& result, const Experiment& experiment, const Experiment& fitted,
+  Reduction(SearchResult& result, const Experiment& experiment, const Experiment& fitted,
             const Experiment& scored)
       : result_(result), experiment_(experiment), fitted_(fitted), scored_(scored) {
     for (std::size_t i = 0; i < result.fits.size(); ++i)
@@ -40,6 +48,29 @@ class Reduction {
       if (!fewer || need_of(whole, *fewer) >= 1.) return fit;
       fit = *fewer;
     }
+  }
+
+  /// The calibration parameters that close a part of the gap. Beside an effect: those without which
+  /// (nominal, all else fitted again) too much of it returns.
+  std::vector<std::string> needed_calibrations(const std::size_t whole) {
+    const Attribution& all = attribution(whole);
+    std::vector<std::string> kept = named_calibrations(all, experiment_.simulation_accuracy);
+    std::vector<std::string> tried = kept, nominal = result_.fits[whole].nominal_calibrations();
+    std::ranges::sort(tried, {}, [&](const std::string& id) {
+      return std::ranges::find(all.changes, id, &AttributedChange::id)->missed;
+    });
+    for (const std::string& id : tried) {
+      if (result_.fits[whole].hypothesis.effects().empty()) break;
+      nominal.push_back(id);
+      const HypothesisFit start = result_.fits[whole];
+      result_.fits.push_back(
+          fit_hypothesis(experiment_, start.hypothesis, &start, {.nominal = nominal}));
+      if (return_of(whole, result_.fits.size() - 1) < 1.)
+        std::erase(kept, id);
+      else
+        nominal.pop_back();
+    }
+    return kept;
   }
 
   const Attribution& attribution(std::size_t fit) {
@@ -91,21 +122,62 @@ class Reduction {
       const ErrorScore score =
           score_held_out(experiment_, records, result_.fits[fit], {.n_resamples = 0}).overall;
       found->second = score.nrmse_after * score.nrmse_after;
+      nominal_power_[&records] = score.nrmse_before * score.nrmse_before;
       floor_[&records] = score.noise_floor * score.noise_floor;
     }
     return found->second;
   }
 
   /// What a fit without one effect leaves more than the whole fit, in the records that show it
-  /// best, relative to what is worth a name.
-  double need_of(std::size_t whole, std::size_t without) {
+  /// best, relative to what is worth a name. more: power that no prediction can take away.
+  double need_of(std::size_t whole, std::size_t without, const double more = 0.) {
     double need = 0.;
     for (const Experiment* records : {&scored_, &fitted_}) {
       const double with = error_power(whole, *records),
                    recalibrated = error_power(known_.at("none"), *records),
                    gap = recalibrated - std::min(with, floor_[records]);
-      need = std::max(
-          need, (error_power(without, *records) - with) / std::max(least_share * gap, any_error()));
+      double left = error_power(without, *records);
+      // Recalibration may make a simulation worse that has no gap.
+      if (result_.fits[without].hypothesis.effects().empty())
+        left = std::min(left, nominal_power_[records]);
+      need = std::max(need, (left - with + more) / std::max(least_share * gap, any_error()));
+    }
+    return need;
+  }
+
+  /// Power of the noise that an effect adds to the fit records, relative to the measured moment.
+  double noise_power(std::size_t fit, const Effect& effect) {
+    const HypothesisFit& with = result_.fits[fit];
+    const Chain without = make_chain(experiment_, with.fit_parameters, with.x, &effect);
+    double noise = noise_of(with.chain(experiment_)) - noise_of(without), measured = 0.;
+    for (const PreparedRecord& record : experiment_.records)
+      if (!record.is_still()) measured += power_of(record.moment);
+    return noise / measured;
+  }
+
+  /// Power of the noise of a chain in the records with motion [(N m)^2 of unscaled bins].
+  double noise_of(const Chain& chain) {
+    double sum = 0.;
+    ChainSimulator simulator(chain);
+    for (const PreparedRecord& record : experiment_.records) {
+      if (record.is_still()) continue;
+      const Prediction prediction = std::move(simulator.predict({&record, 1}).front());
+      for (std::size_t b = 0; b < prediction.mean.size(); ++b)
+        sum += prediction.process_noise[b] +
+               chain.reference_variance * prediction.acceleration_noise[b];
+      for (const RecordNuisance& unknown : prediction.unknowns)
+        sum += unknown.variance * power_of(unknown.shape);
+    }
+    return sum;
+  }
+
+  /// The same, relative to what is worth a name of the gap as it was brought.
+  double return_of(std::size_t whole, std::size_t without) {
+    double need = 0.;
+    for (const Experiment* records : {&scored_, &fitted_}) {
+      const double more = error_power(without, *records) - error_power(whole, *records),
+                   gap = nominal_power_[records] - floor_[records];
+      need = std::max(need, more / std::max(least_share * gap, any_error()));
     }
     return need;
   }
@@ -119,8 +191,9 @@ class Reduction {
     double least = 1.;
     for (const Effect* effect : hypothesis.effects()) {
       const auto found = known_.find(hypothesis.without(*effect).name());
-      if (!is_predictable(*effect) || found == known_.end()) continue;
-      const double need = need_of(fit, found->second);
+      if (found == known_.end()) continue;
+      const double noise = is_predictable(*effect) ? 0. : noise_power(fit, *effect),
+                   need = need_of(fit, found->second, noise);
       if (need >= least || closes_in_company(fit, *effect)) continue;
       least = need;
       best = found->second;
@@ -128,24 +201,24 @@ class Reduction {
     return best;
   }
 
-  /// Does the effect close a part of the gap as it was brought? Recalibration alone might have
-  /// closed it, too.
+  /// Does the effect close a part of the gap as it was brought, and more than the simulation's
+  /// usual error? Recalibration alone might have closed it, too.
   bool closes_in_company(std::size_t fit, const Effect& effect) {
     const Attribution& all = attribution(fit);
     return std::ranges::any_of(all.changes, [&](const AttributedChange& change) {
       return change.id == effect.id && change.share >= least_share &&
-             change.share * all.reducible >= any_error();
+             change.share * all.reducible >= std::pow(experiment_.simulation_accuracy, 2);
     });
   }
 
-  const SearchResult& result_;
+  SearchResult& result_;
   const Experiment& experiment_;
   const Experiment& fitted_;  // its records as measured
   const Experiment& scored_;
   std::map<std::string, std::size_t> known_;  // hypothesis -> index of its fit
   std::map<std::pair<std::size_t, const Experiment*>, double> power_;
   std::map<std::size_t, Attribution> attributions_;
-  std::map<const Experiment*, double> floor_;
+  std::map<const Experiment*, double> floor_, nominal_power_;
 };
 
 }  // namespace
@@ -161,8 +234,10 @@ void name_answers(SearchResult& result, const Experiment& experiment, const Expe
     const bool is_known = !result.fits[candidate.fit].hypothesis.is_discrepancy();
     if (candidate.probability > hopeless && is_known) {
       candidate.fit = reduction.simplest(candidate.fit);
-      candidate.calibrations =
-          named_calibrations(reduction.attribution(candidate.fit), experiment.simulation_accuracy);
+      candidate.calibrations = candidate.probability > not_probable
+                                   ? reduction.needed_calibrations(candidate.fit)
+                                   : named_calibrations(reduction.attribution(candidate.fit),
+                                                        experiment.simulation_accuracy);
       std::vector<std::string> ids = effect_ids(result.fits[candidate.fit].hypothesis.name());
       ids.insert(ids.end(), candidate.calibrations.begin(), candidate.calibrations.end());
       candidate.name = joined_name(std::move(ids));

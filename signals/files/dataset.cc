@@ -160,7 +160,8 @@ DatasetRecord read_entry(const fs::path& folder, const json& document, const jso
       .split = split_of(text_of(entry, "split", where, "fit"), where + "/split"),
       .readout = readout_of(text_of(entry, "readout", where, readout), where + "/readout"),
       .setup = setup_of(document, entry, where),
-      .clock_start_s = clock_start_of(entry, where)};
+      .clock_start_s = clock_start_of(entry, where),
+      .readout_is_given = document.contains("readout") || entry.contains("readout")};
   if (result.period_samples > result.record.n_samples())
     refuse_dataset(
         where + "/period_samples",

@@ -37,6 +37,7 @@ struct DatasetRecord {
   BenchSetup setup{};
   /// Time that both clocks had run when the record began, for a part of a longer record [s].
   double clock_start_s = 0.;
+  bool readout_is_given = false;  // otherwise the readout is a guess
 };
 
 /// Records of one sensor; docs/records.md describes the folder.

@@ -81,7 +81,7 @@ TEST(Diagnose, TellsWhatComesNearestWhereNothingKnownExplainsTheGap) {
   rig.cubic = 1e7;
   const Diagnosis diagnosis =
       diagnose(test::nominal_of(test::OneModeRig{}, false), test::rig_dataset(rig),
-               {.search = {.max_effects = 1, .left_out = {"hardening"}}});
+               {.search = {.max_effects = 1, .left_out = {"hardening", "backlash"}}});
   EXPECT_EQ(diagnosis.verdict, outside_catalogue);
   ASSERT_TRUE(diagnosis.nearest_known);
   ASSERT_TRUE(diagnosis.nearest_known->held_out);

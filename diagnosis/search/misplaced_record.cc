@@ -1,0 +1,122 @@
+#include "diagnosis/search/misplaced_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "diagnosis/model/parallel.h"
+#include "diagnosis/model/words.h"
+#include "diagnosis/prediction/chain_simulation.h"
+#include "diagnosis/records/spectrum.h"
+#include "diagnosis/search/needless_calibrations.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+double square_sum(const std::vector<Complex>& bins) {
+  double sum = 0.;
+  for (const Complex& bin : bins) sum += std::norm(bin);
+  return sum;
+}
+
+/// One dataset in fifty has a misplaced record.
+constexpr double log_prior = -3.9;
+/// Log odds from which on a record is called misplaced [nats].
+constexpr double sure_nats = 7.;
+
+Experiment with_records(const Experiment& all,
+                        const std::function<bool(const PreparedRecord&)>& keeps) {
+  Experiment out = all;
+  std::erase_if(out.records, [&](const PreparedRecord& record) { return !keeps(record); });
+  const auto any = [&](bool signals::Excitation::* path) {
+    return std::ranges::any_of(out.records,
+                               [&](const PreparedRecord& r) { return r.excitation.*path; });
+  };
+  out.has_base = all.has_base && any(&signals::Excitation::base);
+  out.has_wind = all.has_wind && any(&signals::Excitation::wind);
+  return out;
+}
+
+/// The answer for the records without one, and its evidence with the prior of its effects.
+struct Others {
+  HypothesisFit fit;
+  double log_evidence = 0.;
+};
+
+/// Recalibrated, or the best answer of all records.
+Others answer_of_others(const Experiment& others, const SearchResult& result) {
+  const Candidate& best = result.candidates.front();
+  const HypothesisFit& of_all = result.fits[best.fit];
+  Others out{.fit = fit_hypothesis(others, Hypothesis{})};
+  out.log_evidence = out.fit.log_evidence;
+  if (of_all.hypothesis.effects().empty()) return out;
+  Others same{.fit = fit_hypothesis(others, of_all.hypothesis, &of_all)};
+  same.log_evidence = same.fit.log_evidence + best.log_posterior - of_all.log_evidence;
+  return same.log_evidence > out.log_evidence ? same : out;
+}
+
+/// Power of a prediction's error [(N m)^2 of unscaled bins].
+double error_of(const PreparedRecord& record, const std::vector<Complex>& mean) {
+  return square_sum(difference(record.moment, mean));
+}
+
+/// Does the best answer leave more of a record than noise and the usual error of a simulation?
+bool leaves_much(const Experiment& experiment, const std::size_t r, const FittedRecord& fitted) {
+  const PreparedRecord& record = experiment.records[r];
+  double noise = 0.;
+  for (const double variance : fitted.noise) noise += variance;
+  return error_of(record, fitted.mean) - noise >
+         std::pow(experiment.simulation_accuracy, 2) * square_sum(record.moment);
+}
+
+}  // namespace
+
+std::string MisplacedRecord::asks_for() const {
+  const std::vector<std::string> needless = needless_calibrations(own);
+  std::string out;
+  for (std::size_t i = 0; i < own.fit_parameters.size(); ++i) {
+    const FitParameter& parameter = own.fit_parameters[i];
+    if (!parameter.nuisance || parameter.parameter != 0 ||
+        std::ranges::find(needless, parameter.effect->id) != needless.end())
+      continue;
+    out += (out.empty() ? "" : ", ") + parameter.effect->id + " " +
+           three_digits(parameter.description.value(own.x(static_cast<Eigen::Index>(i))));
+  }
+  return out;
+}
+
+std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
+                                                const SearchResult& result,
+                                                const std::size_t n_threads) {
+  constexpr std::size_t fewest = 3;
+  const Candidate& best = result.candidates.front();
+  const HypothesisFit& fit = result.fits[best.fit];
+  std::size_t n_moving = 0;
+  std::vector<std::size_t> suspects;
+  for (std::size_t r = 0; r < experiment.records.size(); ++r) {
+    if (experiment.records[r].is_still()) continue;
+    ++n_moving;
+    if (leaves_much(experiment, r, fit.records[r])) suspects.push_back(r);
+  }
+  if (n_moving < fewest || suspects.empty()) return std::nullopt;
+  std::vector<MisplacedRecord> tried(suspects.size());
+  for_each_parallel(suspects.size(), n_threads, [&](std::size_t i) {
+    const PreparedRecord& record = experiment.records[suspects[i]];
+    const auto is_it = [&](const PreparedRecord& r) { return r.number == record.number; };
+    const Experiment alone = with_records(experiment, is_it);
+    const Others others =
+        answer_of_others(with_records(experiment, std::not_fn(is_it)), result);
+    tried[i] = {.name = record.name, .own = fit_hypothesis(alone, Hypothesis{})};
+    const double better = error_of(record, simulate_mean(others.fit.chain(experiment), record)) -
+                          error_of(record, tried[i].own.records.front().mean);
+    if (better < std::pow(experiment.simulation_accuracy, 2) * square_sum(record.moment)) return;
+    tried[i].log_odds = tried[i].own.log_evidence + others.log_evidence + log_prior -
+                        std::log(static_cast<double>(n_moving)) - best.log_posterior;
+  });
+  const auto most = std::ranges::max_element(tried, {}, &MisplacedRecord::log_odds);
+  if (!(most->log_odds > sure_nats)) return std::nullopt;
+  return std::move(*most);
+}
+
+}  // namespace vibrissa::diagnosis
