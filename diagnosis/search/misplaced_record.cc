@@ -29,7 +29,7 @@ Experiment with_records(const Experiment& all,
                         const std::function<bool(const PreparedRecord&)>& keeps) {
   Experiment out = all;
   std::erase_if(out.records, [&](const PreparedRecord& record) { return !keeps(record); });
-  const auto any = [&](bool signals::Excitation::* path) {
+  const auto any = [&](bool signals::Excitation::*path) {
     return std::ranges::any_of(out.records,
                                [&](const PreparedRecord& r) { return r.excitation.*path; });
   };
@@ -105,8 +105,7 @@ std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
     const PreparedRecord& record = experiment.records[suspects[i]];
     const auto is_it = [&](const PreparedRecord& r) { return r.number == record.number; };
     const Experiment alone = with_records(experiment, is_it);
-    const Others others =
-        answer_of_others(with_records(experiment, std::not_fn(is_it)), result);
+    const Others others = answer_of_others(with_records(experiment, std::not_fn(is_it)), result);
     tried[i] = {.name = record.name, .own = fit_hypothesis(alone, Hypothesis{})};
     const double better = error_of(record, simulate_mean(others.fit.chain(experiment), record)) -
                           error_of(record, tried[i].own.records.front().mean);

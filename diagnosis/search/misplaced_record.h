@@ -21,7 +21,6 @@ struct MisplacedRecord {
 /// records. It takes three records with motion. Proven by
 /// tests/diagnosis/search/misplaced_record_test.cc.
 std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
-                                                const SearchResult& result,
-                                                std::size_t n_threads);
+                                                const SearchResult& result, std::size_t n_threads);
 
 }  // namespace vibrissa::diagnosis

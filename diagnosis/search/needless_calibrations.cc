@@ -23,8 +23,9 @@ class CalibrationLikelihood {
   CalibrationLikelihood(const HypothesisFit& fit, const std::vector<Eigen::Index>& at)
       : x_(fit.x(at)), slope_(x_.size()), information_(fit.covariance(at, at).inverse()) {
     for (Eigen::Index i = 0; i < x_.size(); ++i) {
-      priors_.push_back(&fit.fit_parameters[static_cast<std::size_t>(at[static_cast<std::size_t>(i)])]
-                             .description.prior);
+      priors_.push_back(
+          &fit.fit_parameters[static_cast<std::size_t>(at[static_cast<std::size_t>(i)])]
+               .description.prior);
       information_(i, i) -= priors_.back()->curvature(x_(i));
       slope_(i) = -priors_.back()->slope(x_(i));
     }
@@ -54,7 +55,8 @@ class CalibrationLikelihood {
     }
     const Eigen::VectorXd way = x - x_;
     double sum = slope_.dot(way) - 0.5 * way.dot(information_ * way);
-    for (const Eigen::Index i : free) sum += priors_[static_cast<std::size_t>(i)]->log_density(x(i));
+    for (const Eigen::Index i : free)
+      sum += priors_[static_cast<std::size_t>(i)]->log_density(x(i));
     if (free.empty()) return sum;
     return sum - 0.5 * curvature.ldlt().vectorD().array().log().sum() +
            0.5 * static_cast<double>(free.size()) * std::log(2. * std::numbers::pi);

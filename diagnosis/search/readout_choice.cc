@@ -37,8 +37,7 @@ bool is_rotation(const SimulationAndRecords& given, const Experiment& experiment
   const auto nonlinear = std::ranges::find_if(result.candidates, [&](const Candidate& candidate) {
     return has_joint_law(result.fits[candidate.fit].hypothesis);
   });
-  if (nonlinear - result.candidates.begin() >=
-      std::min(n_probable, std::ssize(result.candidates)))
+  if (nonlinear - result.candidates.begin() >= std::min(n_probable, std::ssize(result.candidates)))
     return false;
   const SimulationAndRecords other = read_as_rotation(given);
   Experiment reread =

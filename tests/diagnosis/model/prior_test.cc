@@ -8,7 +8,8 @@ namespace vibrissa::diagnosis {
 namespace {
 
 TEST(Prior, OfAFixedParameterIsFinite) {
-  for (Parameter parameter : {uniform("share", "1", 0., 1., 0.), normal("share", "1", 0., 1., -1., 1., 0.)}) {
+  for (Parameter parameter :
+       {uniform("share", "1", 0., 1., 0.), normal("share", "1", 0., 1., -1., 1., 0.)}) {
     parameter.prior.low = parameter.prior.high = parameter.prior.centre;
     EXPECT_TRUE(std::isfinite(parameter.prior.log_density(parameter.prior.centre)));
     EXPECT_TRUE(std::isfinite(parameter.prior.curvature(parameter.prior.centre)));

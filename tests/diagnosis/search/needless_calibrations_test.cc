@@ -12,8 +12,8 @@ using testing::Not;
 
 std::vector<std::string> needless(const signals::Dataset& dataset) {
   const Experiment experiment =
-      prepare_experiment(test::nominal_of(test::OneModeRig{}, true), dataset,
-                         signals::Split::fit, InputNoise::reduced);
+      prepare_experiment(test::nominal_of(test::OneModeRig{}, true), dataset, signals::Split::fit,
+                         InputNoise::reduced);
   return needless_calibrations(fit_hypothesis(experiment, Hypothesis{}));
 }
 

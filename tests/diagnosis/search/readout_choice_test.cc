@@ -20,8 +20,8 @@ SimulationAndRecords unsaid(const signals::Readout readout, const double cubic) 
 }
 
 bool is_told_as_rotation(const SimulationAndRecords& given) {
-  const Experiment experiment = prepare_experiment(given.simulation, given.real,
-                                                   signals::Split::fit, InputNoise::reduced);
+  const Experiment experiment =
+      prepare_experiment(given.simulation, given.real, signals::Split::fit, InputNoise::reduced);
   return is_rotation(given, experiment, search(experiment, {.max_effects = 1}));
 }
 
