@@ -156,12 +156,14 @@ class Searcher {
     }
   }
 
-  /// Fits the most promising first; ends when the next ones cannot come near the best answer.
+  /// Fits the most promising first; ends when the next ones cannot come near the best answer. Where
+  /// no effect alone explains the gap, first-order gains say little, and all are fitted.
   void fit_promising(std::vector<Task> tasks) {
     std::stable_sort(tasks.begin(), tasks.end(),
                      [](const Task& a, const Task& b) { return a.hoped > b.hoped; });
     for (std::size_t first = 0; first < tasks.size(); first += n_at_a_time) {
-      if (is_late() || tasks[first].hoped < best_posterior() - hopeless_nats) return;
+      const bool is_hopeless = tasks[first].hoped < best_posterior() - hopeless_nats;
+      if (is_late() || (is_hopeless && !is_far_from_explained(tasks[first]))) return;
       const std::size_t end = std::min(tasks.size(), first + n_at_a_time);
       fit_all({tasks.begin() + static_cast<std::ptrdiff_t>(first),
                tasks.begin() + static_cast<std::ptrdiff_t>(end)});
@@ -184,6 +186,14 @@ class Searcher {
       const std::lock_guard lock(mutex_);
       if (options_.on_fit) options_.on_fit();
     });
+  }
+
+  /// Is it a single effect, and does the best one so far leave much though it is needed?
+  bool is_far_from_explained(const Task& task) const {
+    if (task.hypothesis.effects().size() != 1) return false;
+    const std::vector<std::size_t> singles = best_of_size(1);
+    return !singles.empty() && leaves_much(singles.front()) &&
+           posterior_of(singles.front()) > posterior_of(known_.at("none")) + hopeless_nats;
   }
 
   /// Of all answers with known effects, and none.
