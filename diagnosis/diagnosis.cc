@@ -41,12 +41,9 @@ Finding finding_of(const MisplacedRecord& misplaced) {
                      ". Check its sensor, mount, level and file name"};
 }
 
-/// The dataset without a record, or without the one of which the record is a piece.
-signals::Dataset without(signals::Dataset dataset, const std::string& name) {
-  if (std::erase_if(dataset.records, [&](const auto& entry) { return name == entry.name; }) == 0)
-    std::erase_if(dataset.records,
-                  [&](const auto& entry) { return name.starts_with(entry.name + "_"); });
-  return dataset;
+/// Takes a record away; says whether it was there.
+bool erase_record(signals::Dataset& dataset, const std::string& name) {
+  return std::erase_if(dataset.records, [&](const auto& entry) { return entry.name == name; }) > 0;
 }
 
 void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
@@ -196,7 +193,12 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
     return diagnose(other.simulation, other.real, options);
   }
   if (const auto misplaced = misplaced_record(experiment, result, options.search.n_threads)) {
-    out = diagnose(simulation, without(recorded, misplaced->name), options);
+    signals::Dataset others = recorded;
+    if (!erase_record(others, misplaced->name)) {  // a piece of a long record
+      others = real;
+      erase_record(others, misplaced->name);
+    }
+    out = diagnose(simulation, others, options);
     out.findings.insert(out.findings.begin(), finding_of(*misplaced));
     return out;
   }
