@@ -68,11 +68,20 @@ std::string resonance_line(const Diagnosis& diagnosis) {
          three_digits(change.slow_gain_ratio) + " times the simulated one";
 }
 
+/// "damping 0.54 (0.53 .. 0.55) times the simulated value", "delay tau 0.002 s (...)".
+std::string parameter_text(const ParameterEstimate& p) {
+  if (is_recalibration(p.effect) && p.name == "ratio")
+    return quantity_of(p.effect) + " " + value_text(p) + " times the simulated value";
+  return p.effect + " " + p.name + " " + value_text(p);
+}
+
+/// Without the parameters that only say how a calibration spreads over the modes.
 std::string parameters_line(const RankedAnswer& answer) {
   std::string text;
-  for (const ParameterEstimate& p : answer.parameters)
-    text += (text.empty() ? "Parameters (95 % intervals): " : "; ") + p.effect + " " + p.name +
-            " " + value_text(p);
+  for (const ParameterEstimate& p : answer.parameters) {
+    if (is_recalibration(p.effect) && p.name != "ratio") continue;
+    text += (text.empty() ? "Parameters (95 % intervals): " : "; ") + parameter_text(p);
+  }
   return text;
 }
 
@@ -128,9 +137,10 @@ std::string attribution_line(const Diagnosis& diagnosis) {
   std::string text;
   for (const AttributedChange& change : diagnosis.attribution.changes) {
     if (!change.moved || std::max(change.share, change.missed) < worth_a_word) continue;
-    text += (text.empty() ? "What closes the gap: " : "; ") + change.id;
-    if (change.calibration && !change.parameters.empty())
-      text += " " + change.parameters.front().name + " " + value_text(change.parameters.front());
+    text += (text.empty() ? "What closes the gap: " : "; ") +
+            (change.calibration && !change.parameters.empty()
+                 ? parameter_text(change.parameters.front())
+                 : change.id);
     text += " closes " + percent(change.alone) + " alone, without it " + percent(change.missed) +
             " returns";
   }
