@@ -80,6 +80,12 @@ std::vector<double> powers(std::span<const Complex> x) {
   return out;
 }
 
+double total_power(std::span<const Complex> x) {
+  double sum = 0.;
+  for (const Complex& value : x) sum += std::norm(value);
+  return sum;
+}
+
 std::vector<double> neighbour_mean(std::span<const double> x, const std::size_t reach) {
   std::vector<double> running(x.size() + 1, 0.), out(x.size());
   std::partial_sum(x.begin(), x.end(), running.begin() + 1);

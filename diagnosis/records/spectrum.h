@@ -27,6 +27,8 @@ std::vector<Complex> difference(std::span<const Complex> a, std::span<const Comp
 
 /// |x|^2 of each element.
 std::vector<double> powers(std::span<const Complex> x);
+/// Sum of |x|^2.
+double total_power(std::span<const Complex> x);
 
 /// Mean of each value and its existing neighbours up to reach indices away.
 std::vector<double> neighbour_mean(std::span<const double> x, std::size_t reach);

@@ -14,12 +14,6 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-double square_sum(const std::vector<Complex>& bins) {
-  double sum = 0.;
-  for (const Complex& bin : bins) sum += std::norm(bin);
-  return sum;
-}
-
 /// One dataset in fifty has a misplaced record.
 constexpr double log_prior = -3.9;
 /// Log odds from which on a record is called misplaced [nats].
@@ -58,7 +52,7 @@ Others answer_of_others(const Experiment& others, const SearchResult& result) {
 
 /// Power of a prediction's error [(N m)^2 of unscaled bins].
 double error_of(const PreparedRecord& record, const std::vector<Complex>& mean) {
-  return square_sum(difference(record.moment, mean));
+  return total_power(difference(record.moment, mean));
 }
 
 /// Does the best answer leave more of a record than noise and the usual error of a simulation?
@@ -67,7 +61,7 @@ bool leaves_much(const Experiment& experiment, const std::size_t r, const Fitted
   double noise = 0.;
   for (const double variance : fitted.noise) noise += variance;
   return error_of(record, fitted.mean) - noise >
-         std::pow(experiment.simulation_accuracy, 2) * square_sum(record.moment);
+         std::pow(experiment.simulation_accuracy, 2) * total_power(record.moment);
 }
 
 }  // namespace
@@ -109,7 +103,7 @@ std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
     tried[i] = {.name = record.name, .own = fit_hypothesis(alone, Hypothesis{})};
     const double better = error_of(record, simulate_mean(others.fit.chain(experiment), record)) -
                           error_of(record, tried[i].own.records.front().mean);
-    if (better < std::pow(experiment.simulation_accuracy, 2) * square_sum(record.moment)) return;
+    if (better < std::pow(experiment.simulation_accuracy, 2) * total_power(record.moment)) return;
     tried[i].log_odds = tried[i].own.log_evidence + others.log_evidence + log_prior -
                         std::log(static_cast<double>(n_moving)) - best.log_posterior;
   });

@@ -4,21 +4,17 @@
 
 #include "diagnosis/prediction/chain_simulation.h"
 #include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/spectrum.h"
 
 namespace vibrissa::diagnosis {
 namespace {
-
-double power(const PreparedRecord& record) {
-  double sum = 0.;
-  for (const Complex& a : record.acceleration) sum += std::norm(a);
-  return sum;
-}
 
 const PreparedRecord* strongest_periodic(const Experiment& experiment) {
   const PreparedRecord* best = nullptr;
   for (const PreparedRecord& record : experiment.records) {
     if (!record.periodic || !record.excitation.base || record.excitation.wind) continue;
-    if (best == nullptr || power(record) > power(*best)) best = &record;
+    if (best == nullptr || total_power(record.acceleration) > total_power(best->acceleration))
+      best = &record;
   }
   return best;
 }

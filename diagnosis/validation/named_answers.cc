@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "diagnosis/prediction/chain_simulation.h"
+#include "diagnosis/records/spectrum.h"
 #include "diagnosis/validation/attribution.h"
 #include "diagnosis/validation/held_out.h"
 
@@ -23,12 +24,6 @@ constexpr double best_of_usual = 0.1;
 /// are unknown in each record.
 bool is_predictable(const Effect& effect) {
   return !effect.irreducible && probe(effect).new_sample_share == 0.;
-}
-
-double power_of(const std::vector<Complex>& bins) {
-  double sum = 0.;
-  for (const Complex& bin : bins) sum += std::norm(bin);
-  return sum;
 }
 
 class Reduction {
@@ -151,7 +146,7 @@ class Reduction {
     const Chain without = make_chain(experiment_, with.fit_parameters, with.x, &effect);
     double noise = noise_of(with.chain(experiment_)) - noise_of(without), measured = 0.;
     for (const PreparedRecord& record : experiment_.records)
-      if (!record.is_still()) measured += power_of(record.moment);
+      if (!record.is_still()) measured += total_power(record.moment);
     return noise / measured;
   }
 
@@ -166,7 +161,7 @@ class Reduction {
         sum += prediction.process_noise[b] +
                chain.reference_variance * prediction.acceleration_noise[b];
       for (const RecordNuisance& unknown : prediction.unknowns)
-        sum += unknown.variance * power_of(unknown.shape);
+        sum += unknown.variance * total_power(unknown.shape);
     }
     return sum;
   }
