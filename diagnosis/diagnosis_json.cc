@@ -81,6 +81,7 @@ json estimates_json(const std::vector<ParameterEstimate>& estimates) {
                    {"name", estimate.name},
                    {"value", json_number(estimate.value)},
                    {"unit", estimate.unit},
+                   {"relative_to", estimate.relative_to},
                    {"ci95", interval(estimate.ci95)},
                    {"at_limit", estimate.at_limit}});
   return out;

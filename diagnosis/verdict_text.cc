@@ -16,7 +16,7 @@ std::string verdict_line(const Diagnosis& diagnosis) {
   const double probability = diagnosis.ranking.empty() ? 0. : diagnosis.ranking.front().probability;
   const std::string odds = " (probability " + percent(probability) + ")";
   if (diagnosis.verdict == "none") return "Verdict: no cause; noise explains the difference" + odds;
-  if (diagnosis.verdict == "outside_catalogue")
+  if (diagnosis.verdict == outside_catalogue)
     return "Verdict: a cause that is not in the catalogue" + odds;
   return "Verdict: " + joined(effect_ids(diagnosis.verdict), " + ") + odds + ". " +
          consequence(diagnosis);
@@ -53,36 +53,43 @@ std::string doubt_line(const Diagnosis& diagnosis) {
   return "Doubtful: " + first + (n > 1 ? " (and " + std::to_string(n - 1) + " more)" : "");
 }
 
-/// "0.711 (0.69 .. 0.73)", the unit behind the value.
+/// "0.711 (0.69 .. 0.73) times the simulated value", "0.046 s (0.0456 .. 0.0464)".
 std::string value_text(const ParameterEstimate& p) {
-  return three_digits(p.value) + (p.unit == "1" ? "" : " " + p.unit) +
+  int digits = 3;  // more where the interval would have no width
+  while (digits < 7 && with_digits(p.ci95[0], digits) == with_digits(p.ci95[1], digits)) ++digits;
+  return with_digits(p.value, digits) + (p.unit == "1" ? "" : " " + p.unit) +
          (p.at_limit ? " (limit of the searched range)"
-                     : " (" + three_digits(p.ci95[0]) + " .. " + three_digits(p.ci95[1]) + ")");
+                     : " (" + with_digits(p.ci95[0], digits) + " .. " +
+                           with_digits(p.ci95[1], digits) + ")") +
+         (p.relative_to.empty() ? "" : " " + p.relative_to);
 }
 
 std::string resonance_line(const Diagnosis& diagnosis) {
   if (!diagnosis.resonance) return "";
-  const ResonanceChange& change = *diagnosis.resonance;
-  return "Resonance: simulated " + three_digits(change.simulated_hz) + " Hz, measured " +
-         three_digits(change.measured_hz) + " Hz; below it the measured response is " +
-         three_digits(change.slow_gain_ratio) + " times the simulated one";
-}
-
-/// "damping 0.54 (0.53 .. 0.55) times the simulated value", "delay tau 0.002 s (...)".
-std::string parameter_text(const ParameterEstimate& p) {
-  if (is_recalibration(p.effect) && p.name == "ratio")
-    return quantity_of(p.effect) + " " + value_text(p) + " times the simulated value";
-  return p.effect + " " + p.name + " " + value_text(p);
-}
-
-/// Without the parameters that only say how a calibration spreads over the modes.
-std::string parameters_line(const RankedAnswer& answer) {
-  std::string text;
-  for (const ParameterEstimate& p : answer.parameters) {
-    if (is_recalibration(p.effect) && p.name != "ratio") continue;
-    text += (text.empty() ? "Parameters (95 % intervals): " : "; ") + parameter_text(p);
-  }
+  const std::string simulated = three_digits(diagnosis.resonance->simulated_hz) + " Hz",
+                    measured = three_digits(diagnosis.resonance->measured_hz) + " Hz",
+                    ratio = three_digits(diagnosis.resonance->slow_gain_ratio);
+  std::string text = simulated == measured
+                         ? "Resonance: " + measured + ", as simulated"
+                         : "Resonance: simulated " + simulated + ", measured " + measured;
+  if (ratio != "1")
+    text +=
+        "; far below it the moment for the same motion is " + ratio + " times the simulated one";
   return text;
+}
+
+/// "damping 0.54 (0.53 .. 0.55) times the simulated value", "flow_lag: tau 0.002 s (...)". The
+/// further parameters of a calibration only say how it spreads over the modes.
+std::string change_text(const std::string& effect,
+                        const std::vector<ParameterEstimate>& parameters) {
+  std::string text;
+  for (const ParameterEstimate& p : parameters)
+    if (p.effect == effect && is_recalibration(effect)) {
+      if (p.name == "ratio") return quantity_of(effect) + " " + value_text(p);
+    } else if (p.effect == effect) {
+      text += (text.empty() ? effect + ": " : "; ") + p.name + " " + value_text(p);
+    }
+  return text.empty() ? quantity_of(effect) : text;
 }
 
 std::string materials_line(const RankedAnswer& answer) {
@@ -93,35 +100,48 @@ std::string materials_line(const RankedAnswer& answer) {
   return text;
 }
 
+/// The gap cannot close by more than all of it: what is more is an error of the noise floor.
+std::string closed_text(const double share) {
+  return percent(std::clamp(share, 0., 1.));
+}
+
 std::string held_out_line(const HeldOutScore& score) {
   const ErrorScore& all = score.overall;
-  std::string text = "Held-out records: prediction error " + percent(all.nrmse_before) + " -> " +
-                     percent(all.nrmse_after) + " after correction, noise floor " +
-                     percent(all.noise_floor);
+  std::string text = "Held-out records (no fit used them): error " + percent(all.nrmse_before) +
+                     " -> " + percent(all.nrmse_after) +
+                     " with the correction; noise alone gives " + percent(all.noise_floor);
   if (all.gap_closed) {
-    text += "; the correction removes " + percent(*all.gap_closed) +
-            " of the error power above the noise";
-    if (all.gap_closed_ci95)
-      text += " (95 % interval " + percent((*all.gap_closed_ci95)[0]) + " .. " +
-              percent((*all.gap_closed_ci95)[1]) + ")";
+    text += "; the correction closes " + closed_text(*all.gap_closed) + " of the gap";
+    if (all.gap_closed_ci95 && closed_text((*all.gap_closed_ci95)[0]) != "100 %")
+      text += " (95 % interval " + closed_text((*all.gap_closed_ci95)[0]) + " .. " +
+              closed_text((*all.gap_closed_ci95)[1]) + ")";
   }
   if (!score.not_predictable.empty())
-    text += "; not predictable: " + joined(score.not_predictable, ", ");
+    text += "; " + joined(score.not_predictable, ", ") +
+            " is noise: no model predicts it, its error stays";
   return text;
+}
+
+/// "2 -> 1 m/s", "2 m/s, unchanged".
+std::string change_of(const std::string& before, const std::string& after,
+                      const std::string& unit) {
+  return before == after ? after + " " + unit + ", unchanged"
+                         : before + " -> " + after + " " + unit;
 }
 
 std::string vibration_part(const HeldOutScore& score) {
   if (!score.vibration_left) return "";
-  return "vibration left in the moment (0 dB: all of it): " +
-         one_decimal(score.vibration_left->before_db) + " dB with your model, " +
-         one_decimal(score.vibration_left->after_db) + " dB with the corrected model";
+  return "vibration left in the moment " +
+         change_of(one_decimal(score.vibration_left->before_db),
+                   one_decimal(score.vibration_left->after_db), "dB") +
+         " (0 dB: all of it)";
 }
 
 std::string wind_speed_part(const Diagnosis& diagnosis) {
   if (!diagnosis.wind_speed) return "";
-  return "wind speed error (rms) " + three_digits(diagnosis.wind_speed->before_m_s) +
-         " m/s with your model, " + three_digits(diagnosis.wind_speed->after_m_s) +
-         " m/s with the corrected model";
+  return "rms error of the wind speed " + change_of(three_digits(diagnosis.wind_speed->before_m_s),
+                                                    three_digits(diagnosis.wind_speed->after_m_s),
+                                                    "m/s");
 }
 
 std::string separation_line(const Diagnosis& diagnosis) {
@@ -129,23 +149,51 @@ std::string separation_line(const Diagnosis& diagnosis) {
   const std::string wind = wind_speed_part(diagnosis);
   if (!text.empty() && !wind.empty()) text += "; ";
   text += wind;
-  return text.empty() ? "" : "Separation: " + text;
+  return text.empty() ? ""
+                      : "Wind separated from vibration, without -> with the correction: " + text;
 }
 
-/// Changes that matter, with the values of calibration parameters, and what they leave.
-std::string attribution_line(const Diagnosis& diagnosis) {
-  std::string text;
+std::string in_column(const std::string& text, const std::size_t width) {
+  return std::string(width - std::min(width, text.size()), ' ') + text;
+}
+
+/// Named effects that the table of shares leaves out, because they are noise of their own.
+std::vector<std::string> noise_rows(const Diagnosis& diagnosis) {
+  std::vector<std::string> rows;
+  const auto& changes = diagnosis.attribution.changes;
+  for (const std::string& id : effect_ids(diagnosis.verdict))
+    if (!diagnosis.ranking.empty() && !changes.empty() &&
+        std::none_of(changes.begin(), changes.end(), [&](const auto& c) { return c.id == id; }))
+      rows.push_back(change_text(id, diagnosis.ranking.front().parameters));
+  return rows;
+}
+
+/// Changes that matter, with their values, and what they leave: a table of three columns.
+std::vector<std::string> attribution_lines(const Diagnosis& diagnosis) {
+  std::vector<std::string> rows;
+  const auto add = [&](const std::string& alone, const std::string& missed,
+                       const std::string& change) {
+    rows.push_back("  " + in_column(alone, 7) + in_column(missed, 10) + "  " + change);
+  };
+  const std::vector<std::string> named = effect_ids(diagnosis.verdict);
   for (const AttributedChange& change : diagnosis.attribution.changes) {
-    if (!change.moved || std::max(change.share, change.missed) < worth_a_word) continue;
-    text += (text.empty() ? "What closes the gap: " : "; ") +
-            (change.calibration && !change.parameters.empty()
-                 ? parameter_text(change.parameters.front())
-                 : change.id);
-    text += " closes " + percent(change.alone) + " alone, without it " + percent(change.missed) +
-            " returns";
+    const bool is_named = std::find(named.begin(), named.end(), change.id) != named.end();
+    const bool is_small = std::max(change.share, change.missed) < worth_a_word;
+    if (!is_named && (!change.moved || is_small)) continue;
+    add(closed_text(change.alone), closed_text(change.missed),
+        change_text(change.id, change.parameters));
   }
-  if (text.empty()) return "";
-  return text + ". Unexplained: " + percent(diagnosis.attribution.unexplained);
+  for (const std::string& row : noise_rows(diagnosis)) add("noise", "noise", row);
+  if (rows.empty()) return {};
+  rows.push_back("  not explained: " + percent(diagnosis.attribution.unexplained) + " of the gap");
+  const bool held_out =
+      !diagnosis.ranking.empty() && diagnosis.ranking.front().held_out.has_value();
+  const std::vector<std::string> head = {
+      std::string("Share of the gap that each change closes alone, and that reopens without it") +
+          (held_out ? " (held-out records):" : ":"),
+      "   closes   reopens  change (95 % intervals)"};
+  rows.insert(rows.begin(), head.begin(), head.end());
+  return rows;
 }
 
 std::string nearest_line(const Diagnosis& diagnosis) {
@@ -158,29 +206,24 @@ std::string nearest_line(const Diagnosis& diagnosis) {
 }
 
 /// Of what is not decided, the part of causes that no effect of the catalogue is.
-std::string outside_part(const Diagnosis& diagnosis) {
+double outside_part(const Diagnosis& diagnosis) {
   double part = diagnosis.probability_of_outside;
   for (const RankedAnswer& answer : diagnosis.ranking)
     if (answer.name == outside_catalogue) part -= answer.probability;
-  if (part < 0.005) return "";
-  const std::string points = percent(part);
-  return " (of these, " + points.substr(0, points.find(' ')) +
-         " percentage points for causes outside the catalogue)";
+  return part;
 }
 
 std::string others_line(const Diagnosis& diagnosis) {
-  std::string text;
-  for (std::size_t i = 1; i < std::min<std::size_t>(4, diagnosis.ranking.size()); ++i) {
-    const RankedAnswer& answer = diagnosis.ranking[i];
-    if (answer.probability < 0.005) break;
-    text +=
-        (text.empty() ? "Other answers: " : ", ") + answer.name + " " + percent(answer.probability);
-  }
-  const double untold = 1. - diagnosis.probability_of_tried;
-  if (untold >= 0.005)
-    text += (text.empty() ? "Other answers: " : "; ") +
-            ("not decided by these records: " + percent(untold) + outside_part(diagnosis));
-  return text;
+  std::vector<std::string> parts;
+  const auto add = [&](const std::string& name, const double probability) {
+    if (probability >= 0.005) parts.push_back(name + " " + percent(probability));
+  };
+  for (std::size_t i = 1; i < std::min<std::size_t>(4, diagnosis.ranking.size()); ++i)
+    add(diagnosis.ranking[i].name, diagnosis.ranking[i].probability);
+  const double outside = outside_part(diagnosis);
+  add("a cause that is not in the catalogue", outside);
+  add("not decided by these records", 1. - diagnosis.probability_of_tried - outside);
+  return parts.empty() ? "" : "Other answers (probability): " + joined(parts, ", ");
 }
 
 }  // namespace
@@ -204,56 +247,98 @@ bool is_recalibration(const std::string& answer) {
 }
 
 std::string consequence(const Diagnosis& diagnosis) {
-  if (!is_recalibration(diagnosis.verdict)) return "Your simulation lacks this effect";
-  std::vector<std::string> settings;
-  if (!diagnosis.ranking.empty())
-    for (const ParameterEstimate& p : diagnosis.ranking.front().parameters)
-      if (p.name == "ratio" && is_recalibration(p.effect))
-        settings.push_back("set " + quantity_of(p.effect) + " to " + three_digits(p.value) +
-                           " times the simulated value" + warning_of(p));
-  return "The simulation needs recalibration" +
-         (settings.empty() ? "" : ": " + joined(settings, ", "));
+  std::vector<std::string> missing, settings;
+  for (const std::string& id : effect_ids(diagnosis.verdict)) {
+    if (!is_recalibration(id)) missing.push_back(id);
+    if (is_recalibration(id) && !diagnosis.ranking.empty())
+      for (const ParameterEstimate& p : diagnosis.ranking.front().parameters)
+        if (p.effect == id && p.name == "ratio")
+          settings.push_back("set " + quantity_of(id) + " to " + three_digits(p.value) +
+                             " times the simulated value" + warning_of(p));
+  }
+  const std::string values = settings.empty() ? "" : ": " + joined(settings, ", ");
+  if (missing.empty()) return "The simulation needs recalibration" + values;
+  return "The simulation lacks " + joined(missing, " and ") +
+         (settings.empty() ? "" : " and needs recalibration" + values);
 }
 
-std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_lines) {
-  std::vector<std::string> lines;
-  const auto add = [&](const std::string& line) {
-    if (line.empty()) return;
-    std::vector<std::string> parts = wrapped(line);
-    if (lines.size() + parts.size() > most_lines) return;
-    std::move(parts.begin(), parts.end(), std::back_inserter(lines));
-  };
-  add(verdict_line(diagnosis));
-  add(nearest_line(diagnosis));
-  add(doubt_line(diagnosis));
-  add(meaning_line(diagnosis));
-  add(resonance_line(diagnosis));
-  if (!diagnosis.ranking.empty()) {
-    add(parameters_line(diagnosis.ranking.front()));
-    add(materials_line(diagnosis.ranking.front()));
-    add("Gap: prediction error " + percent(diagnosis.gap.nrmse) +
-        " of the signal (rms); noise alone "
-        "gives " +
-        percent(diagnosis.gap.noise_floor));
-    if (diagnosis.ranking.front().held_out) {
-      add(held_out_line(*diagnosis.ranking.front().held_out));
-      add(separation_line(diagnosis));
-    }
-    add(attribution_line(diagnosis));
+namespace {
+
+/// Lines that fit; entries that must be there are counted before the others.
+class Lines {
+ public:
+  void add(const std::string& line, const bool necessary = false) {
+    if (!line.empty()) entries_.push_back({wrapped(line), necessary});
   }
-  add("Where: " + location_sentence(diagnosis.location));
-  add(others_line(diagnosis));
-  if (!diagnosis.untested.empty()) add("Not tested: " + untested_sentence(diagnosis.untested));
+  void add_table(std::vector<std::string> rows) {
+    std::vector<std::string> lines;
+    for (const std::string& row : rows)
+      for (const std::string& line : wrapped(row, 1000, row.starts_with("  ") ? 21 : 4))
+        lines.push_back(line);
+    entries_.push_back({std::move(lines), true});
+  }
+  std::string text(std::size_t most) const {
+    for (const Entry& entry : entries_)
+      if (entry.necessary) most -= std::min(most, entry.lines.size());
+    std::string out;
+    bool is_whole = true;
+    for (const Entry& entry : entries_) {
+      if (!entry.necessary) {
+        if (entry.lines.size() + 1 > most) {
+          is_whole = false;
+          continue;
+        }
+        most -= entry.lines.size();
+      }
+      for (const std::string& line : entry.lines) out += line + "\n";
+    }
+    return is_whole ? out : out + "(There is more: see verdict.txt in the results folder.)\n";
+  }
+
+ private:
+  struct Entry {
+    std::vector<std::string> lines;
+    bool necessary;
+  };
+  std::vector<Entry> entries_;
+};
+
+std::string next_line(const Diagnosis& diagnosis) {
+  return "Measure next: " + (diagnosis.next.name == "none" ? "" : diagnosis.next.name + ": ") +
+         diagnosis.next.why;
+}
+
+}  // namespace
+
+std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_lines) {
+  Lines lines;
+  lines.add(verdict_line(diagnosis), true);
+  lines.add(nearest_line(diagnosis));
+  lines.add(doubt_line(diagnosis));
+  lines.add(meaning_line(diagnosis));
+  lines.add("Gap: the simulation's error is " + percent(diagnosis.gap.nrmse) +
+            " of the measured moment (rms), noise alone gives " +
+            percent(diagnosis.gap.noise_floor) + "; the gap is the power between them");
+  lines.add_table(attribution_lines(diagnosis));
+  lines.add("Where: " + location_sentence(diagnosis.location));
+  lines.add(resonance_line(diagnosis));
+  if (!diagnosis.ranking.empty()) {
+    lines.add(materials_line(diagnosis.ranking.front()));
+    if (diagnosis.ranking.front().held_out) {
+      lines.add(held_out_line(*diagnosis.ranking.front().held_out));
+      lines.add(separation_line(diagnosis));
+    }
+  }
+  lines.add(others_line(diagnosis));
+  lines.add(next_line(diagnosis), true);
   for (std::size_t i = 0; i < std::min<std::size_t>(2, diagnosis.indistinguishable.size()); ++i)
-    add("Group " + std::to_string(i + 1) +
-        " that these records cannot separate: " + joined(diagnosis.indistinguishable[i], ", ") +
-        " (each fits about as well; prior knowledge ranks them)");
-  add(diagnosis.next.name == "none"
-          ? "Measure next: nothing; " + diagnosis.next.why
-          : "Measure next: " + diagnosis.next.name + " - " + diagnosis.next.why);
+    lines.add("These records cannot tell apart: " + joined(diagnosis.indistinguishable[i], ", ") +
+              " (each fits about as well; prior knowledge ranks them)");
+  if (!diagnosis.untested.empty())
+    lines.add("Not tested: " + untested_sentence(diagnosis.untested));
   for (const Finding& finding : diagnosis.findings)
-    if (!casts_doubt(finding.kind)) add("Note: " + placed(finding));
-  return joined(lines, "\n") + "\n";
+    if (!casts_doubt(finding.kind)) lines.add("Note: " + placed(finding));
+  return lines.text(most_lines);
 }
 
 }  // namespace vibrissa::diagnosis

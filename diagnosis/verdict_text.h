@@ -12,11 +12,11 @@ bool is_recalibration(const std::string& answer);
 
 /// What an answer that names effects means for the simulation, without a full stop: "The simulation
 /// needs recalibration: set stiffness to 1.21 times the simulated value" or "The simulation lacks
-/// this physics".
+/// backlash".
 std::string consequence(const Diagnosis& diagnosis);
 
-/// Lines of at most 100 characters, at most 20 lines for a terminal: entries that do not fit
+/// Lines of at most 100 characters, at most 24 lines for a terminal: entries that do not fit
 /// completely are left out.
-std::string verdict_text(const Diagnosis& diagnosis, std::size_t most_lines = 20);
+std::string verdict_text(const Diagnosis& diagnosis, std::size_t most_lines = 24);
 
 }  // namespace vibrissa::diagnosis

@@ -56,8 +56,8 @@ std::vector<double> make_wind(const WindParameters& wind, double sampling_rate_h
                               std::size_t n_samples, std::uint64_t seed);
 
 /// One-sided von Karman density [m^2/s^2/Hz] at n [Hz] >= 0: n S(n)/sigma^2 =
-/// 4 x / (1 + 70.8 x^2)^(5/6), x = n L/|U| (von Karman 1948; ESDU 85020). Integrates to
-/// 0.99986 sigma^2. Proven by wind_test.cc, VonKarmanDensity.
+/// 4 x / (1 + 70.8 x^2)^(5/6), x = n L/|U| (shape: von Karman 1948; constants: ESDU 85020).
+/// Integrates to 0.99986 sigma^2. Proven by wind_test.cc, VonKarmanDensity.
 double von_karman_density(double frequency_hz, double mean_speed, double standard_deviation,
                           double length_scale);
 

@@ -8,7 +8,7 @@ namespace vibrissa::materials {
 /// the bulk modulus K at rest:
 ///   quadratic      U = K/2 (J - 1)^2, finite at J = 0;
 ///   hartmann_neff  U = K/50 (J^5 + J^-5 - 2), which grows beyond bounds as J -> 0 and is
-///                  polyconvex (Hartmann and Neff, Int. J. Solids Struct. 40, 2003, eq. 2.37).
+///                  polyconvex (Hartmann and Neff, Int. J. Solids Struct. 40, 2767-2791, 2003).
 /// The argument is J - 1, to keep accuracy near rest; NaN for J <= 0 with hartmann_neff. Proven by
 /// tests/materials/isochoric_law_test.cc, VolumetricLaws.
 struct VolumetricLaw {

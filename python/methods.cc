@@ -24,6 +24,8 @@
 namespace vibrissa::python {
 namespace {
 
+constexpr std::size_t whole_verdict = 1000;  // lines
+
 namespace py = pybind11;
 using separation::SampledBvrm;
 using signals::Record;
@@ -94,7 +96,8 @@ Answer diagnose(const diagnosis::UpdatedModel& simulation, const signals::Datase
   options.simulated_rate_hz = simulated_rate_hz;
   options.possible_experiments = possible_experiments;
   const diagnosis::Diagnosis found = diagnosis::diagnose(simulation, real, options);
-  return {found.updated, diagnosis::diagnosis_json(found), diagnosis::verdict_text(found)};
+  return {found.updated, diagnosis::diagnosis_json(found),
+          diagnosis::verdict_text(found, whole_verdict)};
 }
 
 // A reduced model or an updated model.

@@ -77,7 +77,7 @@ std::vector<report::KeyNumber> key_numbers(const Diagnosis& d) {
   if (d.resonance)
     numbers.push_back({"Resonance, measured", number(d.resonance->measured_hz) + " Hz",
                        "simulated " + number(d.resonance->simulated_hz) +
-                           " Hz; below it the measured response is " +
+                           " Hz; far below it the moment for the same motion is " +
                            number(d.resonance->slow_gain_ratio) + " times the simulated one"});
   if (d.wind_speed)
     numbers.push_back({"Wind speed error after correction",
@@ -119,7 +119,7 @@ report::Table parameter_table(const Diagnosis& d) {
     for (const auto* estimates : {&answer.parameters, &answer.materials})
       for (const diagnosis::ParameterEstimate& p : *estimates)
         table.add_row({answer.name, p.effect, p.name, p.value, p.ci95[0], p.ci95[1],
-                       p.unit == "1" ? "" : p.unit, p.at_limit ? "yes" : ""});
+                       p.relative_to.empty() ? p.unit : p.relative_to, p.at_limit ? "yes" : ""});
   }
   return table;
 }

@@ -45,12 +45,16 @@ std::string written_record_text(const std::string& file, const signals::Record& 
 void RecordOptions::add_to(CLI::App& command) {
   command.add_option(
       "--column", columns,
-      "Takes a column of the file as a channel: CHANNEL=COLUMN, with the unit in square brackets "
-      "and a factor where needed, e.g. 'base_acceleration=ax[g]', 'base_moment=B[uT]*0.18[N m/T]', "
-      "base_moment=hall_mT*1.8e-4, 'time=t[ms]'; without units the product is in SI; repeatable");
+      "Says which column of the file is which channel: CHANNEL=COLUMN. Channels: time, "
+      "base_acceleration, base_moment, wind_speed and others (docs/records.md). The unit of the "
+      "column stands in square brackets, a factor behind it: 'base_acceleration=ax[g]', "
+      "'time=t[ms]', "
+      "'base_moment=B[uT]*0.18[N m/T]'. Without units the values are in SI; repeatable");
   command.add_option("--rate", rate_hz, "Sampling rate [Hz], for a file without time");
-  command.add_option("--rows", rows, "FIRST:LAST: data rows that are used, counted from 1");
-  command.add_option("--remove-mean", remove_mean, "Channel whose mean is subtracted; repeatable");
+  command.add_option("--rows", rows,
+                     "FIRST:LAST: rows that are used; row 1 is the first behind the column names");
+  command.add_option("--remove-mean", remove_mean,
+                     "Channel whose mean is subtracted, e.g. base_acceleration; repeatable");
 }
 
 signals::ReadOptions RecordOptions::read_options() const {

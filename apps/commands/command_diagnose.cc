@@ -50,6 +50,10 @@ void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& d
   report::write_page(folder.path(), views::diagnosis_page(diagnosis));
   if (!options.common.is_talkative()) return;
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
+  if (diagnosis.verdict != "none" && diagnosis.verdict != diagnosis::outside_catalogue)
+    std::cout << "Corrected simulation, with all changes of the table: "
+              << (folder.path() / "updated_model.json").string()
+              << " (for --model of diagnose, simulate, separate)\n";
 }
 
 /// A simulation that is compared with itself has no gap, and noise of its own that no other has.
@@ -113,10 +117,11 @@ void diagnose(const DiagnoseCommand& options) {
 namespace {
 
 std::string known_experiments() {
-  std::string names;
+  constexpr std::size_t width = 22;
+  std::string text;
   for (const diagnosis::MenuEntry& entry : diagnosis::experiment_menu())
-    names += (names.empty() ? "" : ", ") + entry.name;
-  return names;
+    text += "  " + entry.name + std::string(width - entry.name.size(), ' ') + entry.what + "\n";
+  return text;
 }
 
 }  // namespace
@@ -129,11 +134,15 @@ void add_diagnose_command(CLI::App& app) {
                          "lies, and the improvement once the cause is added");
   command->add_option(
       "--model", options->simulation.model,
-      "The simulation as a case file (.prm), a reduced model or an updated model (.json)");
-  command->add_option("--sim", options->simulation.simulation,
-                      "The simulation as a dataset: a folder of records with dataset.json");
-  command->add_option("--real", options->real,
-                      "Dataset of the real sensor: a folder, or one record");
+      "The simulation as a case file (.prm), a reduced model or an updated model (.json); this "
+      "or --sim");
+  command->add_option(
+      "--sim", options->simulation.simulation,
+      "The simulation as records: one file, or a folder of records with dataset.json; this or "
+      "--model");
+  command->add_option(
+      "--real", options->real,
+      "Records of the real sensor: one file, or a folder of records with dataset.json");
   options->record.add_to(*command);
   options->figures.add_to(*command);
   command->add_option(
@@ -142,8 +151,8 @@ void add_diagnose_command(CLI::App& app) {
       "(default: results/diagnosis, or results/diagnosis-2, ... if it exists)");
   command
       ->add_option("--simulation-accuracy", options->simulation_accuracy,
-                   "Relative error of its response that the simulation may have without a cause; "
-                   "smaller errors are not named")
+                   "Relative error that a simulation keeps when all its values are right, 0.01 for "
+                   "1 %; causes of smaller errors are not named")
       ->capture_default_str()
       ->check(CLI::Range(1e-4, 0.3));
   command
@@ -153,23 +162,24 @@ void add_diagnose_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--max-effects", options->max_effects,
-                   "Largest number of effects that are combined; calibration parameters "
+                   "Largest number of missing effects in one answer; wrong calibrations "
                    "(stiffness, damping, mass, gains, drag) do not count")
       ->check(CLI::Range(1, 5))
       ->capture_default_str();
   command
-      ->add_option("--bench-can", options->possible_experiments,
-                   "Experiments that the bench can do, comma-separated; the next experiment is one "
-                   "of them (default: all): " +
-                       known_experiments())
+      ->add_option(
+          "--bench-can", options->possible_experiments,
+          "Experiments that your bench can do, comma-separated; 'Measure next' proposes one "
+          "of them (default: all of the list below)")
       ->delimiter(',');
   add_common_options(*command, options->common);
   command->footer(
+      "Experiments for --bench-can:\n" + known_experiments() +
       "Examples:\n  vibrissa diagnose --sim simulated --real bench --out diagnosis\n"
       "  vibrissa diagnose --model case.prm --real bench.csv --column 'base_acceleration=ax[g]' "
       "\\\n"
       "    --column 'base_moment=hall[uT]*0.18[N m/T]' --column 'time=t[s]'\n"
-      "  vibrissa diagnose --resonance 37.32:31.47 --damping 0.05:0.027 --model model.json\n"
+      "  vibrissa diagnose --resonance 37.32:31.47 --damping 0.05:0.027\n"
       "  vibrissa diagnose --example paper-gap\n"
       "Exit status: 0 an answer, 2 bad input, 3 too little data to say anything.");
   command->callback([options] { diagnose(*options); });

@@ -100,7 +100,7 @@ void add_reproduce_command(CLI::App& app) {
   const auto options = std::make_shared<ReproduceOptions>();
   auto* command = app.add_subcommand(
       "reproduce",
-      "Reproduces figures 7 to 12 and the numbers of the reference paper (docs/theory.md, T15)");
+      "Reproduces figures 7 to 12 and the numbers of the reference paper (Routray et al. 2024)");
   command->add_option("--flow-case", options->flow_case, "Case of the flow sensor")
       ->capture_default_str();
   command->add_option("--whisker-case", options->whisker_case, "Case of the whisker sensor")

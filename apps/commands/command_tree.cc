@@ -3,6 +3,7 @@
 #include <string>
 
 #include "apps/command_line/command.h"
+#include "apps/command_line/help_formatter.h"
 #include "signals/base/revision.h"
 
 namespace vibrissa::apps {
@@ -27,6 +28,8 @@ constexpr const char* footer =
 
 std::unique_ptr<CLI::App> command_tree() {
   auto app = std::make_unique<CLI::App>(about, "vibrissa");
+  // Subcommands take it over.
+  app->formatter(std::make_shared<HelpFormatter>());
   app->footer(footer);
   app->set_version_flag("--version", std::string("vibrissa ") + signals::program_revision());
   app->require_subcommand(1);

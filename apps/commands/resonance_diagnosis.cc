@@ -57,8 +57,9 @@ void ResonanceInput::add_to(CLI::App& command) {
                      "SIMULATED_HZ:MEASURED_HZ: the first resonances, in place of records");
   command.add_option("--damping", damping,
                      "SIMULATED:MEASURED: the damping ratios that belong to --resonance");
-  command.add_option("--example", example,
-                     "Built-in example: paper-gap, the resonances of the reference study");
+  command.add_option(
+      "--example", example,
+      "paper-gap: the two resonances of the reference study, in place of --resonance");
 }
 
 void diagnose_resonances(const ResonanceInput& figures, const NominalInput& simulation,

@@ -26,7 +26,10 @@ Effect backlash() {
       .confused_with = "joint_friction; threshold, odd lines at low level",
       .model_form_error = 0.1,
       .needs = {.base = true},
-      .parameters = {log_uniform("gap", "1", 5e-4, 0.6, 0.), uniform("loss", "1", 0.1, 1., 0.)},
+      .parameters = {relative("of the peak moment, half of the play",
+                              log_uniform("gap", "1", 5e-4, 0.6, 0.)),
+                     relative("of the stiffness, within the play",
+                              uniform("loss", "1", 0.1, 1., 0.))},
       .starts = {{0.02, 0.6}, {0.1, 0.6}, {0.005, 0.6}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         chain.joint.push_back([gap = v[0] * scales.joint_moment_n_m, loss = v[1]](const Lanes&) {

@@ -12,7 +12,8 @@ Effect base_compliance() {
                 .confused_with = "stiffness (exact alias); second accelerometer, stiffer clamp",
                 .model_form_error = 0.02,
                 .log_prior = -1.5,
-                .parameters = {log_uniform("stiffness_ratio", "1", 0.5, 1e4, 1e100)},
+                .parameters = {relative("times the stiffness of the joint",
+                                        log_uniform("stiffness_ratio", "1", 0.5, 1e4, 1e100))},
                 .starts = {{10.}, {30.}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
                   const std::optional<JointModel> joint = joint_of(chain);

@@ -10,7 +10,8 @@ Effect clock_drift() {
                 .source = "Allan 1987, frequency offset of clocks",
                 .confused_with = "delay; blockwise phase",
                 .model_form_error = 0.02,
-                .parameters = {uniform("rate_error", "1", -1.5e-3, 1.5e-3, 0.)},
+                .parameters = {relative("of the sampling rate",
+                                        uniform("rate_error", "1", -1.5e-3, 1.5e-3, 0.))},
                 .starts = {{3e-5}, {-3e-5}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
                   chain.clock_rate_error += v[0];

@@ -11,8 +11,10 @@ Effect cross_axis() {
                 .confused_with = "reference_noise; second axis",
                 .model_form_error = 0.02,
                 .needs = {.cross = true},
-                .parameters = {normal("static_gain", "1", 0., 0.2, -2., 2., 0.),
-                               normal("dynamic_gain", "1", 0., 0.2, -2., 2., 0.)},
+                .parameters = {relative("times the moment of slow base motion of the same size",
+                                        normal("static_gain", "1", 0., 0.2, -2., 2., 0.)),
+                               relative("times the moment of base motion of the same size",
+                                        normal("dynamic_gain", "1", 0., 0.2, -2., 2., 0.))},
                 .starts = {{0.02, 0.02}, {-0.02, -0.02}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
                   chain.cross.push_back([e = v[0] * scales.static_gain, f = v[1],

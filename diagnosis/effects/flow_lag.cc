@@ -4,10 +4,10 @@ namespace vibrissa::diagnosis::effects {
 
 Effect flow_lag() {
   return Effect{.id = "flow_lag",
-                .about = "the wind at the whisker lags the measured wind",
+                .about = "the wind at the whisker follows the measured wind with a time constant",
                 .link = Link::wind,
                 .equation = "tau u' + u = u_measured",
-                .source = "Wyngaard 1981, first-order response; Scanlan et al. 1974, bluff bodies",
+                .source = "Wyngaard 1981, first-order response; Scanlan et al. 1974, bridge decks",
                 .confused_with = "drag_error; frequency",
                 .model_form_error = 0.02,
                 .needs = {.wind = true},

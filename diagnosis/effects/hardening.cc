@@ -31,7 +31,8 @@ Effect hardening() {
       .confused_with = "joint_friction, softening_history; exponent of level, free decay",
       .model_form_error = 0.1,
       .needs = {.base = true},
-      .parameters = {uniform("cubic_ratio", "1", -0.6, 8., 0.)},
+      .parameters = {relative("of the elastic moment at its peak",
+                              uniform("cubic_ratio", "1", -0.6, 8., 0.))},
       .starts = {{0.03}, {-0.03}, {0.2}, {0.6}, {1.5}, {4.}, {-0.15}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         chain.joint.push_back([b = v[0] / (scales.joint_moment_n_m * scales.joint_moment_n_m)](

@@ -33,26 +33,26 @@ class Iwan : public JointLaw {
 }  // namespace
 
 Effect joint_friction() {
-  return Effect{.id = "joint_friction",
-                .about = "dry friction in a joint",
-                .link = Link::structure,
-                .equation =
-                    "T = sum of Jenkins elements, stiffness r k0, slip moments m (1 + d (-0.75, "
-                    "-0.25, 0.25, 0.75)) Y",
-                .source = "Iwan 1966, distributed-element model for hysteresis",
-                .confused_with = "hardening; loop area ~ A vs A^2..3",
-                .model_form_error = 0.15,
-                .needs = {.base = true},
-                .parameters = {log_uniform("stiffness_ratio", "1", 0.03, 1.5, 0.),
-                               log_uniform("slip_moment", "1", 2e-4, 0.7, 1.),
-                               uniform("spread", "1", 0., 1.2, 0.)},
-                .starts = {{0.3, 0.02, 0.5}, {0.3, 0.07, 0.5}, {0.3, 0.2, 0.5}},
-                .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-                  chain.joint.push_back(
-                      [r = v[0], slip = v[1] * scales.joint_moment_n_m, d = v[2]](const Lanes&) {
-                        return std::make_unique<Iwan>(r, slip, d);
-                      });
-                }};
+  return Effect{
+      .id = "joint_friction",
+      .about = "dry friction in a joint",
+      .link = Link::structure,
+      .equation =
+          "T = sum of Jenkins elements, stiffness r k0, slip moments m (1 + d (-0.75, "
+          "-0.25, 0.25, 0.75)) Y",
+      .source = "Iwan 1966, distributed-element model for hysteresis",
+      .confused_with = "hardening; loop area ~ A vs A^2..3",
+      .model_form_error = 0.15,
+      .needs = {.base = true},
+      .parameters = {relative("of the stiffness",
+                              log_uniform("stiffness_ratio", "1", 0.03, 1.5, 0.)),
+                     relative("of the peak moment", log_uniform("slip_moment", "1", 2e-4, 0.7, 1.)),
+                     relative("of the slip moment", uniform("spread", "1", 0., 1.2, 0.))},
+      .starts = {{0.3, 0.02, 0.5}, {0.3, 0.07, 0.5}, {0.3, 0.2, 0.5}},
+      .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
+        chain.joint.push_back([r = v[0], slip = v[1] * scales.joint_moment_n_m, d = v[2]](
+                                  const Lanes&) { return std::make_unique<Iwan>(r, slip, d); });
+      }};
 }
 
 }  // namespace vibrissa::diagnosis::effects

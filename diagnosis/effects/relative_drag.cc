@@ -30,8 +30,10 @@ Effect relative_drag() {
                 .confused_with = "damping; wind ladder",
                 .model_form_error = 0.1,
                 .needs = {.base = true, .wind = true},
-                .parameters = {log_uniform("share", "1", 0.02, 5., 0.),
-                               log_usual("lever", "1", 0.5, 2., 0.1, 10., 1.)},
+                .parameters = {relative("of the drag in steady wind",
+                                        log_uniform("share", "1", 0.02, 5., 0.)),
+                               relative("times the height of the centre of percussion",
+                                        log_usual("lever", "1", 0.5, 2., 0.1, 10., 1.))},
                 .starts = {{0.3, 1.}, {1.2, 1.}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
                   const double inertia = scales.static_gain * std::pow(scales.first_mode_rad_s, 2);

@@ -13,7 +13,8 @@ Effect sample_repeat() {
       .confused_with = "reference_noise; equal neighbours",
       .model_form_error = 0.015,
       .needs = {.base = true, .repeats = true},
-      .parameters = {uniform("share", "1", 0., 1., 0.), uniform("age", "s", -2e-3, 4e-3, 0.)},
+      .parameters = {relative("of the reading", uniform("share", "1", 0., 1., 0.)),
+                     uniform("age", "s", -2e-3, 4e-3, 0.)},
       .starts = {{1., 0.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         chain.new_sample_share += v[0];

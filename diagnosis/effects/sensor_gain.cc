@@ -7,7 +7,7 @@ Effect sensor_gain() {
                 .about = "gain of the moment sensor",
                 .link = Link::sensor,
                 .equation = "M_read = r M",
-                .source = "MLX90393 data sheet, rev. 003, sensitivity; Doebelin 2004, ch. 3",
+                .source = "MLX90393 data sheet, rev. 006, sensitivity; Doebelin 2004, ch. 3",
                 .confused_with = "reference_gain + drag_error",
                 .calibration = true,
                 .model_form_error = 0.01,

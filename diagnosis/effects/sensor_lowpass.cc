@@ -18,7 +18,7 @@ Effect sensor_lowpass() {
       .model_form_error = 0.02,
       .parameters = {log_usual("corner", "Hz", 30., 250., 10., 3e4, 1e100),
                      normal("half_step", "s", 0., 5e-5, -2e-4, 2e-4, 0.),
-                     uniform("lags", "1", 1., 3., 1.)},
+                     relative("lags in series", uniform("lags", "1", 1., 3., 1.))},
       .starts = {{200., 0., 1.5}, {60., 0., 1.5}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         const double n = v[2], corner = 2. * std::numbers::pi * v[0];

@@ -28,12 +28,12 @@ Effect softening_history() {
       .about = "the silicone softens once it has been strained",
       .link = Link::structure,
       .equation = "k = k0 (1 - D (1 - exp(-y_max / (L Y)))), y_max = largest so far",
-      .source = "Mullins 1969; Ogden and Roxburgh 1999, pseudo-elastic model",
+      .source = "Mullins 1969; Ogden and Roxburgh 1999, strain energy",
       .confused_with = "hardening < 0; up/down ladder",
       .model_form_error = 0.1,
       .needs = {.base = true},
-      .parameters = {log_uniform("softening", "1", 3e-4, 0.6, 0.),
-                     log_uniform("level", "1", 0.02, 3., 1.)},
+      .parameters = {relative("of the stiffness", log_uniform("softening", "1", 3e-4, 0.6, 0.)),
+                     relative("of the peak moment", log_uniform("level", "1", 0.02, 3., 1.))},
       .starts = {{0.1, 0.3}, {0.1, 1.}, {0.1, 0.08}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         chain.joint.push_back([depth = v[0], level = v[1] * scales.joint_moment_n_m](const Lanes&) {

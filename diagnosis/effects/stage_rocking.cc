@@ -16,7 +16,8 @@ Effect stage_rocking() {
       .needs = {.base = true},
       // With a resonance above the band it is indistinguishable from a gain.
       .log_prior = -1.7,
-      .parameters = {normal("gain", "1", 0., 0.04, -0.3, 0.3, 0.),
+      .parameters = {relative("of the base acceleration",
+                              normal("gain", "1", 0., 0.04, -0.3, 0.3, 0.)),
                      log_uniform("frequency", "Hz", 50., 600., 200.)},
       .starts = {{0.02, 100.}, {-0.02, 100.}, {0.02, 250.}, {-0.02, 250.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {

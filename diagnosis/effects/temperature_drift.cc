@@ -33,9 +33,12 @@ Effect temperature_drift() {
       // Silicone warms over minutes. An apparent drift within a few seconds is accelerometer noise
       // that the mode amplifies.
       .needs = {.base = true, .moved_s = 3.},
-      .parameters = {uniform("within_record", "1", -0.4, 0.4, 0.),
-                     normal("between_records", "1", 0., 0.005, -0.1, 0.1, 0.),
-                     normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.),
+      .parameters = {relative("of the stiffness, from the first to the last sample of a record",
+                              uniform("within_record", "1", -0.4, 0.4, 0.)),
+                     relative("of the stiffness, from one record to the next",
+                              normal("between_records", "1", 0., 0.005, -0.1, 0.1, 0.)),
+                     relative("as exponent of the stiffness",
+                              normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.)),
                      log_uniform("settled_after", "records", 1., 100., 100.)},
       .starts = {{0.02, 0., 0., 30.}, {-0.02, 0., 0., 30.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {

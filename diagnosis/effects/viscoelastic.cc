@@ -33,8 +33,10 @@ Effect viscoelastic() {
       .needs = {.base = true},
       // Half of its prior times are so slow that the effect equals a change of stiffness.
       .log_prior = -0.7,
-      .parameters = {log_uniform("strength", "1", 2e-4, 1.5, 0.),
-                     log_uniform("tau", "s", 1e-3, 10., 0.01), uniform("decades", "1", 0., 5., 0.)},
+      .parameters = {relative("of the static stiffness",
+                              log_uniform("strength", "1", 2e-4, 1.5, 0.)),
+                     log_uniform("tau", "s", 1e-3, 10., 0.01),
+                     relative("decades of relaxation times", uniform("decades", "1", 0., 5., 0.))},
       .starts = {{0.1, 3e-3, 1.},
                  {0.1, 0.05, 1.},
                  {0.3, 1.5e-3, 1.},

@@ -28,7 +28,7 @@ struct DiscrepancyShapes {
 /// eps_jk ~ CN(0, level^2). One eps serves all records of a kind, so it explains no error that
 /// depends on level, time or input. Blocks: a sixth of an octave, narrower near a resonance. The
 /// complex Gaussian with these terms integrated out by the Woodbury identity (Kennedy and O'Hagan
-/// 2001, model discrepancy; Golub and Van Loan 2013, 2.1.4). Proven by
+/// 2001, model discrepancy; Golub and Van Loan, 4th ed., 2013, 2.1.4). Proven by
 /// tests/diagnosis/fit/model_discrepancy_test.cc.
 class ModelDiscrepancy {
  public:

@@ -1,6 +1,7 @@
 #include "diagnosis/localisation/location.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -72,14 +73,13 @@ std::string location_sentence(const Location& location) {
          << " Hz";
   if (location.mode) text << ", strongest near mode " << *location.mode;
   if (location.level_exponent && *location.level_exponent != 0.)
-    text << (*location.level_exponent > 0. ? ", rises" : ", falls")
-         << " relative to the signal with the level of what moves the sensor, as level^"
-         << *location.level_exponent;
+    text << "; with twice the excitation the error's share of the moment is "
+         << std::exp2(*location.level_exponent) << " times as large";
   if (location.harmonics != Harmonics::none)
-    text << ", with "
+    text << "; it has "
          << (location.harmonics == Harmonics::both ? "odd and even" : to_string(location.harmonics))
-         << " distortion";
-  if (location.varies_in_time) text << ", changes over time";
+         << " harmonics of the excitation";
+  if (location.varies_in_time) text << "; it changes over time";
   text << ".";
   return text.str();
 }

@@ -76,6 +76,11 @@ Parameter uniform(std::string name, std::string unit, const double low, const do
           .step = 1e-4 * (high - low)};
 }
 
+Parameter relative(std::string to, Parameter parameter) {
+  parameter.relative_to = std::move(to);
+  return parameter;
+}
+
 Parameter log_usual(std::string name, std::string unit, const double usual_low,
                     const double usual_high, const double low, const double high,
                     const double neutral) {
@@ -94,6 +99,7 @@ Parameter ratio_near_one(std::string name, const double relative_scale, const do
                          const double high) {
   return {.name = std::move(name),
           .unit = "1",
+          .relative_to = "times the simulated value",
           .logarithmic = true,
           .prior = {.kind = Prior::Kind::normal,
                     .centre = 0.,

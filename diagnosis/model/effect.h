@@ -33,6 +33,8 @@ struct Prior {
 /// logarithmic.
 struct Parameter {
   std::string name{}, unit{};
+  /// For the unit 1: what the value multiplies, to be read behind it ("of the stiffness").
+  std::string relative_to{};
   bool logarithmic = false;
   Prior prior{};
   double neutral = 0.;  // value (not x) at which the effect vanishes
@@ -44,6 +46,8 @@ struct Parameter {
   double coordinate(double value) const { return logarithmic ? std::log(value) : value; }
 };
 Parameter log_uniform(std::string name, std::string unit, double low, double high, double neutral);
+/// The parameter, whose unit is 1, with the text that says what it multiplies.
+Parameter relative(std::string to, Parameter parameter);
 /// Positive parameter that is usually between two values; heavy tails (Student distribution of ln
 /// value with six degrees of freedom).
 Parameter log_usual(std::string name, std::string unit, double usual_low, double usual_high,

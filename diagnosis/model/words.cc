@@ -17,6 +17,16 @@ std::string with_decimals(const double value, const int most_decimals) {
   return text == "-0" ? "0" : text;
 }
 
+/// Is the space between a value and "%", or in a range "a .. b"?
+bool is_within_number(const std::string& text, const std::size_t space) {
+  const auto follows = [&](const std::string& word) {
+    return text.compare(space + 1, word.size(), word) == 0;
+  };
+  return follows("%") || follows(".. ") || follows("-> ") ||
+         (space >= 2 &&
+          (text.compare(space - 2, 2, "..") == 0 || text.compare(space - 2, 2, "->") == 0));
+}
+
 }  // namespace
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator) {
@@ -25,11 +35,15 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
   return text;
 }
 
-std::string three_digits(const double value) {
+std::string with_digits(const double value, const int digits) {
   std::ostringstream stream;
-  stream.precision(3);
+  stream.precision(digits);
   stream << value;
   return stream.str();
+}
+
+std::string three_digits(const double value) {
+  return with_digits(value, 3);
 }
 
 std::string one_decimal(const double value) {
@@ -40,11 +54,14 @@ std::string percent(const double share) {
   return with_decimals(100. * share, share > 0.1 ? 0 : 1) + " %";
 }
 
-std::vector<std::string> wrapped(const std::string& line, const std::size_t most_lines) {
+std::vector<std::string> wrapped(const std::string& line, const std::size_t most_lines,
+                                 const std::size_t indentation) {
   constexpr std::size_t longest = 100;
   const std::string dots = " ...";
   const auto cut_of = [](const std::string& text, const std::size_t most) {
-    const std::size_t space = text.rfind(' ', most);
+    std::size_t space = text.rfind(' ', most);
+    while (space != std::string::npos && is_within_number(text, space))
+      space = text.rfind(' ', space - 1);
     return space == std::string::npos || space < most / 2 ? most : space;
   };
   std::vector<std::string> lines;
@@ -56,7 +73,7 @@ std::vector<std::string> wrapped(const std::string& line, const std::size_t most
     }
     const std::size_t cut = cut_of(rest, longest);
     lines.push_back(rest.substr(0, cut));
-    rest = "   " + rest.substr(cut);
+    rest = std::string(indentation - 1, ' ') + rest.substr(cut);
   }
   lines.push_back(rest);
   return lines;

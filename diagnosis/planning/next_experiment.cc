@@ -75,12 +75,13 @@ double shown_share(const MenuEntry& entry, const std::vector<Answer>& answers) {
   return shown / total;
 }
 
+/// What the first few effects would show.
 std::string what_it_shows(const MenuEntry& entry, const std::vector<std::string>& ids) {
+  constexpr std::size_t most = 4;
   std::string text;
-  for (const std::string& id : ids)
-    if (const auto found = entry.shows.find(id); found != entry.shows.end())
-      text +=
-          (text.empty() ? "expected if the cause is " : "; if it is ") + id + ": " + found->second;
+  for (std::size_t i = 0; i < std::min(most, ids.size()); ++i)
+    text += (i == 0 ? "if the cause is " : "; if it is ") + ids[i] +
+            ", expect: " + entry.shows.at(ids[i]);
   return text;
 }
 
@@ -119,7 +120,7 @@ const std::vector<MenuEntry>& experiment_menu() {
         {"vortex_shedding", "one spectral line"},
         {"sensor_drift", "slow drift"}}},
       {"wide_band",
-       "base motion from 1 Hz to 0.45 of the sampling rate",
+       "multisine or noise at the base from 1 Hz to 0.45 times the sampling rate",
        {{"delay", "phase proportional to frequency, magnitude unchanged"},
         {"sensor_lowpass", "magnitude falls at high frequency"},
         {"reference_gain", "same factor at every frequency"},
@@ -150,7 +151,7 @@ const std::vector<MenuEntry>& experiment_menu() {
         {"drag_error", "static moment correct, accelerometer reads 1 g"},
         {"stiffness", "static moment correct"}}},
       {"clamped_stage",
-       "the stage clamped, the coil driven",
+       "the shaker's table clamped, its coil driven",
        {{"coil_feedthrough", "reading without motion"},
         {"mass", "no reading"},
         {"hum", "spectral line without motion"},
@@ -208,16 +209,19 @@ NextExperiment next_experiment(const std::vector<Candidate>& candidates,
     best = &entry;
   }
   if (best == nullptr) {
-    out.why = answers.size() < 2 ? "only one answer remains"
-                                 : "no experiment of the menu distinguishes the remaining answers";
+    out.why = answers.size() < 2
+                  ? "nothing is needed, only one answer remains"
+                  : "no experiment that vibrissa knows tells the remaining answers apart";
     return out;
   }
-  std::set<std::string> ids;
+  std::map<std::string, double> weights;
   for (const Answer& answer : answers)
     for (const std::string& id : effect_ids(answer.name))
-      if (best->shows.count(id) != 0) ids.insert(id);
+      if (best->shows.count(id) != 0) weights[id] += answer.weight;
   out.name = best->name;
-  out.would_separate.assign(ids.begin(), ids.end());
+  for (const auto& [id, weight] : weights) out.would_separate.push_back(id);
+  std::stable_sort(out.would_separate.begin(), out.would_separate.end(),
+                   [&](const auto& a, const auto& b) { return weights[a] > weights[b]; });
   out.why = best->what + " (" + what_it_shows(*best, out.would_separate) + ")";
   return out;
 }

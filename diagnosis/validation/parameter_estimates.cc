@@ -27,6 +27,7 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
           {.effect = id,
            .name = parameter.name,
            .unit = parameter.unit,
+           .relative_to = parameter.relative_to,
            .value = value(x),
            .ci95 = {value(x - half), value(x + half)},
            .at_limit = x < parameter.prior.low + reach || x > parameter.prior.high - reach});

@@ -11,6 +11,7 @@ namespace vibrissa::diagnosis {
 /// A parameter of an effect with its 95 % interval, in its own unit.
 struct ParameterEstimate {
   std::string effect{}, name{}, unit{};
+  std::string relative_to{};  // Parameter::relative_to
   double value = 0.;
   std::array<double, 2> ci95{};
   bool at_limit = false;  // at the limit of the searched range: the interval has no meaning

@@ -47,7 +47,7 @@ std::string untested_sentence(const std::vector<UntestedEffect>& untested) {
   for (const UntestedEffect& entry : untested) by_reason[entry.reason].push_back(entry.effect);
   std::vector<std::string> parts;
   for (const auto& [reason, effects] : by_reason)
-    parts.push_back(reason + ": " + joined(effects, ", "));
+    parts.push_back(joined(effects, ", ") + " (" + reason + ")");
   return joined(parts, "; ");
 }
 

@@ -12,8 +12,9 @@
 namespace vibrissa::fem {
 
 /// Factors of a matrix in one process: multifrontal Cholesky factorisation (Duff and Reid, ACM
-/// Trans. Math. Softw. 9, 302 (1983)). A supernode stores its change of the rows below as a dense
-/// update, which its parent adds later. Proven by tests/fem/factors/cholesky_solver_test.cc.
+/// Trans. Math. Softw. 9, 302 (1983), here without pivoting). A supernode stores its change of the
+/// rows below as a dense update, which its parent adds later. Proven by
+/// tests/fem/factors/cholesky_solver_test.cc.
 class SupernodalFactors : public SparseFactors {
  public:
   explicit SupernodalFactors(const Matrix& matrix);

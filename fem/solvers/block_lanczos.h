@@ -15,7 +15,7 @@ struct Eigenpair {
 /// n_beyond further pairs. A further pair is converged only when its eigenvalue may equal the nth
 /// one: a group of equal eigenvalues is complete, without the cost of other pairs. Block Lanczos
 /// with full reorthogonalisation for K^-1 M (Golub and Van Loan, Matrix Computations, 4th ed.,
-/// 10.3.6), M positive semi-definite. A block method finds repeated eigenvalues (the bending pairs
+/// 10.3), M positive semi-definite. A block method finds repeated eigenvalues (the bending pairs
 /// of a round sensor) as fast as single ones. One block costs about as much as two vectors, because
 /// the factors are read once for all columns. Throws UserError when they do not converge. Proven by
 /// tests/fem/solvers/block_lanczos_test.cc.

@@ -21,9 +21,10 @@ struct SrivcOptions {
   int max_iterations = 50;
 };
 
-/// Simplified refined instrumental variables for continuous time (Young & Jakeman 1980; Garnier &
-/// Young 2008), for G = B / A of any even order with a direct term. With the present denominator A0
-/// as prefilter, the linear regression
+/// Simplified refined instrumental variables for continuous time (Young & Jakeman 1980; Young,
+/// Garnier & Gilson 2008, in Identification of Continuous-time Models from Sampled Data), for G = B
+/// / A of any even order with a direct term. With the present denominator A0 as prefilter, the
+/// linear regression
 ///   (A / A0) M = (B / A0) a + free responses of A0 + offset + e
 /// is solved with the noise-free sensitivities of the present model as instruments, and A0 replaced
 /// by A, until the simulated moment changes by less than a thousandth of its deviation due to

@@ -11,7 +11,7 @@
 namespace vibrissa::signals {
 
 /// Best linear approximation of a weakly nonlinear system, with noise separated from distortion
-/// (Pintelon & Schoukens, System Identification, 2nd ed., section 4.3). E|error|^2 throughout.
+/// (Pintelon & Schoukens, System Identification, 2nd ed., chapter 4). E|error|^2 throughout.
 struct RobustApproximation {
   FrequencyResponse response;          // its deviation: noise and distortion of the mean together
   std::vector<double> noise_variance;  // share of noise in the variance of the mean

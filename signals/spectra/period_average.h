@@ -9,7 +9,7 @@ namespace vibrissa::signals {
 
 /// Mean spectra of two noisy periodic channels, with the covariance of their noise, as a fit with
 /// errors in both variables needs them (Pintelon & Schoukens, System Identification, 2nd ed.,
-/// section 2.5). Entry i belongs to line i + 1 of the period; zero frequency and half the sampling
+/// chapter 2). Entry i belongs to line i + 1 of the period; zero frequency and half the sampling
 /// rate are excluded. Spectra are amplitudes: a cos(w t + p) has a exp(j p).
 struct PeriodAverage {
   double sampling_rate_hz = 0.;

@@ -60,7 +60,7 @@ Ratio ratio_of_rates(const double from_hz, const double to_hz) {
 
 // Low pass between a share and the whole of the lower Nyquist frequency as a sinc in a Kaiser
 // window; length and shape by Kaiser's formulas (Oppenheim and Schafer, Discrete-Time Signal
-// Processing, 3rd edition, eqs 7.75, 7.76). Times are in samples of the input.
+// Processing, 3rd edition, chapter 7, Kaiser window). Times are in samples of the input.
 class Kernel {
  public:
   Kernel(const Ratio& ratio, const double flat_to_share)

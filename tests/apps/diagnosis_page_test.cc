@@ -28,7 +28,7 @@ diagnosis::Diagnosis example() {
   diagnosis::RankedAnswer first{
       .name = d.verdict,
       .probability = 0.9,
-      .parameters = {{"stiffness", "ratio", "1", 0.71, {0.7, 0.72}}},
+      .parameters = {{"stiffness", "ratio", "1", "times the simulated value", 0.71, {0.7, 0.72}}},
       .held_out = diagnosis::HeldOutScore{.overall = score, .records = {score}}};
   d.attribution = {.reducible = 0.6,
                    .changes = {{.id = "stiffness", .calibration = true, .share = 0.8},
@@ -53,7 +53,9 @@ TEST(DiagnosisPage, SaysVerdictLocationCauseImprovementAndNextExperiment) {
   EXPECT_EQ(page.headline,
             "Joint friction and stiffness explain why the bench differs from the simulation");
   EXPECT_THAT(page.verdict,
-              ElementsAre("Your simulation lacks this effect.", HasSubstr("Doubtful: a</script>")));
+              ElementsAre("The simulation lacks joint_friction and needs recalibration: set "
+                          "stiffness to 0.71 times the simulated value.",
+                          HasSubstr("Doubtful: a</script>")));
   std::vector<std::string> headings;
   for (const report::PageSection& section : page.sections) headings.push_back(section.heading);
   EXPECT_THAT(headings, ElementsAre("Where", "Cause", "Improvement", "Next experiment"));
@@ -75,7 +77,7 @@ TEST(DiagnosisPage, ShowsTheParametersOfAnswersThatAreNotImprobable) {
   ASSERT_THAT(cause.tables, SizeIs(3));
   EXPECT_EQ(cause.tables[1].table.to_csv(),
             "answer,effect,parameter,value,95 % from,95 % to,unit,at limit of range\n"
-            "joint_friction+stiffness,stiffness,ratio,0.71,0.7,0.72,,\n");
+            "joint_friction+stiffness,stiffness,ratio,0.71,0.7,0.72,times the simulated value,\n");
 }
 
 TEST(DiagnosisPage, ShowsTheWholeHeldOutRecordAndItsFirstSecond) {

@@ -131,6 +131,10 @@ TEST_P(EffectOfTheCatalogue, SaysWhatItIs) {
   for (const Parameter& parameter : effect.parameters) {
     EXPECT_FALSE(parameter.name.empty());
     EXPECT_FALSE(parameter.unit.empty());
+    // Calibrations show their ratio alone.
+    const bool is_shown = !effect.calibration || parameter.name == "ratio";
+    EXPECT_EQ(parameter.relative_to.empty(), parameter.unit != "1" || !is_shown)
+        << effect.id << " " << parameter.name;
     EXPECT_LT(parameter.prior.low, parameter.prior.high);
   }
 }

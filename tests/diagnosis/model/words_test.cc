@@ -29,6 +29,13 @@ TEST(Wrapped, EndsInDotsBehindAWholeWordWhereItMustNotGoOn) {
   EXPECT_THAT(lines[1], testing::ContainsRegex("word_[0-9]+ \\.\\.\\.$"));
 }
 
+TEST(Wrapped, KeepsANumberAndItsUnitTogether) {
+  const std::string start(96, 'x');
+  EXPECT_THAT(wrapped(start + " 12 % of it").front(), start);
+  EXPECT_THAT(wrapped(start + " 1 .. 2 m").front(), start);
+  EXPECT_THAT(wrapped(start + " 1 -> 2 m", 1000, 2).back(), "  1 -> 2 m");
+}
+
 TEST(Wrapped, BreaksAWordThatIsLongerThanALine) {
   EXPECT_THAT(wrapped(std::string(250, 'x')), SizeIs(3));
 }

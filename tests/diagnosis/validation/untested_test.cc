@@ -56,7 +56,7 @@ TEST(Untested, IsADriftOfTemperatureWithinAFewSeconds) {
 
 TEST(UntestedSentence, JoinsEffectsByTheirReason) {
   EXPECT_EQ(untested_sentence({{"a", "no x"}, {"b", "no y"}, {"c", "no x"}}),
-            "no x: a, c; no y: b");
+            "a, c (no x); b (no y)");
   EXPECT_EQ(untested_sentence({}), "");
 }
 
