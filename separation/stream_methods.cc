@@ -35,7 +35,9 @@ const std::vector<StreamMethod>& stream_methods() {
       {"nlms", "normalised least mean squares in the time domain", make_nlms},
       {"rls", "recursive least squares, 64 taps",
        [](const FdafOptions&) -> Made { return std::make_unique<Rls>(RlsOptions{}); }},
-      {"line_canceller", "line canceller with a delay; needs no accelerometer",
+      {"line_canceller",
+       "removes steady tones, which it predicts from the past of the moment; needs no "
+       "accelerometer",
        [](const FdafOptions&) -> Made {
          return std::make_unique<LineCanceller>(LineCancellerOptions{});
        }}};

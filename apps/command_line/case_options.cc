@@ -21,17 +21,19 @@ void CaseOptions::add_to(CLI::App& command) {
                      "Takes a column of these files as a channel: CHANNEL=COLUMN, with the unit in "
                      "square brackets and a factor where needed, e.g. 'base_acceleration=ax[g]'; "
                      "channels: base_acceleration, wind_speed; repeatable");
-  command.add_option(
-      "--rate", rates,
-      "Sampling rate of these files [Hz]: HZ, or CHANNEL=HZ for one of them; repeatable");
+  command.add_option("--rate", rates,
+                     "Rate at which these files were recorded [Hz], for files without time: HZ, or "
+                     "CHANNEL=HZ for one of them; repeatable");
   command.add_option("--rows", rows,
                      "CHANNEL=FIRST:LAST: data rows that are used, counted from 1; repeatable");
-  command.add_option("--range", ranges,
-                     "Rescales the recording linearly: CHANNEL=LOW:HIGH, its minimum becomes LOW "
-                     "and its maximum HIGH (SI units); repeatable");
+  command.add_option(
+      "--range", ranges,
+      "Rescales the recording linearly: CHANNEL=LOW:HIGH, the minimum of the rows used becomes LOW "
+      "and its maximum HIGH (SI units); repeatable");
   command.add_option("--remove-mean", remove_means,
                      "CHANNEL whose mean (gravity) is subtracted; repeatable");
-  command.add_option("--duration", duration_s, "Length of each record [s]");
+  command.add_option("--duration", duration_s,
+                     "Length of each simulated record [s] (default: that of the case file)");
 }
 
 void CaseOptions::add_folder_to(CLI::App& command) {

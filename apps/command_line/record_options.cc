@@ -49,7 +49,8 @@ void RecordOptions::add_to(CLI::App& command) {
       "base_acceleration, base_moment, wind_speed and others (docs/records.md). The unit of the "
       "column stands in square brackets, a factor behind it: 'base_acceleration=ax[g]', "
       "'time=t[ms]', "
-      "'base_moment=B[uT]*0.18[N m/T]'. Without units the values are in SI; repeatable");
+      "'base_moment=B[uT]*0.18[N m/T]'. Without units the values are in SI. Other channels are "
+      "columns that have the channel's name; repeatable");
   command.add_option("--rate", rate_hz, "Sampling rate [Hz], for a file without time");
   command.add_option("--rows", rows,
                      "FIRST:LAST: rows that are used; row 1 is the first behind the column names");

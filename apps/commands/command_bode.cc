@@ -125,19 +125,21 @@ void add_bode_command(CLI::App& app) {
   auto* command = app.add_subcommand("bode",
                                      "Computes the frequency response base acceleration -> base "
                                      "moment of a case, a model or a record");
-  command->add_option("input", options->input, "Case file (.prm), reduced model (.json) or record")
+  command
+      ->add_option("input", options->input,
+                   "Case file (.prm), reduced model (model.json of 'vibrissa run') or record")
       ->required();
   options->chosen.add_settings_to(*command);
   command->add_option(
       "-o,--output,--out", options->folder,
       "New folder for plot, picture and response.csv (default: results/bode, or results/bode-2, "
-      "... if it exists; with --json or --response no folder is written)");
+      "... if it exists; with --json or --response only if this option is given)");
   command->add_option("--response", options->response_file,
                       "Also write the response for other programs: .uff, .unv, .uf58 (Universal "
                       "File, type 58), .mat or .csv");
-  command->add_option(
-      "--period", options->response.period_samples,
-      "Period of a periodic record in steady state [samples]; the last whole periods are used");
+  command->add_option("--period", options->response.period_samples,
+                      "Period of a periodic record in steady state [samples]; all whole periods "
+                      "are used, counted from the end");
   command->add_option(
       "--method", options->response.method,
       "For records (default: periods with --period, else welch):" + response_method_help());

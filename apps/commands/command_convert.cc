@@ -70,8 +70,8 @@ void add_convert_command(CLI::App& app) {
                     ".uf58, .mat or .csv");
   command->add_option("--response-as", options->response_as,
                       "For --frequency-response: name, unit and factor of the response, "
-                      "NAME[unit]*FACTOR[unit], e.g. 'H[mN mm/g]' or '[uT/g]*0.18[N m/T]'; NAME is "
-                      "a number in a Universal File with several responses");
+                      "NAME[unit]*FACTOR[unit], e.g. 'H[mN mm/g]' or '[uT/g]*0.18[N m/T]'; in a "
+                      "Universal File with several responses NAME is the number of one");
   options->record.add_to(*command);
   add_common_options(*command, options->common);
   command->footer(

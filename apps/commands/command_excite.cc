@@ -239,7 +239,7 @@ void add_signal_options(CLI::App& command, ExciteOptions& options) {
   command.add_option("--peak", design.peak, "Peak at level 1, in the unit of --unit")
       ->capture_default_str();
   command.add_option("--unit", options.unit,
-                     "Unit of --peak and of WAV files, e.g. g (default: the channel's, m/s^2); CSV "
+                     "Unit of --peak, e.g. g (default: the channel's, m/s^2); CSV "
                      "files are in SI");
   command.add_option("--seed", design.seed, "Seed of phases, detection lines and noise")
       ->check(not_negative_number())
@@ -250,8 +250,10 @@ void add_signal_options(CLI::App& command, ExciteOptions& options) {
 
 void add_excite_command(CLI::App& app) {
   const auto options = std::make_shared<ExciteOptions>();
-  auto* command = app.add_subcommand(
-      "excite", "Designs a drive for the base: multisine with detection lines, sweep or noise");
+  auto* command =
+      app.add_subcommand("excite",
+                         "Designs the wanted motion of the base (the shaker's own response is not "
+                         "corrected): multisine with detection lines, sweep or noise");
   add_signal_options(*command, *options);
   auto& design = options->design;
   command->add_option("--periods", design.n_periods, "Number of periods to be recorded")
@@ -271,15 +273,16 @@ void add_excite_command(CLI::App& app) {
   command->add_option(
       "-o,--output,--out", options->folder,
       "New folder for the drives (CSV, WAV) and excitation.json (default: results/excite, or "
-      "results/excite-2, ... if it exists; with --json no folder is written)");
+      "results/excite-2, ... if it exists; with --json only if this option is given)");
   command->add_flag("--wav", options->wav,
-                    "Also writes sound files; one factor scales all levels, so that the largest "
-                    "reaches full scale");
+                    "Also writes sound files: the largest level reaches -1 and 1, smaller ones "
+                    "keep their ratio to it; excitation.json says what 1 stands for");
   command->add_option("--wav-format", options->wav_format, "float32 or pcm24")
       ->capture_default_str();
   command
       ->add_option("--channel", options->channel,
-                   "Channel of the CSV: base_acceleration, coil_current, ...")
+                   "Channel of the CSV, e.g. base_acceleration or the shaker's coil_current "
+                   "(docs/records.md)")
       ->capture_default_str();
   add_common_options(*command, options->common);
   command->footer(

@@ -172,8 +172,8 @@ void add_other_inputs(CLI::App& command, IdentifyCommandOptions& options) {
       "highest order tried (default 20); --max-order is not used");
   command
       .add_option("--lags", options.max_lags,
-                  "For --output-only: the longest lag of the covariances is twice this number of "
-                  "samples; it should cover a few periods of the lowest resonance")
+                  "For --output-only: half of the longest lag of the covariances [samples]; the "
+                  "longest lag should cover a few periods of the lowest resonance")
       ->check(positive_number())
       ->capture_default_str();
   command.add_flag("--frequency-response", options.frequency_response,
@@ -181,8 +181,8 @@ void add_other_inputs(CLI::App& command, IdentifyCommandOptions& options) {
                    "moment: a Universal File (function of type 4), a .mat or a CSV");
   command.add_option("--response-as", options.response_as,
                      "For --frequency-response: name, unit and factor of the response, "
-                     "NAME[unit]*FACTOR[unit], e.g. 'H[mN mm/g]' or '[uT/g]*0.18[N m/T]'; NAME is "
-                     "a number in a Universal File with several responses");
+                     "NAME[unit]*FACTOR[unit], e.g. 'H[mN mm/g]' or '[uT/g]*0.18[N m/T]'; in a "
+                     "Universal File with several responses NAME is the number of one");
 }
 
 void identify_what_is_given(IdentifyCommandOptions options) {
@@ -213,11 +213,13 @@ void add_identify_command(CLI::App& app) {
                    "Number of poles, two for each mode, so an even number (default: chosen by "
                    "information criterion)")
       ->check(CLI::Range(1, highest_order));
-  command->add_option("--max-order", options->identify.max_order, "Highest order tried, even")
+  command
+      ->add_option("--max-order", options->identify.max_order,
+                   "Highest number of poles tried (2, 4, ...)")
       ->check(CLI::Range(1, highest_order))
       ->capture_default_str();
   command->add_flag("--cross-validation", options->cross_validation,
-                    "Chooses the order by a held-out part of the fit record");
+                    "Chooses the order by a part of the fit record; --held-out is not used for it");
   command
       ->add_option("--period", options->identify.period_samples,
                    "Period of a periodic record [samples]")
@@ -233,9 +235,10 @@ void add_identify_command(CLI::App& app) {
                    "the frequency response (of whole periods with --period, else Welch's)")
       ->capture_default_str();
   add_other_inputs(*command, *options);
-  command->add_option("-o,--output,--out", options->model_file,
-                      "File for the model as JSON (default: results/identify/bvrm.json, or "
-                      "results/identify-2/, ... if it exists; with --json no file is written)");
+  command->add_option(
+      "-o,--output,--out", options->model_file,
+      "File for the model as JSON (default: results/identify/bvrm.json, or "
+      "results/identify-2/, ... if it exists; with --json only if this option is given)");
   command->add_option(
       "--c-header", options->c_header_file,
       "Also writes the model as C header for a microcontroller, at the record's sampling rate");
@@ -245,7 +248,8 @@ void add_identify_command(CLI::App& app) {
       "Examples:\n"
       "  vibrissa identify bench.csv --column 'base_acceleration=ax[g]' -o bvrm.json\n"
       "  vibrissa identify bench.csv --method srivc --hold first_order --c-header bvrm.h\n"
-      "  vibrissa identify modal_test.uff --frequency-response --response-as '2[mN mm/g]'\n"
+      "  vibrissa identify modal_test.uff --frequency-response --response-as '2[mN mm/g]'\n      "
+      "(the second response of the file, in mN mm/g)\n"
       "  vibrissa identify ring_down.csv --output-only");
   command->callback([options] { identify_what_is_given(*options); });
 }

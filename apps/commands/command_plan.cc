@@ -93,8 +93,9 @@ void plan(const PlanCommand& options) {
 }
 
 void add_options(CLI::App& command, PlanCommand& options) {
-  command.add_option("--model", options.nominal.model,
-                     "The simulation as a case file (.prm) or a reduced model (.json)");
+  command.add_option(
+      "--model", options.nominal.model,
+      "The simulation as a case file (.prm) or a reduced model (model.json of 'vibrissa run')");
   command.add_option("--sim", options.nominal.simulation,
                      "The simulation as a dataset: a folder of records with dataset.json");
   command.add_option("--records", options.records,
@@ -111,12 +112,12 @@ void add_options(CLI::App& command, PlanCommand& options) {
       ->check(CLI::Range(1., 3600.));
   command
       .add_option("--moment-noise", options.noise.moment_n_m,
-                  "Noise of the base moment, standard deviation of a sample [N m]")
+                  "Noise of the base moment, rms of each data point [N m]")
       ->check(positive_number())
       ->capture_default_str();
   command
       .add_option("--acceleration-noise", options.noise.acceleration_m_s2,
-                  "Noise of the accelerometer, standard deviation of a sample [m/s^2]")
+                  "Noise of the accelerometer, rms of each data point [m/s^2]")
       ->check(positive_number())
       ->capture_default_str();
   command.add_option("-o,--out,--output", options.folder,

@@ -198,14 +198,17 @@ void separate(const SeparateOptions& options) {
 
 void add_filter_options(CLI::App& command, SeparateOptions& options) {
   command
-      .add_option("--block", options.fdaf.block_length, "Block of the adaptive filter [samples]")
+      .add_option("--block", options.fdaf.block_length,
+                  "Block of the adaptive filter (fdaf, kalman) [samples]")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
   command
-      .add_option("--taps", options.fdaf.filter_length, "Length of the adaptive filter [samples]")
+      .add_option("--taps", options.fdaf.filter_length,
+                  "Length of the adaptive filter (fdaf, kalman, nlms) [samples]")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
-  command.add_option("--step", options.fdaf.step.step, "Step size mu of the adaptive filter")
+  command
+      .add_option("--step", options.fdaf.step.step, "Step size mu of the adaptive filter (fdaf)")
       ->capture_default_str();
 }
 
@@ -217,7 +220,9 @@ void add_separate_command(CLI::App& app) {
       "separate",
       "Separates the wind part of a record's base moment, by a BVRM or by an adaptive filter");
   command
-      ->add_option("record", options->record_file, "Record with base acceleration and base moment")
+      ->add_option(
+          "record", options->record_file,
+          "Record with base moment, and base acceleration for all methods but line_canceller")
       ->required();
   command->add_option("--model", options->model_file,
                       "BVRM (JSON, from 'vibrissa identify') or updated_model.json of a diagnosis "
@@ -229,16 +234,17 @@ void add_separate_command(CLI::App& app) {
   for (const auto& method : separation::stream_methods())
     known += "\n  " + method.name + ": " + method.about;
   command
-      ->add_option("--method", options->methods,
-                   "Methods that need no model (may be repeated):" + known)
+      ->add_option(
+          "--method", options->methods,
+          "Methods that need no model, beside --model where it is given (may be repeated):" + known)
       ->capture_default_str();
   command->add_option("--sensor-model", options->sensor_model_file,
                       "Reduced model of the sensor (model.json of 'vibrissa run'); adds a "
                       "wind-speed column, computed from its steady drag");
   command
       ->add_option("--moment-deviation", options->moment_deviation_n_m,
-                   "Standard deviation of the separated moment [N m]; it sets the confidence "
-                   "interval of the wind speed")
+                   "Standard error of the separated moment [N m] (not the size of the signal); it "
+                   "sets the confidence interval of the wind speed")
       ->check(not_negative_number())
       ->capture_default_str();
   command->add_option("--truth", options->truth_column,
@@ -249,7 +255,7 @@ void add_separate_command(CLI::App& app) {
   command->add_option("-o,--output,--out", options->output_file,
                       "File for the record with a wind moment for each method (default: "
                       "results/separate/separated.csv, or results/separate-2/, ... if it exists; "
-                      "with --json no file is written)");
+                      "with --json only if this option is given)");
   add_filter_options(*command, *options);
   command
       ->add_option("--settling", options->settling_s,

@@ -103,10 +103,11 @@ void add_simulate_command(CLI::App& app) {
                       "results/simulate-2/, ... if it exists)");
   command->add_option("--write-model", options->model_file, "Also writes the reduced model (JSON)");
   command->add_option("--inputs", options->input_file,
-                      "Record with the base acceleration and wind speed under which an updated "
-                      "model is simulated; no noise is added");
+                      "For updated_model.json: record with the base acceleration and wind speed "
+                      "that act on it, in SI; no noise is added");
   command->add_flag("--periodic", options->periodic,
-                    "The record of --inputs holds whole periods in steady state");
+                    "Says that the record of --inputs is a whole number of periods in steady "
+                    "state, so that the simulation starts without a transient");
   add_common_options(*command, options->common);
   command->footer(
       "Examples:\n"

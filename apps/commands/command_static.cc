@@ -38,7 +38,7 @@ std::vector<double> logarithmic(const Levels& levels, const std::string& name, c
   if (!ascends)
     throw signals::UserError("--" + name + "-from " + signals::to_text(levels.from) + " and --" +
                              name + "-to " + signals::to_text(levels.to) +
-                             " must be finite numbers, the first above zero and below the second");
+                             " must be finite numbers, the first and below the second");
   std::vector<double> values;
   for (unsigned int i = 0; i < levels.points; ++i)
     values.push_back(unit * levels.from *
@@ -123,10 +123,10 @@ void add_levels(CLI::App& command, const std::string& name, const std::string& w
 
 void add_static_command(CLI::App& app) {
   const auto options = std::make_shared<StaticCommandOptions>();
-  auto* command = app.add_subcommand(
-      "static",
-      "Computes the steady base moment over wind speed and over base acceleration by the whole "
-      "solid at finite strain (figure 8 of the reference paper)");
+  auto* command = app.add_subcommand("static",
+                                     "Computes the steady base moment as a function of wind speed "
+                                     "and of base acceleration by the whole "
+                                     "solid at finite strain (figure 8 of the reference paper)");
   command->add_option("cases", options->case_files, "Case files (.prm), one for each sensor")
       ->required();
   add_levels(*command, "wind", "wind speed", "[m/s]", options->wind_m_s);

@@ -139,8 +139,8 @@ void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   command->add_option("-o,--out,--output", options->folder,
                       "New folder (default: results/trial, or results/trial-2, ... if it exists)");
   command->add_flag("--finite-strain", options->finite_strain,
-                    "Simulates the whole solid at finite strain in place of its modes: fewer "
-                    "effects; a quarter of an hour for each sensor");
+                    "Simulates the whole solid at finite strain in place of its modes; the effects "
+                    "are drawn from a shorter list; a quarter of an hour for each sensor");
   add_common_options(*command, options->common);
   command->footer("Example:\n  vibrissa trial make --cases 40 --seed 5 --out trial5");
   command->callback([options] { make(*options); });
