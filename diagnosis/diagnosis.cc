@@ -12,6 +12,7 @@
 #include "diagnosis/search/readout_choice.h"
 #include "diagnosis/validation/indistinguishable.h"
 #include "diagnosis/validation/named_answers.h"
+#include "diagnosis/verdict_text.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::diagnosis {
@@ -128,6 +129,47 @@ void set_gap(Diagnosis& out, const SearchResult& result, const Experiment& exper
   out.attribution = attribute_gap(experiment, scored, best);
 }
 
+/// Terms for what a fit leaves; nothing where noise, or a random effect, explains it.
+std::optional<UnknownCause> left_by(const HypothesisFit& fit, const Experiment& experiment,
+                                    const Experiment& scored, const double least) {
+  const HeldOutScore score = score_held_out(experiment, scored, fit, {.n_resamples = 0});
+  const double noise = score.overall.noise_floor * score.overall.noise_floor,
+               left = score.overall.nrmse_after * score.overall.nrmse_after - noise;
+  if (!score.not_predictable.empty() || !(left > least && left > (least > 0. ? noise : 0.)))
+    return std::nullopt;
+  return describe_unknown(experiment, scored, fit, noise / (noise + left));
+}
+
+/// What the best answer leaves; or what calibrations alone leave, where the answer is outside the
+/// catalogue or where terms beside them explain more than its effects.
+std::optional<UnknownCause> unknown_cause(const SearchResult& result, const Experiment& experiment,
+                                          const Experiment& scored) {
+  // A simulation has small errors without a cause.
+  const double accuracy = std::pow(experiment.simulation_accuracy, 2), least = 4. * accuracy;
+  const std::string& name = result.candidates.front().name;
+  const auto none = std::ranges::find_if(
+      result.fits, [](const HypothesisFit& fit) { return fit.hypothesis.name() == "none"; });
+  if (name == outside_catalogue) return left_by(*none, experiment, scored, 0.);
+  auto beside = left_by(result.fits[result.candidates.front().fit], experiment, scored, least);
+  if (!beside || name == "none" || is_recalibration(name)) return beside;
+  auto alone = left_by(*none, experiment, scored, least);
+  if (!alone || alone->terms.empty() || alone->left > std::max(beside->left, accuracy))
+    return beside;
+  alone->replaces_effects = true;
+  return alone;
+}
+
+/// An unknown cause takes the place of the best answer.
+void prefer_outside(SearchResult& result) {
+  std::vector<Candidate>& candidates = result.candidates;
+  const auto outside = std::ranges::find(candidates, outside_catalogue, &Candidate::name);
+  if (outside == candidates.end()) return;
+  result.nearest_known = candidates.front().fit;
+  std::swap(outside->probability, candidates.front().probability);
+  std::swap(outside->log_posterior, candidates.front().log_posterior);
+  std::iter_swap(outside, candidates.begin());
+}
+
 void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nominal,
           const DiagnoseOptions& options) {
   const Candidate& best = result.candidates.front();
@@ -212,6 +254,8 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
       prepare_experiment(simulation, real, signals::Split::fit, InputNoise::as_measured);
   const Experiment& scored = has_moving(held_out) ? held_out : fitted;
   name_answers(result, experiment, fitted, scored);
+  out.unknown_cause = unknown_cause(result, experiment, scored);
+  if (out.unknown_cause && out.unknown_cause->replaces_effects) prefer_outside(result);
   if (aligned.is_shifted) add_delay(result);
   const Candidate& best = result.candidates.front();
   out.verdict = best.name;

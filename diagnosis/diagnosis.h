@@ -11,6 +11,7 @@
 #include "diagnosis/localisation/location.h"
 #include "diagnosis/planning/next_experiment.h"
 #include "diagnosis/search/search.h"
+#include "diagnosis/unknown/unknown_cause.h"
 #include "diagnosis/validation/attribution.h"
 #include "diagnosis/validation/comparison.h"
 #include "diagnosis/validation/held_out.h"
@@ -71,6 +72,9 @@ struct Diagnosis {
   /// Nominal model and best answer compared with the records.
   ResponseComparison response{};
   TraceComparison trace{};
+  /// Terms that describe what no known effect explains, where the answer is outside_catalogue or
+  /// leaves more than twice the simulation's accuracy and more than noise.
+  std::optional<UnknownCause> unknown_cause{};
   /// The simulation with the effects of the best answer and all fitted calibration parameters.
   UpdatedModel updated{};
   /// Change of the resonance and of the response below it by these effects; nothing where no known

@@ -112,6 +112,26 @@ json attribution_json(const Attribution& attribution) {
           {"unexplained_share", json_number(attribution.unexplained)}};
 }
 
+json curve_json(const ResidualCurve& curve) {
+  return {{"x", curve.x}, {"mean", curve.mean}, {"deviation", curve.deviation}};
+}
+
+json unknown_json(const std::optional<UnknownCause>& unknown) {
+  if (!unknown) return nullptr;
+  json terms = json::array();
+  for (const NamedTerm& term : unknown->terms)
+    terms.push_back({{"term", term.name},
+                     {"place", to_string(term.place)},
+                     {"coefficient", json_number(term.coefficient)},
+                     {"closes_with_those_before", json_number(term.closes)}});
+  return {{"unexplained_power", json_number(unknown->unexplained)},
+          {"left_power", json_number(unknown->left)},
+          {"replaces_effects", unknown->replaces_effects},
+          {"terms", terms},
+          {"residual_moment_over_angle", curve_json(unknown->over_angle)},
+          {"residual_moment_over_rate", curve_json(unknown->over_rate)}};
+}
+
 json resonance_json(const std::optional<ResonanceChange>& change) {
   if (!change) return nullptr;
   return {{"simulated_hz", json_number(change->simulated_hz)},
@@ -139,6 +159,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
       {"attribution", attribution_json(diagnosis.attribution)},
       {"location", location_json(diagnosis.location)},
       {"verdict", diagnosis.verdict},
+      {"unknown_cause", unknown_json(diagnosis.unknown_cause)},
       {"resonance", resonance_json(diagnosis.resonance)},
       {"ranking", ranking},
       {"probability_of_unlisted", json_number(diagnosis.probability_of_unlisted)},

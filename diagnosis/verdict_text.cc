@@ -176,15 +176,21 @@ std::vector<std::string> attribution_lines(const Diagnosis& diagnosis) {
     rows.push_back("  " + in_column(alone, 7) + in_column(missed, 10) + "  " + change);
   };
   const std::vector<std::string> named = effect_ids(diagnosis.verdict);
+  bool has_unnamed = false;
   for (const AttributedChange& change : diagnosis.attribution.changes) {
     const bool is_named = std::find(named.begin(), named.end(), change.id) != named.end();
     const bool is_small = std::max(change.share, change.missed) < worth_a_word;
     if (!is_named && (!change.moved || is_small)) continue;
+    has_unnamed = has_unnamed || !is_named;
     add(closed_text(change.alone), closed_text(change.missed),
         change_text(change.id, change.parameters));
   }
   for (const std::string& row : noise_rows(diagnosis)) add("noise", "noise", row);
   if (rows.empty()) return {};
+  if (has_unnamed)
+    rows.push_back(
+        "  The verdict leaves out rows that are too small to be sure of; the corrected "
+        "simulation has them.");
   rows.push_back("  not explained: " + percent(diagnosis.attribution.unexplained) + " of the gap");
   const bool held_out =
       !diagnosis.ranking.empty() && diagnosis.ranking.front().held_out.has_value();
@@ -205,6 +211,12 @@ std::string nearest_line(const Diagnosis& diagnosis) {
   return text + ", but an unknown cause explains the records better";
 }
 
+/// "+ 0.3 rate |rate|".
+std::string term_text(const NamedTerm& term) {
+  return std::string(term.coefficient < 0. ? "- " : "+ ") +
+         three_digits(std::abs(term.coefficient)) + " " + term.name;
+}
+
 /// Of what is not decided, the part of causes that no effect of the catalogue is.
 double outside_part(const Diagnosis& diagnosis) {
   double part = diagnosis.probability_of_outside;
@@ -222,7 +234,7 @@ std::string others_line(const Diagnosis& diagnosis) {
     add(diagnosis.ranking[i].name, diagnosis.ranking[i].probability);
   const double outside = outside_part(diagnosis);
   add("a cause that is not in the catalogue", outside);
-  add("not decided by these records", 1. - diagnosis.probability_of_tried - outside);
+  add("undecided", 1. - diagnosis.probability_of_tried - outside);
   return parts.empty() ? "" : "Other answers (probability): " + joined(parts, ", ");
 }
 
@@ -236,6 +248,21 @@ std::string warning_of(const ParameterEstimate& p) {
 }
 
 }  // namespace
+
+std::string unknown_sentence(const Diagnosis& diagnosis) {
+  if (!diagnosis.unknown_cause) return "";
+  std::string joint, reading;
+  for (const NamedTerm& term : diagnosis.unknown_cause->terms)
+    (term.place == TermPlace::joint ? joint : reading) += " " + term_text(term);
+  if (joint.empty() && reading.empty()) return "no simple term describes what is not explained";
+  std::string text = "what is not explained looks like";
+  if (!joint.empty()) text += " a further moment of the joint,";
+  text += joint;
+  if (!reading.empty())
+    text += std::string(joint.empty() ? "" : ", and") + " an error of the reading," + reading;
+  return text + " (all in shares of their peaks); it closes " +
+         closed_text(diagnosis.unknown_cause->terms.back().closes) + " of what is not explained";
+}
 
 bool is_recalibration(const std::string& answer) {
   const std::vector<std::string> ids = effect_ids(answer);
@@ -320,6 +347,7 @@ std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_line
             " of the measured moment (rms), noise alone gives " +
             percent(diagnosis.gap.noise_floor) + "; the gap is the power between them");
   lines.add_table(attribution_lines(diagnosis));
+  if (diagnosis.unknown_cause) lines.add("Unknown part: " + unknown_sentence(diagnosis));
   lines.add("Where: " + location_sentence(diagnosis.location));
   lines.add(resonance_line(diagnosis));
   if (!diagnosis.ranking.empty()) {

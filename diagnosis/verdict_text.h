@@ -15,6 +15,10 @@ bool is_recalibration(const std::string& answer);
 /// backlash".
 std::string consequence(const Diagnosis& diagnosis);
 
+/// Terms that describe what no known effect explains, as a sentence without a full stop; empty
+/// where there are none to describe.
+std::string unknown_sentence(const Diagnosis& diagnosis);
+
 /// Lines of at most 100 characters, at most 24 lines for a terminal: entries that do not fit
 /// completely are left out.
 std::string verdict_text(const Diagnosis& diagnosis, std::size_t most_lines = 24);

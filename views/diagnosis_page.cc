@@ -216,6 +216,9 @@ report::PageSection cause(const Diagnosis& d, const std::vector<report::Figure>&
                            "; an unknown cause explains the records better.");
   for (const auto& set : d.indistinguishable)
     section.text.push_back("These records cannot separate: " + diagnosis::joined(set, ", ") + ".");
+  if (d.unknown_cause)
+    section.text.push_back("Unknown part: " + diagnosis::unknown_sentence(d) + ".");
+  add_figure(section, figures, "unknown_part");
   add(section, "ranking", "Answers, the most probable first", ranking_table(d));
   add(section, "parameters", "Parameters of the answers", parameter_table(d));
   add(section, "attribution", "Share of the gap that each change of the simulation closes",

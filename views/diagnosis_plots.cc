@@ -152,12 +152,42 @@ report::Figure ranking_figure(const std::vector<diagnosis::RankedAnswer>& rankin
           .panels = {panel}};
 }
 
+report::Panel residual_panel(const std::string& quantity, const diagnosis::ResidualCurve& curve) {
+  std::vector<double> low, high;
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    low.push_back(curve.mean[i] - curve.deviation[i]);
+    high.push_back(curve.mean[i] + curve.deviation[i]);
+  }
+  report::Panel panel{.title = "Residual moment over the " + quantity,
+                      .x_label = "Joint " + quantity + " / its peak [1]",
+                      .y_label = "Moment / peak moment [1]"};
+  panel.curves.push_back({.label = "± 1 standard deviation",
+                          .style = report::CurveStyle::band,
+                          .x = curve.x,
+                          .y_low = low,
+                          .y_high = high});
+  panel.curves.push_back({.label = "mean", .x = curve.x, .y = curve.mean});
+  return panel;
+}
+
+report::Figure unknown_figure(const diagnosis::UnknownCause& unknown) {
+  return {.name = "unknown_part",
+          .title = "What is not explained, as a moment of the joint",
+          .caption =
+              "The moment that the joint would need in addition so that the simulation gives "
+              "the measured moment; fit records, near the first mode.",
+          .panels = {residual_panel("angle", unknown.over_angle),
+                     residual_panel("rate", unknown.over_rate)}};
+}
+
 }  // namespace
 
 std::vector<report::Figure> diagnosis_plots(const diagnosis::Diagnosis& diagnosis) {
   std::vector<report::Figure> figures;
   if (!diagnosis.location.map.empty()) figures.push_back(gap_map(diagnosis.location));
   if (!diagnosis.ranking.empty()) figures.push_back(ranking_figure(diagnosis.ranking));
+  if (diagnosis.unknown_cause && !diagnosis.unknown_cause->over_angle.x.empty())
+    figures.push_back(unknown_figure(*diagnosis.unknown_cause));
   if (!diagnosis.response.frequency_hz.empty()) figures.push_back(response_figure(diagnosis));
   if (!diagnosis.trace.time_s.empty()) figures.push_back(trace_figure(diagnosis));
   return figures;

@@ -140,9 +140,9 @@ void add_diagnose_command(CLI::App& app) {
       "--sim", options->simulation.simulation,
       "The simulation as records: one file, or a folder of records with dataset.json; this or "
       "--model");
-  command->add_option(
-      "--real", options->real,
-      "Records of the real sensor: one file, or a folder of records with dataset.json");
+  command->add_option("--real", options->real,
+                      "Records of the real sensor: one file (--column, --rate, --rows and "
+                      "--remove-mean are for it), or a folder of records with dataset.json");
   options->record.add_to(*command);
   options->figures.add_to(*command);
   command->add_option(
@@ -151,7 +151,8 @@ void add_diagnose_command(CLI::App& app) {
       "(default: results/diagnosis, or results/diagnosis-2, ... if it exists)");
   command
       ->add_option("--simulation-accuracy", options->simulation_accuracy,
-                   "Relative error that a simulation keeps when all its values are right, 0.01 for "
+                   "Relative error of the moment that a simulation keeps when all its values are "
+                   "right, 0.01 for "
                    "1 %; causes of smaller errors are not named")
       ->capture_default_str()
       ->check(CLI::Range(1e-4, 0.3));

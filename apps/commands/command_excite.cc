@@ -214,7 +214,10 @@ void excite(const ExciteOptions& options) {
 
 void add_signal_options(CLI::App& command, ExciteOptions& options) {
   auto& design = options.design;
-  command.add_option("--kind", options.kind, "multisine, sweep or noise")->capture_default_str();
+  command
+      .add_option("--kind", options.kind,
+                  "multisine, sweep or noise (one random block, repeated as a period)")
+      ->capture_default_str();
   command.add_option("--low", design.low_hz, "Lowest frequency [Hz]")->capture_default_str();
   command.add_option("--high", design.high_hz, "Highest frequency [Hz]")->capture_default_str();
   command.add_option("--rate", design.sampling_rate_hz, "Sampling rate [Hz]")
@@ -267,13 +270,15 @@ void add_excite_command(CLI::App& app) {
       ->add_option("--realisations", design.n_realisations,
                    "Number of drives, each with other random phases")
       ->capture_default_str();
-  command->add_option("--levels", design.levels, "Multiples of the peak, e.g. 0.25,0.5,1")
+  command
+      ->add_option("--levels", design.levels,
+                   "Multiples of the peak, one file each, e.g. 0.25,0.5,1")
       ->delimiter(',')
       ->capture_default_str();
   command->add_option(
       "-o,--output,--out", options->folder,
       "New folder for the drives (CSV, WAV) and excitation.json (default: results/excite, or "
-      "results/excite-2, ... if it exists; with --json only if this option is given)");
+      "results/excite-2, ... if it exists; with --json only if this option or --wav is given)");
   command->add_flag("--wav", options->wav,
                     "Also writes sound files: the largest level reaches -1 and 1, smaller ones "
                     "keep their ratio to it; excitation.json says what 1 stands for");

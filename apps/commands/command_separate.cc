@@ -236,7 +236,7 @@ void add_separate_command(CLI::App& app) {
   command
       ->add_option(
           "--method", options->methods,
-          "Methods that need no model, beside --model where it is given (may be repeated):" + known)
+          "Methods that need no model; they run beside that of --model (may be repeated):" + known)
       ->capture_default_str();
   command->add_option("--sensor-model", options->sensor_model_file,
                       "Reduced model of the sensor (model.json of 'vibrissa run'); adds a "

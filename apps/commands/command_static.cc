@@ -38,7 +38,7 @@ std::vector<double> logarithmic(const Levels& levels, const std::string& name, c
   if (!ascends)
     throw signals::UserError("--" + name + "-from " + signals::to_text(levels.from) + " and --" +
                              name + "-to " + signals::to_text(levels.to) +
-                             " must be finite numbers, the first and below the second");
+                             " must be finite numbers, the first above zero and below the second");
   std::vector<double> values;
   for (unsigned int i = 0; i < levels.points; ++i)
     values.push_back(unit * levels.from *
@@ -108,7 +108,9 @@ void find_equilibria(const StaticCommandOptions& options) {
 
 void add_levels(CLI::App& command, const std::string& name, const std::string& what,
                 const std::string& unit, Levels& levels) {
-  command.add_option("--" + name + "-from", levels.from, "Lowest " + what + " above zero " + unit)
+  command
+      .add_option("--" + name + "-from", levels.from,
+                  "Lowest " + what + ", must be above 0 " + unit)
       ->capture_default_str();
   command.add_option("--" + name + "-to", levels.to, "Highest " + what + " " + unit)
       ->capture_default_str();

@@ -28,7 +28,7 @@ Effect backlash() {
       .needs = {.base = true},
       .parameters = {relative("of the peak moment, half of the play",
                               log_uniform("gap", "1", 5e-4, 0.6, 0.)),
-                     relative("of the stiffness, within the play",
+                     relative("of the stiffness, missing within the play",
                               uniform("loss", "1", 0.1, 1., 0.))},
       .starts = {{0.02, 0.6}, {0.1, 0.6}, {0.005, 0.6}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {

@@ -11,7 +11,7 @@ Effect coil_feedthrough() {
                 .confused_with = "mass; wide band, clamped stage",
                 .model_form_error = 0.01,
                 .needs = {.base = true},
-                .parameters = {relative("times the response to slow base motion",
+                .parameters = {relative("times |M / a| at 0 Hz (M / a itself is negative)",
                                         uniform("gain", "1", -0.7, 0.7, 0.))},
                 .starts = {{0.02}, {-0.02}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {

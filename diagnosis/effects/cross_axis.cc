@@ -11,9 +11,9 @@ Effect cross_axis() {
                 .confused_with = "reference_noise; second axis",
                 .model_form_error = 0.02,
                 .needs = {.cross = true},
-                .parameters = {relative("times the moment of slow base motion of the same size",
+                .parameters = {relative("times |M / a| at 0 Hz, at all frequencies",
                                         normal("static_gain", "1", 0., 0.2, -2., 2., 0.)),
-                               relative("times the moment of base motion of the same size",
+                               relative("times M / a at each frequency",
                                         normal("dynamic_gain", "1", 0., 0.2, -2., 2., 0.))},
                 .starts = {{0.02, 0.02}, {-0.02, -0.02}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {

@@ -30,7 +30,7 @@ Effect extra_mode() {
                 .parameters = {log_uniform("frequency", "Hz", 45., 240., 100.),
                                relative("of critical damping",
                                         log_uniform("damping_ratio", "1", 0.004, 0.15, 0.02)),
-                               relative("times the response to slow base motion",
+                               relative("times |M / a| at 0 Hz (M / a itself is negative)",
                                         uniform("residue", "1", -0.15, 0.15, 0.))},
                 .starts = {{60., 0.02, 0.005},
                            {60., 0.02, -0.005},

@@ -10,9 +10,9 @@ Effect sensor_nonlinearity() {
                 .source = "Worden and Tomlinson 2001, sec. 2.4; Pintelon and Schoukens 2012, ch. 4",
                 .confused_with = "hardening; harmonics at fixed frequency, also on slow wind",
                 .model_form_error = 0.1,
-                .parameters = {relative("of the reading at the peak moment",
+                .parameters = {relative("of the linear reading at the peak moment",
                                         normal("quadratic", "1", 0., 0.1, -0.6, 0.6, 0.)),
-                               relative("of the reading at the peak moment",
+                               relative("of the linear reading at the peak moment",
                                         normal("cubic", "1", 0., 0.15, -1.5, 1.5, 0.))},
                 .starts = {{0.01, 0.01}, {0.01, -0.01}, {-0.01, -0.1}, {0.05, 0.}, {-0.05, 0.}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {

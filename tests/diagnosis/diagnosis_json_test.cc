@@ -164,9 +164,8 @@ TEST(VerdictText, TellsTheOddsOfNoKnownEffect) {
   diagnosis.probability_of_tried = 0.7;
   diagnosis.probability_of_outside = 0.1;
   EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["probability_of_outside"], 0.1);
-  EXPECT_THAT(
-      unwrapped(verdict_text(diagnosis)),
-      HasSubstr("a cause that is not in the catalogue 10 %, not decided by these records 20 %"));
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
+              HasSubstr("a cause that is not in the catalogue 10 %, undecided 20 %"));
 }
 
 TEST(VerdictText, TellsWhatComesNearest) {

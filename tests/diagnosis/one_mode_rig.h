@@ -15,7 +15,7 @@ namespace vibrissa::diagnosis::test {
 
 /// A whisker with one mode on a rig, integrated by classical Runge-Kutta with many steps per
 /// sample. It shares no code with the tested chain.
-///   x'' + c0 loss x' + k0 ((stiffness + warming) x + cubic x^3) = -a + drag w |w|,
+///   x'' + c0 loss x' + k0 ((stiffness + warming) x + cubic x^3 + further) = -a + drag w |w|,
 ///   M = moment_mass (k x + c x'), w = u - own_motion (x' + base velocity)
 /// with the clock of the moment channel delayed by delay_s. With the readout rotation the reading
 /// is moment_mass k0 x; a rotated rig has the cosine of its excitation. A second mode that the base
@@ -39,6 +39,8 @@ struct OneModeRig {
   using Signal = std::function<double(double t_s)>;
   Signal base_velocity = [](double) { return 0.; };  // for the relative wind
   Signal warming = [](double) { return 0.; };        // change of the stiffness during a record
+  /// Further moment of the joint, by x and x' / (2 pi frequency_hz).
+  std::function<double(double x, double v)> further = nullptr;
 
   /// One Runge-Kutta step of x'' = slope(t, x, x').
   template <typename Slope>
@@ -57,19 +59,20 @@ struct OneModeRig {
                  c0 = 2. * damping_ratio * w * loss;
     const double dt = 1. / (rate_hz * n_steps);
     const double in_plane = std::cos(rotation_deg * std::numbers::pi / 180.);
-    const auto elastic = [&](double t, double x) {
-      return k0 * ((stiffness + warming(t)) * x + cubic * x * x * x);
+    const auto elastic = [&](double t, double x, double v) {
+      return k0 * ((stiffness + warming(t)) * x + cubic * x * x * x +
+                   (further ? further(x, v / w) : 0.));
     };
     const auto slope = [&](double t, double x, double v) {
       const double wind = u(t) - own_motion * (v + base_velocity(t));
-      return -elastic(t, x) - c0 * v + in_plane * (drag * wind * std::abs(wind) - a(t));
+      return -elastic(t, x, v) - c0 * v + in_plane * (drag * wind * std::abs(wind) - a(t));
     };
     const double w2 = 2. * std::numbers::pi * extra_hz;
     const auto extra_slope = [&](double t, double y, double v) {
       return w2 * (w2 * (a(t) - y) - 0.04 * v);
     };
     const auto reading = [&](double t, double x, double v) {
-      return readout == signals::Readout::rotation ? k0 * x : elastic(t, x) + c0 * v;
+      return readout == signals::Readout::rotation ? k0 * x : elastic(t, x, v) + c0 * v;
     };
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;

@@ -1,0 +1,236 @@
+#include "diagnosis/unknown/term.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnosis/records/spectrum.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+/// The inputs of the records in shares of their rms, to be read at any time.
+class Inputs {
+ public:
+  /// Scales are those of the fitted records.
+  Inputs(std::span<const PreparedRecord> fitted, std::span<const PreparedRecord> further) {
+    for (const PreparedRecord& record : fitted) {
+      const Series& series = add(record);
+      acceleration_rms_ = std::max(acceleration_rms_, rms(series.acceleration));
+      wind_rms_ = std::max(wind_rms_, rms(series.wind));
+    }
+    for (const PreparedRecord& record : further) add(record);
+  }
+
+  bool has_acceleration() const { return acceleration_rms_ > 0.; }
+  bool has_wind() const { return wind_rms_ > 0.; }
+  double acceleration(std::size_t record, double t_s) const {
+    return at(record, &Series::acceleration, t_s) / acceleration_rms_;
+  }
+  double wind(std::size_t record, double t_s) const {
+    return at(record, &Series::wind, t_s) / wind_rms_;
+  }
+
+ private:
+  struct Series {
+    double rate_hz = 1.;
+    std::vector<double> acceleration, wind;
+  };
+  static double rms(const std::vector<double>& x) {
+    double sum = 0.;
+    for (const double v : x) sum += v * v;
+    return x.empty() ? 0. : std::sqrt(sum / static_cast<double>(x.size()));
+  }
+  const Series& add(const PreparedRecord& record) {
+    Series& series = series_[record.number];
+    series.rate_hz = record.sampling_rate_hz;
+    if (!record.acceleration.empty())
+      series.acceleration = samples_of(record.acceleration, record.n_samples);
+    series.wind = record.wind;
+    return series;
+  }
+  /// Linear between samples; zero where the record has no such input.
+  double at(std::size_t record, std::vector<double> Series::*channel, double t_s) const {
+    const auto found = series_.find(record);  // lanes without a record have number 0
+    if (found == series_.end() || (found->second.*channel).empty()) return 0.;
+    const std::vector<double>& x = found->second.*channel;
+    const double inside =
+        std::clamp(t_s * found->second.rate_hz, 0., static_cast<double>(x.size() - 1));
+    const auto i = static_cast<std::size_t>(inside);
+    const double way = inside - static_cast<double>(i);
+    return (1. - way) * x[i] + way * x[std::min(i + 1, x.size() - 1)];
+  }
+
+  std::map<std::size_t, Series> series_;
+  double acceleration_rms_ = 0., wind_rms_ = 0.;
+};
+
+/// What a term of the joint may depend on.
+struct State {
+  double angle, rate, acceleration, wind;
+};
+using Function = double (*)(const State&);
+
+struct Scale {
+  double moment_n_m, frequency_rad_s;
+};
+
+class TermLaw : public JointLaw {
+ public:
+  TermLaw(Function function, double coefficient, const Scale& scale,
+          std::shared_ptr<const Inputs> inputs, const Lanes& numbers)
+      : function_(function),
+        coefficient_(coefficient),
+        scale_(scale),
+        inputs_(std::move(inputs)),
+        numbers_(numbers) {}
+
+  Lanes moment(const Lanes& y, const Lanes& y_rate, const Lanes& t_s, double, bool) override {
+    // Powers of a motion beyond the recorded ones would only upset the integration.
+    constexpr double most = 3.;
+    Lanes out;
+    for (Eigen::Index i = 0; i < out.size(); ++i) {
+      const auto number = static_cast<std::size_t>(numbers_(i));
+      const State state{
+          std::clamp(y(i) / scale_.moment_n_m, -most, most),
+          std::clamp(y_rate(i) / (scale_.moment_n_m * scale_.frequency_rad_s), -most, most),
+          inputs_->acceleration(number, t_s(i)), inputs_->wind(number, t_s(i))};
+      out(i) = coefficient_ * scale_.moment_n_m * function_(state);
+    }
+    return out;
+  }
+
+ private:
+  Function function_;
+  double coefficient_;
+  Scale scale_;
+  std::shared_ptr<const Inputs> inputs_;
+  Lanes numbers_;
+};
+
+double sign(const double x) {
+  constexpr double width = 0.02;  // of the peak: a jump upsets the integration
+  return std::tanh(x / width);
+}
+
+struct JointTerm {
+  const char* name;
+  Function function;
+  bool acceleration = false, wind = false;
+};
+
+const std::vector<JointTerm>& joint_terms() {
+  static const std::vector<JointTerm> terms{
+      {"angle^2", [](const State& s) { return s.angle * s.angle; }},
+      {"|angle|", [](const State& s) { return std::abs(s.angle); }},
+      {"angle |angle|", [](const State& s) { return s.angle * std::abs(s.angle); }},
+      {"angle^3", [](const State& s) { return s.angle * s.angle * s.angle; }},
+      {"angle^5", [](const State& s) { return std::pow(s.angle, 5); }},
+      {"sign(angle)", [](const State& s) { return sign(s.angle); }},
+      {"rate^2", [](const State& s) { return s.rate * s.rate; }},
+      {"rate |rate|", [](const State& s) { return s.rate * std::abs(s.rate); }},
+      {"rate^3", [](const State& s) { return s.rate * s.rate * s.rate; }},
+      {"sign(rate)", [](const State& s) { return sign(s.rate); }},
+      {"angle rate", [](const State& s) { return s.angle * s.rate; }},
+      {"|angle| rate", [](const State& s) { return std::abs(s.angle) * s.rate; }},
+      {"angle^2 rate", [](const State& s) { return s.angle * s.angle * s.rate; }},
+      {"angle rate^2", [](const State& s) { return s.angle * s.rate * s.rate; }},
+      {"acceleration angle", [](const State& s) { return s.acceleration * s.angle; }, true},
+      {"acceleration rate", [](const State& s) { return s.acceleration * s.rate; }, true},
+      {"acceleration |acceleration|",
+       [](const State& s) { return s.acceleration * std::abs(s.acceleration); }, true},
+      {"wind", [](const State& s) { return s.wind; }, false, true},
+      {"wind rate", [](const State& s) { return s.wind * s.rate; }, false, true},
+      {"wind angle", [](const State& s) { return s.wind * s.angle; }, false, true},
+      {"wind^2 rate", [](const State& s) { return s.wind * s.wind * s.rate; }, false, true},
+      {"wind^2 angle", [](const State& s) { return s.wind * s.wind * s.angle; }, false, true},
+      {"wind^3", [](const State& s) { return s.wind * s.wind * s.wind; }, false, true},
+      {"wind acceleration", [](const State& s) { return s.wind * s.acceleration; }, true, true}};
+  return terms;
+}
+
+/// Reading plus coefficient times a power of itself, in shares of the peak.
+Term reading_power(std::string name, const Scale& scale, double (*function)(double)) {
+  return {.name = std::move(name),
+          .place = TermPlace::reading,
+          .add = [scale, function](Chain& chain, double c) {
+            chain.readout.push_back([scale, function, c](double moment) {
+              constexpr double most = 3.;
+              const double x = std::clamp(moment / scale.moment_n_m, -most, most);
+              return moment + c * scale.moment_n_m * function(x);
+            });
+          }};
+}
+
+/// Reading times a filter.
+Term reading_filter(std::string name, const Scale& scale,
+                    Complex (*filter)(Complex x, double c)) {
+  return {.name = std::move(name),
+          .place = TermPlace::reading,
+          .add = [scale, filter](Chain& chain, double c) {
+            chain.sensor.push_back(
+                [scale, filter, c](Complex s) { return filter(s / scale.frequency_rad_s, c); });
+          }};
+}
+
+/// What a wrong calibration does; the coefficient is the logarithm of its ratio.
+Term calibration(const Effect& effect, const Scales& scales) {
+  return {.name = effect.id, .basic = true, .add = [&effect, scales](Chain& chain, double c) {
+            std::vector<double> values{std::exp(c)};
+            for (std::size_t i = 1; i < effect.parameters.size(); ++i)
+              values.push_back(effect.parameters[i].neutral);
+            effect.extend(chain, values, scales);
+          }};
+}
+
+void add_reading_terms(const Experiment& experiment, const Scale& scale, std::vector<Term>& out) {
+  out.push_back(reading_filter("delay", scale,
+                               [](Complex x, double c) { return std::exp(-c * x); }));
+  out.push_back(reading_power("moment^2", scale, [](double x) { return x * x; }));
+  out.push_back(reading_power("moment |moment|", scale, [](double x) { return x * std::abs(x); }));
+  out.push_back(reading_power("moment^3", scale, [](double x) { return x * x * x; }));
+  out.push_back(reading_power("sign(moment)", scale, [](double x) { return sign(x); }));
+  if (!experiment.has_base) return;
+  for (const bool of_rate : {false, true})
+    out.push_back({.name = of_rate ? "acceleration's rate" : "acceleration",
+                   .place = TermPlace::reading,
+                   .add = [of_rate, scale, gain = experiment.scales.static_gain](Chain& chain,
+                                                                                 double c) {
+                     chain.feedthrough.push_back([of_rate, scale, gain, c](Complex s) {
+                       return c * gain * (of_rate ? s / scale.frequency_rad_s : Complex(1.));
+                     });
+                   }});
+}
+
+}  // namespace
+
+std::string to_string(const TermPlace place) {
+  return place == TermPlace::joint ? "joint" : "reading";
+}
+
+std::vector<Term> all_terms(const Experiment& experiment,
+                            std::span<const PreparedRecord> further) {
+  const auto inputs = std::make_shared<const Inputs>(experiment.records, further);
+  const Scale scale{experiment.scales.joint_moment_n_m, experiment.scales.first_mode_rad_s};
+  std::vector<Term> out;
+  for (const Effect& effect : effect_catalogue())
+    if (effect.calibration && shows(experiment, effect))
+      out.push_back(calibration(effect, experiment.scales));
+  if (!experiment.nominal.modes.empty()) {
+    for (const JointTerm& term : joint_terms()) {
+      if ((term.acceleration && !inputs->has_acceleration()) ||
+          (term.wind && !inputs->has_wind()))
+        continue;
+      out.push_back({.name = term.name,
+                     .add = [function = term.function, scale, inputs](Chain& chain, double c) {
+                       chain.joint.push_back([function, scale, inputs, c](const Lanes& numbers) {
+                         return std::make_unique<TermLaw>(function, c, scale, inputs, numbers);
+                       });
+                     }});
+    }
+  }
+  add_reading_terms(experiment, scale, out);
+  return out;
+}
+
+}  // namespace vibrissa::diagnosis

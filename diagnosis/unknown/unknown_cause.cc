@@ -1,0 +1,210 @@
+#include "diagnosis/unknown/unknown_cause.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "diagnosis/prediction/chain_simulation.h"
+#include "diagnosis/records/spectrum.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+constexpr std::size_t most_terms = 3;
+constexpr double least_gain = 0.05;
+
+/// Real and imaginary parts of all bins of the records that move, one after the other.
+Eigen::VectorXd stacked(std::span<const PreparedRecord> records,
+                        const std::vector<std::vector<Complex>>& bins) {
+  std::vector<double> out;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    if (!records[r].excitation.base && !records[r].excitation.wind) continue;
+    for (const Complex value : bins[r]) {
+      out.push_back(value.real());
+      out.push_back(value.imag());
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
+}
+
+/// Terms with their coefficients on top of a chain.
+class Model {
+ public:
+  Model(Chain chain, const std::vector<Term>& terms) : chain_(std::move(chain)), terms_(terms) {}
+
+  struct Choice {
+    std::vector<std::size_t> terms{};
+    Eigen::VectorXd coefficients{};
+  };
+
+  Chain with(const Choice& choice) const {
+    Chain chain = chain_;
+    for (std::size_t i = 0; i < choice.terms.size(); ++i)
+      terms_[choice.terms[i]].add(chain, choice.coefficients(static_cast<Eigen::Index>(i)));
+    return chain;
+  }
+  Eigen::VectorXd predicted(std::span<const PreparedRecord> records, const Choice& choice) const {
+    const Chain chain = with(choice);
+    return stacked(records, ChainSimulator(chain).means(records));
+  }
+  /// The choice with a further term of coefficient zero.
+  static Choice extended(const Choice& choice, std::size_t term) {
+    Choice out = choice;
+    out.terms.push_back(term);
+    out.coefficients.conservativeResize(out.coefficients.size() + 1);
+    out.coefficients(out.coefficients.size() - 1) = 0.;
+    return out;
+  }
+  /// Derivative of the prediction by the last coefficient of a choice.
+  Eigen::VectorXd slope(std::span<const PreparedRecord> records, Choice choice, Eigen::Index i,
+                        const Eigen::VectorXd& at) const {
+    constexpr double step = 1e-3;  // of the peak moment
+    choice.coefficients(i) += step;
+    return (predicted(records, choice) - at) / step;
+  }
+
+ private:
+  Chain chain_;
+  const std::vector<Term>& terms_;
+};
+
+/// Least squares. Where columns are nearly dependent (mass, and stiffness with damping and gain), the
+/// smallest solution in terms of their sizes.
+Eigen::VectorXd solved(const Eigen::MatrixXd& columns, const Eigen::VectorXd& right) {
+  constexpr double dependent = 0.01;
+  const Eigen::VectorXd sizes = columns.colwise().norm().cwiseMax(1e-300);
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
+  factors.setThreshold(dependent);
+  factors.compute(columns * sizes.cwiseInverse().asDiagonal());
+  return factors.solve(right).cwiseQuotient(sizes);
+}
+
+/// Gauss-Newton steps, halved until the error falls.
+Model::Choice fitted(const Model& model, std::span<const PreparedRecord> records,
+                     const Eigen::VectorXd& measured, Model::Choice choice) {
+  constexpr int most_steps = 10, most_halvings = 4;
+  const Eigen::Index n = choice.coefficients.size();
+  Eigen::VectorXd at = model.predicted(records, choice);
+  for (int step = 0; step < most_steps; ++step) {
+    Eigen::MatrixXd slopes(at.size(), n);
+    for (Eigen::Index i = 0; i < n; ++i) slopes.col(i) = model.slope(records, choice, i, at);
+    const Eigen::VectorXd error = measured - at;
+    const Eigen::VectorXd way = solved(slopes, error);
+    double factor = 1.;
+    bool is_better = false;
+    for (int halving = 0; halving < most_halvings && !is_better; ++halving, factor *= 0.5) {
+      Model::Choice next = choice;
+      next.coefficients += factor * way;
+      const Eigen::VectorXd there = model.predicted(records, next);
+      if (!((measured - there).squaredNorm() < error.squaredNorm())) continue;
+      const double gain = 1. - (measured - there).squaredNorm() / error.squaredNorm();
+      choice = next;
+      at = there;
+      is_better = gain > 1e-3;
+    }
+    if (!is_better) break;
+  }
+  return choice;
+}
+
+/// The terms that would take away most of the error power to first order, beside those of the
+/// choice.
+std::vector<std::size_t> promising_additions(const Model& model, const std::vector<Term>& terms,
+                          std::span<const PreparedRecord> records, const Eigen::VectorXd& measured,
+                          const Model::Choice& choice) {
+  const Eigen::VectorXd at = model.predicted(records, choice);
+  Eigen::MatrixXd known(at.size(), choice.coefficients.size());
+  for (Eigen::Index i = 0; i < known.cols(); ++i)
+    known.col(i) = model.slope(records, choice, i, at);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(known);
+  const Eigen::MatrixXd basis =
+      qr.householderQ() * Eigen::MatrixXd::Identity(known.rows(), known.cols());
+  const auto without_known = [&](Eigen::VectorXd x) {
+    x -= basis * (basis.transpose() * x);
+    return x;
+  };
+  const Eigen::VectorXd error = without_known(measured - at);
+  constexpr std::size_t n_promising = 3;
+  std::vector<std::pair<double, std::size_t>> gains;
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    if (std::ranges::find(choice.terms, t) != choice.terms.end()) continue;
+    const Model::Choice wider = Model::extended(choice, t);
+    const Eigen::VectorXd slope = model.slope(records, wider, choice.coefficients.size(), at);
+    const Eigen::VectorXd column = without_known(slope);
+    constexpr double parallel = 1e-6;
+    if (!(column.squaredNorm() > parallel * slope.squaredNorm())) continue;
+    gains.emplace_back(-std::pow(column.dot(error), 2) / column.squaredNorm(), t);
+  }
+  std::sort(gains.begin(), gains.end());
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < std::min(n_promising, gains.size()); ++i)
+    out.push_back(gains[i].second);
+  return out;
+}
+
+/// The choice with the further term that leaves the least error once all coefficients are fitted;
+/// nothing where no term is left.
+std::optional<Model::Choice> widened(const Model& model, const std::vector<Term>& terms,
+                                     std::span<const PreparedRecord> records,
+                                     const Eigen::VectorXd& measured,
+                                     const Model::Choice& choice) {
+  std::optional<Model::Choice> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t t : promising_additions(model, terms, records, measured, choice)) {
+    Model::Choice wider = fitted(model, records, measured, Model::extended(choice, t));
+    const double error = (measured - model.predicted(records, wider)).squaredNorm();
+    if (!(error < least)) continue;
+    least = error;
+    best = std::move(wider);
+  }
+  return best;
+}
+
+}  // namespace
+
+UnknownCause describe_unknown(const Experiment& experiment, const Experiment& scored,
+                              const HypothesisFit& fit, const double noise_share) {
+  const std::vector<Term> terms = all_terms(experiment, scored.records);
+  const Model model(fit.chain(experiment), terms);
+  const auto measured_of = [](const Experiment& of) {
+    std::vector<std::vector<Complex>> bins;
+    for (const PreparedRecord& record : of.records) bins.push_back(record.moment);
+    return stacked(of.records, bins);
+  };
+  const Eigen::VectorXd measured = measured_of(experiment), unseen = measured_of(scored);
+  const auto error_of = [&](const Model::Choice& choice) {
+    return (unseen - model.predicted(scored.records, choice)).squaredNorm();
+  };
+  const double before = error_of({}), noise = noise_share * before;
+  UnknownCause out;
+  out.unexplained = (before - noise) / unseen.squaredNorm();
+  const auto closed_by = [&](const Model::Choice& choice) {
+    return (before - error_of(choice)) / (before - noise);
+  };
+  Model::Choice choice;
+  for (std::size_t t = 0; t < terms.size(); ++t)
+    if (terms[t].basic) choice = Model::extended(choice, t);
+  choice = fitted(model, experiment.records, measured, choice);
+  double closed = closed_by(choice);
+  while (out.terms.size() < most_terms) {
+    const auto wider = widened(model, terms, experiment.records, measured, choice);
+    const double now = wider ? closed_by(*wider) : 0.;
+    if (!(now > closed + least_gain)) break;
+    choice = *wider;
+    closed = now;
+    const Term& term = terms[choice.terms.back()];
+    out.terms.push_back({.name = term.name, .place = term.place, .closes = now});
+    // All coefficients move when one is added.
+    const std::size_t first = choice.terms.size() - out.terms.size();
+    for (std::size_t i = 0; i < out.terms.size(); ++i)
+      out.terms[i].coefficient = choice.coefficients(static_cast<Eigen::Index>(first + i));
+  }
+  out.left = (1. - (out.terms.empty() ? 0. : closed)) * out.unexplained;
+  const ResidualMoment residual(experiment, fit.chain(experiment));
+  out.over_angle = residual.over_angle();
+  out.over_rate = residual.over_rate();
+  return out;
+}
+
+}  // namespace vibrissa::diagnosis

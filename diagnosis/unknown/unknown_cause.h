@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/fit/hypothesis_fit.h"
+#include "diagnosis/unknown/residual_moment.h"
+#include "diagnosis/unknown/term.h"
+
+namespace vibrissa::diagnosis {
+
+struct NamedTerm {
+  std::string name{};  // term.h
+  TermPlace place = TermPlace::joint;
+  double coefficient = 0.;
+  double closes = 0.;  // share of what was unexplained, by this term and those before it
+};
+
+/// A description of what no known effect explains: enough for an engineer to name it.
+struct UnknownCause {
+  double unexplained = 0.;         // error power beyond noise, as a share of the measured power
+  double left = 0.;                // the same once the terms are added
+  bool replaces_effects = false;   // the terms stand beside calibrations alone, without effects
+  std::vector<NamedTerm> terms{};  // largest gain first
+  /// Residual moment of the joint (in shares of its peak elastic moment) over angle and rate, both
+  /// in shares of their peaks; empty where the joint's moment cannot be seen.
+  ResidualCurve over_angle{}, over_rate{};
+};
+
+/// Forward selection (Miller 2002, Subset Selection in Regression, 2nd ed., ch. 3) of at most three
+/// terms, added to the chain of a fit and solved by Gauss-Newton steps on the error power of the fit
+/// records, together with what a wrong calibration does. A term stays if it closes another 5 % of
+/// what is unexplained in `scored`. noise_share: share of the fit's error power there that is
+/// noise. Proven by tests/diagnosis/unknown/unknown_cause_test.cc.
+UnknownCause describe_unknown(const Experiment& experiment, const Experiment& scored,
+                              const HypothesisFit& fit, double noise_share);
+
+}  // namespace vibrissa::diagnosis
