@@ -144,8 +144,7 @@ std::optional<UnknownCause> left_by(const HypothesisFit& fit, const Experiment& 
 /// catalogue or where terms beside them explain more than its effects.
 std::optional<UnknownCause> unknown_cause(const SearchResult& result, const Experiment& experiment,
                                           const Experiment& scored) {
-  // A simulation has small errors without a cause.
-  const double accuracy = std::pow(experiment.simulation_accuracy, 2), least = 4. * accuracy;
+  const double least = power_without_cause(experiment.simulation_accuracy);
   const std::string& name = result.candidates.front().name;
   const auto none = std::ranges::find_if(
       result.fits, [](const HypothesisFit& fit) { return fit.hypothesis.name() == "none"; });
@@ -153,7 +152,7 @@ std::optional<UnknownCause> unknown_cause(const SearchResult& result, const Expe
   auto beside = left_by(result.fits[result.candidates.front().fit], experiment, scored, least);
   if (!beside || name == "none" || is_recalibration(name)) return beside;
   auto alone = left_by(*none, experiment, scored, least);
-  if (!alone || alone->terms.empty() || alone->left > std::max(beside->left, accuracy))
+  if (!alone || alone->terms.empty() || alone->left > std::max(beside->left, 0.25 * least))
     return beside;
   alone->replaces_effects = true;
   return alone;

@@ -15,7 +15,8 @@ constexpr double worth_a_word = 0.005;
 std::string verdict_line(const Diagnosis& diagnosis) {
   const double probability = diagnosis.ranking.empty() ? 0. : diagnosis.ranking.front().probability;
   const std::string odds = " (probability " + percent(probability) + ")";
-  if (diagnosis.verdict == "none") return "Verdict: no cause; noise explains the difference" + odds;
+  if (diagnosis.verdict == "none")
+    return "Verdict: no cause that is larger than noise and the usual error of a simulation" + odds;
   if (diagnosis.verdict == outside_catalogue)
     return "Verdict: a cause that is not in the catalogue" + odds;
   return "Verdict: " + joined(effect_ids(diagnosis.verdict), " + ") + odds + ". " +
@@ -161,6 +162,7 @@ std::string in_column(const std::string& text, const std::size_t width) {
 std::vector<std::string> noise_rows(const Diagnosis& diagnosis) {
   std::vector<std::string> rows;
   const auto& changes = diagnosis.attribution.changes;
+  if (diagnosis.verdict == outside_catalogue) return rows;
   for (const std::string& id : effect_ids(diagnosis.verdict))
     if (!diagnosis.ranking.empty() && !changes.empty() &&
         std::none_of(changes.begin(), changes.end(), [&](const auto& c) { return c.id == id; }))
@@ -331,6 +333,9 @@ class Lines {
 };
 
 std::string next_line(const Diagnosis& diagnosis) {
+  if (diagnosis.verdict == outside_catalogue && diagnosis.next.name == "none")
+    return "Measure next: no experiment that vibrissa knows names an unknown cause" +
+           std::string(diagnosis.unknown_cause ? "; see the unknown part" : "");
   return "Measure next: " + (diagnosis.next.name == "none" ? "" : diagnosis.next.name + ": ") +
          diagnosis.next.why;
 }

@@ -27,7 +27,7 @@ std::string in_words(const std::string& answer) {
 
 std::string headline(const Diagnosis& d) {
   if (d.verdict == "none")
-    return "No cause: noise explains the difference between bench and simulation";
+    return "No cause: noise and the usual error of a simulation explain the difference";
   if (d.verdict == diagnosis::outside_catalogue)
     return "The difference between bench and simulation has a cause that is not in the catalogue";
   std::string words = in_words(d.verdict);
@@ -70,8 +70,7 @@ std::vector<report::KeyNumber> key_numbers(const Diagnosis& d) {
   if (!d.ranking.empty()) {
     const RankedAnswer& first = d.ranking.front();
     numbers.push_back({"Probability of the answer", percent(first.probability),
-                       "rest (not listed or not decided by these records): " +
-                           percent(d.probability_of_unlisted)});
+                       "rest (not listed or undecided): " + percent(d.probability_of_unlisted)});
     if (first.held_out) add_scores(numbers, first.held_out->overall);
   }
   if (d.resonance)

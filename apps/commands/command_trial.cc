@@ -156,6 +156,13 @@ void add_run(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
                    "Largest number of effects that are combined")
       ->check(CLI::Range(1, 5))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--simulation-accuracy", options->run.simulation_accuracy,
+          "As for diagnose; 0.001 asks for effects that are smaller than the usual error of "
+          "a simulation, because that of a trial is exact")
+      ->check(CLI::Range(1e-4, 0.3))
+      ->capture_default_str();
   command->add_flag("--further", options->run.further,
                     "Where several answers remain, adds the recommended experiment and, for "
                     "comparison, a random one");

@@ -56,6 +56,11 @@ struct PreparedRecord {
 enum class InputNoise { reduced, as_measured };
 
 inline constexpr double usual_simulation_accuracy = 0.01;
+/// Largest power of a simulation's error, relative to the response, that needs no cause: twice the
+/// accuracy, which is the median of such errors.
+constexpr double power_without_cause(const double accuracy) {
+  return 4. * accuracy * accuracy;
+}
 
 /// The prepared fit records of one sensor with the nominal model.
 struct Experiment {

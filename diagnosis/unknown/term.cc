@@ -163,8 +163,7 @@ Term reading_power(std::string name, const Scale& scale, double (*function)(doub
 }
 
 /// Reading times a filter.
-Term reading_filter(std::string name, const Scale& scale,
-                    Complex (*filter)(Complex x, double c)) {
+Term reading_filter(std::string name, const Scale& scale, Complex (*filter)(Complex x, double c)) {
   return {.name = std::move(name),
           .place = TermPlace::reading,
           .add = [scale, filter](Chain& chain, double c) {
@@ -184,22 +183,22 @@ Term calibration(const Effect& effect, const Scales& scales) {
 }
 
 void add_reading_terms(const Experiment& experiment, const Scale& scale, std::vector<Term>& out) {
-  out.push_back(reading_filter("delay", scale,
-                               [](Complex x, double c) { return std::exp(-c * x); }));
+  out.push_back(
+      reading_filter("delay", scale, [](Complex x, double c) { return std::exp(-c * x); }));
   out.push_back(reading_power("moment^2", scale, [](double x) { return x * x; }));
   out.push_back(reading_power("moment |moment|", scale, [](double x) { return x * std::abs(x); }));
   out.push_back(reading_power("moment^3", scale, [](double x) { return x * x * x; }));
   out.push_back(reading_power("sign(moment)", scale, [](double x) { return sign(x); }));
   if (!experiment.has_base) return;
   for (const bool of_rate : {false, true})
-    out.push_back({.name = of_rate ? "acceleration's rate" : "acceleration",
-                   .place = TermPlace::reading,
-                   .add = [of_rate, scale, gain = experiment.scales.static_gain](Chain& chain,
-                                                                                 double c) {
-                     chain.feedthrough.push_back([of_rate, scale, gain, c](Complex s) {
-                       return c * gain * (of_rate ? s / scale.frequency_rad_s : Complex(1.));
-                     });
-                   }});
+    out.push_back(
+        {.name = of_rate ? "acceleration's rate" : "acceleration",
+         .place = TermPlace::reading,
+         .add = [of_rate, scale, gain = experiment.scales.static_gain](Chain& chain, double c) {
+           chain.feedthrough.push_back([of_rate, scale, gain, c](Complex s) {
+             return c * gain * (of_rate ? s / scale.frequency_rad_s : Complex(1.));
+           });
+         }});
 }
 
 }  // namespace
@@ -208,8 +207,7 @@ std::string to_string(const TermPlace place) {
   return place == TermPlace::joint ? "joint" : "reading";
 }
 
-std::vector<Term> all_terms(const Experiment& experiment,
-                            std::span<const PreparedRecord> further) {
+std::vector<Term> all_terms(const Experiment& experiment, std::span<const PreparedRecord> further) {
   const auto inputs = std::make_shared<const Inputs>(experiment.records, further);
   const Scale scale{experiment.scales.joint_moment_n_m, experiment.scales.first_mode_rad_s};
   std::vector<Term> out;
@@ -218,8 +216,7 @@ std::vector<Term> all_terms(const Experiment& experiment,
       out.push_back(calibration(effect, experiment.scales));
   if (!experiment.nominal.modes.empty()) {
     for (const JointTerm& term : joint_terms()) {
-      if ((term.acceleration && !inputs->has_acceleration()) ||
-          (term.wind && !inputs->has_wind()))
+      if ((term.acceleration && !inputs->has_acceleration()) || (term.wind && !inputs->has_wind()))
         continue;
       out.push_back({.name = term.name,
                      .add = [function = term.function, scale, inputs](Chain& chain, double c) {

@@ -28,8 +28,9 @@ struct Term {
   std::function<void(Chain&, double coefficient)> add{};
 };
 
-/// All terms that the experiment can show: powers, signs, products with the inputs, delays. further:
-/// other records that will be predicted. Proven by tests/diagnosis/unknown/unknown_cause_test.cc.
+/// All terms that the experiment can show: powers, signs, products with the inputs, delays.
+/// further: other records that will be predicted. Proven by
+/// tests/diagnosis/unknown/unknown_cause_test.cc.
 std::vector<Term> all_terms(const Experiment& experiment, std::span<const PreparedRecord> further);
 
 }  // namespace vibrissa::diagnosis

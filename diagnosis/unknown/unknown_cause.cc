@@ -69,8 +69,8 @@ class Model {
   const std::vector<Term>& terms_;
 };
 
-/// Least squares. Where columns are nearly dependent (mass, and stiffness with damping and gain), the
-/// smallest solution in terms of their sizes.
+/// Least squares. Where columns are nearly dependent (mass, and stiffness with damping and gain),
+/// the smallest solution in terms of their sizes.
 Eigen::VectorXd solved(const Eigen::MatrixXd& columns, const Eigen::VectorXd& right) {
   constexpr double dependent = 0.01;
   const Eigen::VectorXd sizes = columns.colwise().norm().cwiseMax(1e-300);
@@ -111,8 +111,9 @@ Model::Choice fitted(const Model& model, std::span<const PreparedRecord> records
 /// The terms that would take away most of the error power to first order, beside those of the
 /// choice.
 std::vector<std::size_t> promising_additions(const Model& model, const std::vector<Term>& terms,
-                          std::span<const PreparedRecord> records, const Eigen::VectorXd& measured,
-                          const Model::Choice& choice) {
+                                             std::span<const PreparedRecord> records,
+                                             const Eigen::VectorXd& measured,
+                                             const Model::Choice& choice) {
   const Eigen::VectorXd at = model.predicted(records, choice);
   Eigen::MatrixXd known(at.size(), choice.coefficients.size());
   for (Eigen::Index i = 0; i < known.cols(); ++i)
@@ -147,8 +148,7 @@ std::vector<std::size_t> promising_additions(const Model& model, const std::vect
 /// nothing where no term is left.
 std::optional<Model::Choice> widened(const Model& model, const std::vector<Term>& terms,
                                      std::span<const PreparedRecord> records,
-                                     const Eigen::VectorXd& measured,
-                                     const Model::Choice& choice) {
+                                     const Eigen::VectorXd& measured, const Model::Choice& choice) {
   std::optional<Model::Choice> best;
   double least = std::numeric_limits<double>::infinity();
   for (const std::size_t t : promising_additions(model, terms, records, measured, choice)) {

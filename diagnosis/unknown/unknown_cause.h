@@ -28,9 +28,9 @@ struct UnknownCause {
 };
 
 /// Forward selection (Miller 2002, Subset Selection in Regression, 2nd ed., ch. 3) of at most three
-/// terms, added to the chain of a fit and solved by Gauss-Newton steps on the error power of the fit
-/// records, together with what a wrong calibration does. A term stays if it closes another 5 % of
-/// what is unexplained in `scored`. noise_share: share of the fit's error power there that is
+/// terms, added to the chain of a fit and solved by Gauss-Newton steps on the error power of the
+/// fit records, together with what a wrong calibration does. A term stays if it closes another 5 %
+/// of what is unexplained in `scored`. noise_share: share of the fit's error power there that is
 /// noise. Proven by tests/diagnosis/unknown/unknown_cause_test.cc.
 UnknownCause describe_unknown(const Experiment& experiment, const Experiment& scored,
                               const HypothesisFit& fit, double noise_share);

@@ -83,7 +83,7 @@ class Reduction {
       return false;
     // Without rest and repeats the noise is a guess.
     return experiment_.acceleration_noise_is_measured && all.unexplained >= least_share &&
-           all.reducible * all.unexplained > std::pow(experiment_.simulation_accuracy, 2);
+           all.reducible * all.unexplained > power_without_cause(experiment_.simulation_accuracy);
   }
 
   /// The fit with a known effect that leaves the least error, of the most probable ones.
@@ -105,7 +105,7 @@ class Reduction {
   /// Is the error that recalibration leaves so small that no unknown cause is worth a name?
   bool is_all_explained() {
     const double recalibrated = error_power(known_.at("none"));
-    return recalibrated - floor_[&scored_] < std::pow(experiment_.simulation_accuracy, 2);
+    return recalibrated - floor_[&scored_] < power_without_cause(experiment_.simulation_accuracy);
   }
 
  private:

@@ -90,7 +90,7 @@ TEST(DiagnosisPage, ShowsTheWholeHeldOutRecordAndItsFirstSecond) {
 
 TEST(DiagnosisPage, SaysInPlainWordsWhatIsNoEffect) {
   diagnosis::Diagnosis d;
-  EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("No cause: noise explains"));
+  EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("No cause: noise and"));
   d.verdict = "outside_catalogue";
   EXPECT_THAT(views::diagnosis_page(d).headline, HasSubstr("a cause that is not in the catalogue"));
   d.verdict = "stiffness";

@@ -236,6 +236,26 @@ TEST(VerdictText, SaysCauseSizeAndWhatToDoNext) {
   EXPECT_THAT(unwrapped(text), HasSubstr("Measure next: wide_band"));
 }
 
+TEST(VerdictText, DescribesWhatIsNotExplained) {
+  Diagnosis diagnosis = example();
+  EXPECT_TRUE(nlohmann::json::parse(diagnosis_json(diagnosis))["unknown_cause"].is_null());
+  EXPECT_THAT(verdict_text(diagnosis), testing::Not(HasSubstr("Unknown part")));
+  diagnosis.unknown_cause = {.unexplained = 0.01,
+                             .terms = {{"rate |rate|", TermPlace::joint, 0.2, 0.7},
+                                       {"moment^2", TermPlace::reading, -0.1, 0.9}}};
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
+              HasSubstr("Unknown part: what is not explained looks like a further moment of the "
+                        "joint, + 0.2 rate |rate|, and an error of the reading, - 0.1 moment^2 "
+                        "(all in shares of their peaks); it closes 90 % of what is not explained"));
+  const auto json = nlohmann::json::parse(diagnosis_json(diagnosis))["unknown_cause"];
+  EXPECT_EQ(json["terms"][1]["place"], "reading");
+  diagnosis.verdict = outside_catalogue;
+  diagnosis.next = {.name = "none", .why = "nothing is needed"};
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
+              HasSubstr("no experiment that vibrissa knows names an unknown cause; see the unknown "
+                        "part"));
+}
+
 TEST(VerdictText, ClosesNoMoreThanTheWholeGap) {
   Diagnosis diagnosis = example();
   diagnosis.ranking.front().held_out->overall.gap_closed = 1.75;
@@ -264,7 +284,8 @@ TEST(VerdictText, TellsACalibrationFromPhysics) {
   EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
               HasSubstr("needs recalibration: set stiffness to 0.713 times the simulated"));
   diagnosis.verdict = "none";
-  EXPECT_THAT(unwrapped(verdict_text(diagnosis)), HasSubstr("noise explains the difference"));
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
+              HasSubstr("no cause that is larger than noise and the usual error"));
   diagnosis.verdict = "outside_catalogue";
   EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
               HasSubstr("a cause that is not in the catalogue"));

@@ -310,6 +310,17 @@ TEST(Diagnose, DiagnosesWindAlone) {
               Contains(testing::Field(&UntestedEffect::effect, "reference_gain")));
 }
 
+TEST(Diagnose, DescribesASpringThatIsInNoCatalogue) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.further = [](double x, double) { return 0.3 * x * x / 8e-4; };
+  const Diagnosis diagnosis = diagnosed(rig);
+  EXPECT_EQ(diagnosis.verdict, outside_catalogue);
+  ASSERT_TRUE(diagnosis.unknown_cause);
+  ASSERT_FALSE(diagnosis.unknown_cause->terms.empty());
+  EXPECT_EQ(diagnosis.unknown_cause->terms.front().name, "angle^2");
+  EXPECT_GT(diagnosis.unknown_cause->terms.front().closes, 0.95);
+}
+
 /// Cases of an independent rig simulator, if they are available.
 TEST(Practice, CasesAreDiagnosed) {
   namespace fs = std::filesystem;

@@ -70,6 +70,7 @@ json answer(const TrialIndex& trial, const TrialEntry& entry,
   settings.search = {.max_effects = options.max_effects,
                      .n_threads = options.n_threads,
                      .left_out = entry.left_out};
+  settings.simulation_accuracy = options.simulation_accuracy;
   settings.possible_experiments = trial.further_experiments;
   json out{{"schema", "vibrissa-trial-answer-1"}};
   const auto failed = [&](int status, const std::string& message) {

@@ -10,6 +10,7 @@ namespace vibrissa::trial {
 struct TrialRunOptions {
   std::size_t max_effects = diagnosis::SearchOptions{}.max_effects;
   std::size_t n_threads = 2;  // per rank
+  double simulation_accuracy = diagnosis::usual_simulation_accuracy;
   /// When more than one known answer remains, add the recommended experiment, and a random one.
   bool further = false;
   bool show_progress = true;

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 #include <numbers>
 
 #include "diagnosis/validation/held_out.h"
