@@ -12,7 +12,7 @@
 #include "diagnosis/search/readout_choice.h"
 #include "diagnosis/validation/indistinguishable.h"
 #include "diagnosis/validation/named_answers.h"
-#include "diagnosis/verdict_text.h"
+#include "diagnosis/validation/unknown_part.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::diagnosis {
@@ -129,46 +129,6 @@ void set_gap(Diagnosis& out, const SearchResult& result, const Experiment& exper
   out.attribution = attribute_gap(experiment, scored, best);
 }
 
-/// Terms for what a fit leaves; nothing where noise, or a random effect, explains it.
-std::optional<UnknownCause> left_by(const HypothesisFit& fit, const Experiment& experiment,
-                                    const Experiment& scored, const double least) {
-  const HeldOutScore score = score_held_out(experiment, scored, fit, {.n_resamples = 0});
-  const double noise = score.overall.noise_floor * score.overall.noise_floor,
-               left = score.overall.nrmse_after * score.overall.nrmse_after - noise;
-  if (!score.not_predictable.empty() || !(left > least && left > (least > 0. ? noise : 0.)))
-    return std::nullopt;
-  return describe_unknown(experiment, scored, fit, noise / (noise + left));
-}
-
-/// What the best answer leaves; or what calibrations alone leave, where the answer is outside the
-/// catalogue or where terms beside them explain more than its effects.
-std::optional<UnknownCause> unknown_cause(const SearchResult& result, const Experiment& experiment,
-                                          const Experiment& scored) {
-  const double least = power_without_cause(experiment.simulation_accuracy);
-  const std::string& name = result.candidates.front().name;
-  const auto none = std::ranges::find_if(
-      result.fits, [](const HypothesisFit& fit) { return fit.hypothesis.name() == "none"; });
-  if (name == outside_catalogue) return left_by(*none, experiment, scored, 0.);
-  auto beside = left_by(result.fits[result.candidates.front().fit], experiment, scored, least);
-  if (!beside || name == "none" || is_recalibration(name)) return beside;
-  auto alone = left_by(*none, experiment, scored, least);
-  if (!alone || alone->terms.empty() || alone->left > std::max(beside->left, 0.25 * least))
-    return beside;
-  alone->replaces_effects = true;
-  return alone;
-}
-
-/// An unknown cause takes the place of the best answer.
-void prefer_outside(SearchResult& result) {
-  std::vector<Candidate>& candidates = result.candidates;
-  const auto outside = std::ranges::find(candidates, outside_catalogue, &Candidate::name);
-  if (outside == candidates.end()) return;
-  result.nearest_known = candidates.front().fit;
-  std::swap(outside->probability, candidates.front().probability);
-  std::swap(outside->log_posterior, candidates.front().log_posterior);
-  std::iter_swap(outside, candidates.begin());
-}
-
 void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nominal,
           const DiagnoseOptions& options) {
   const Candidate& best = result.candidates.front();
@@ -211,6 +171,56 @@ UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fi
   return model;
 }
 
+namespace {
+
+/// What a search was about.
+struct Evidence {
+  const UpdatedModel& simulation;
+  const signals::Dataset& real;
+  const Experiment& experiment;  // of the fit records
+  bool is_shifted = false;       // the clocks were aligned
+};
+
+/// Names, odds, improvement and advice from the fits of a search.
+void conclude(Diagnosis& out, const Evidence& evidence, SearchResult& result,
+              const DiagnoseOptions& options) {
+  const Experiment& experiment = evidence.experiment;
+  const Experiment held_out = prepare_experiment(evidence.simulation, evidence.real,
+                                                 signals::Split::held_out, InputNoise::as_measured);
+  const Experiment fitted = prepare_experiment(evidence.simulation, evidence.real,
+                                               signals::Split::fit, InputNoise::as_measured);
+  const Experiment& scored = has_moving(held_out) ? held_out : fitted;
+  name_answers(result, experiment, fitted, scored);
+  out.unknown_cause = unknown_part(result, experiment, scored);
+  if (out.unknown_cause && out.unknown_cause->replaces_effects) prefer_outside(result);
+  if (evidence.is_shifted) add_delay(result);
+  const Candidate& best = result.candidates.front();
+  out.verdict = best.name;
+  out.location.links = likely_links(result);
+  rank(out, result, evidence.simulation.nominal, options);
+  out.confidence_set =
+      confidence_set(result.candidates, 0.95, out.probability_of_tried, out.probability_of_outside);
+  if (has_moving(held_out)) {
+    score_answers(out, result, experiment, held_out, options);
+  }
+  if (out.verdict == outside_catalogue)
+    out.nearest_known = nearest_known(result, experiment, held_out, options);
+  if (const auto finding = contradiction(out, result.fits[best.fit]))
+    out.findings.push_back(*finding);
+  set_gap(out, result, experiment, scored);
+  out.response = compare_response(experiment, result.fits[best.fit]);
+  out.updated = updated_model(experiment, result.fits[best.fit]);
+  if (out.verdict != outside_catalogue) out.resonance = resonance_change(experiment, out.updated);
+  out.wind_speed = wind_speed_error(evidence.simulation, out.updated, evidence.real);
+  out.separation = separation_quality(evidence.simulation, out.updated, evidence.real);
+  out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);
+  out.indistinguishable = indistinguishable_sets(experiment, result);
+  out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable,
+                             options.possible_experiments);
+}
+
+}  // namespace
+
 Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recorded,
                    const DiagnoseOptions& options) {
   check_menu_names(options.possible_experiments);
@@ -247,38 +257,7 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
     out.findings.push_back({.kind = FindingKind::time_limit,
                             .message = "the time limit ended the search: the answer is the best of "
                                        "those tested so far"});
-  const Experiment held_out =
-      prepare_experiment(simulation, real, signals::Split::held_out, InputNoise::as_measured);
-  const Experiment fitted =
-      prepare_experiment(simulation, real, signals::Split::fit, InputNoise::as_measured);
-  const Experiment& scored = has_moving(held_out) ? held_out : fitted;
-  name_answers(result, experiment, fitted, scored);
-  out.unknown_cause = unknown_cause(result, experiment, scored);
-  if (out.unknown_cause && out.unknown_cause->replaces_effects) prefer_outside(result);
-  if (aligned.is_shifted) add_delay(result);
-  const Candidate& best = result.candidates.front();
-  out.verdict = best.name;
-  out.location.links = likely_links(result);
-  rank(out, result, nominal, options);
-  out.confidence_set =
-      confidence_set(result.candidates, 0.95, out.probability_of_tried, out.probability_of_outside);
-  if (has_moving(held_out)) {
-    score_answers(out, result, experiment, held_out, options);
-  }
-  if (out.verdict == outside_catalogue)
-    out.nearest_known = nearest_known(result, experiment, held_out, options);
-  if (const auto finding = contradiction(out, result.fits[best.fit]))
-    out.findings.push_back(*finding);
-  set_gap(out, result, experiment, scored);
-  out.response = compare_response(experiment, result.fits[best.fit]);
-  out.updated = updated_model(experiment, result.fits[best.fit]);
-  if (out.verdict != outside_catalogue) out.resonance = resonance_change(experiment, out.updated);
-  out.wind_speed = wind_speed_error(simulation, out.updated, real);
-  out.separation = separation_quality(simulation, out.updated, real);
-  out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);
-  out.indistinguishable = indistinguishable_sets(experiment, result);
-  out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable,
-                             options.possible_experiments);
+  conclude(out, {simulation, real, experiment, aligned.is_shifted}, result, options);
   return out;
 }
 

@@ -18,9 +18,9 @@ constexpr double usual_form_level = 0.3;
 constexpr double accuracy_spread = 1.;
 /// Usual relative error that a bench adds anew in each record and at each frequency.
 constexpr double usual_incoherence = 0.002, largest_incoherence = 0.04;
-/// Logarithm of the largest level of a discrepancy relative to the usual one: what exceeds five
-/// times the accuracy has a cause.
-constexpr double most_inaccurate = 1.6;
+/// Largest level of a discrepancy relative to the usual one: what exceeds five times the accuracy
+/// has a cause.
+constexpr double most_inaccurate = 5.;
 /// Upper edges of the bands of an unknown cause, relative to the first mode's frequency; the last
 /// band has none.
 constexpr std::array<double, 4> unknown_edges{0.5, 0.9, 1.1, 2.};
@@ -32,6 +32,62 @@ double most_joint_loss(const NominalModel& nominal) {
   const StructuralMode& mode = nominal.modes.front();
   const double viscous = nominal.joint_viscous_ratio();
   return viscous > 0. ? std::clamp(2. * mode.damping_ratio / viscous, least, most) : most;
+}
+
+/// Positive level whose logarithm is normal about the logarithm of its usual value.
+Parameter level(std::string name, std::string unit, const double usual, const double spread,
+                const double low, const double high) {
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .logarithmic = true,
+          .prior = {.kind = Prior::Kind::normal,
+                    .centre = std::log(usual),
+                    .scale = spread,
+                    .low = std::log(low),
+                    .high = std::log(high)}};
+}
+
+/// Parameters of every hypothesis: noise, joint, errors that every simulation has.
+std::vector<FitParameter> common_parameters(const Experiment& experiment) {
+  std::vector<FitParameter> out(n_common_parameters);
+  const double m = std::log(experiment.moment_noise);
+  out[index_of_moment_noise].description = {
+      .name = "moment_noise",
+      .unit = "N m",
+      .logarithmic = true,
+      .prior = {.kind = Prior::Kind::uniform, .low = m - 4., .high = m + 4.}};
+  const bool is_measured = experiment.acceleration_noise_is_measured;
+  out[index_of_acceleration_noise].description =
+      level("acceleration_noise", "m/s^2",
+            is_measured ? usual_acceleration_noise : experiment.acceleration_noise,
+            is_measured ? usual_spread : unknown_spread, 1e-6, 20.);
+  out[index_of_joint_share].description =
+      normal("joint_share", "1", experiment.nominal.joint_share,
+             experiment.nominal.joint_share_deviation, 0.3, 1., 1.);
+  out[index_of_joint_loss].description =
+      normal("joint_loss_factor", "1", experiment.nominal.joint_loss_factor, 0.05, 0.7,
+             most_joint_loss(experiment.nominal), 1.);
+  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
+    out[index_of_discrepancy + kind].description =
+        level("discrepancy", "1", experiment.simulation_accuracy, accuracy_spread, 1e-5,
+              experiment.simulation_accuracy * most_inaccurate);
+  out[index_of_incoherence].description =
+      level("incoherent_error", "1", usual_incoherence, accuracy_spread, 1e-6, largest_incoherence);
+  return out;
+}
+
+void add_parameters(const Effect& effect, bool nuisance, std::vector<FitParameter>& out) {
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+    out.push_back({&effect, i, effect.parameters[i], nuisance});
+    // Half of all sensors are as simulated, within a part of the building tolerance; the tails are
+    // heavy, because some are far off.
+    Prior& prior = out.back().description.prior;
+    if (nuisance && i == 0 && prior.kind == Prior::Kind::normal) {
+      prior.kind = Prior::Kind::student;
+      prior.degrees_of_freedom = 1.;
+      prior.scale *= as_simulated;
+    }
+  }
 }
 
 }  // namespace
@@ -48,84 +104,20 @@ std::size_t unknown_band(const double frequency_ratio) {
 
 std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
                                               const Hypothesis& hypothesis) {
-  std::vector<FitParameter> fit_parameters(n_common_parameters);
-  const double m = std::log(experiment.moment_noise);
-  fit_parameters[index_of_moment_noise].description = {
-      .name = "moment_noise",
-      .unit = "N m",
-      .logarithmic = true,
-      .prior = {.kind = Prior::Kind::uniform, .low = m - 4., .high = m + 4.}};
-  fit_parameters[index_of_acceleration_noise].description = {
-      .name = "acceleration_noise",
-      .unit = "m/s^2",
-      .logarithmic = true,
-      .prior = {.kind = Prior::Kind::normal,
-                .centre = std::log(experiment.acceleration_noise_is_measured
-                                       ? usual_acceleration_noise
-                                       : experiment.acceleration_noise),
-                .scale = experiment.acceleration_noise_is_measured ? usual_spread : unknown_spread,
-                .low = std::log(1e-6),
-                .high = std::log(20.)}};
-  fit_parameters[index_of_joint_share].description =
-      normal("joint_share", "1", experiment.nominal.joint_share,
-             experiment.nominal.joint_share_deviation, 0.3, 1., 1.);
-  fit_parameters[index_of_joint_loss].description =
-      normal("joint_loss_factor", "1", experiment.nominal.joint_loss_factor, 0.05, 0.7,
-             most_joint_loss(experiment.nominal), 1.);
-  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
-    fit_parameters[index_of_discrepancy + kind].description = {
-        .name = "discrepancy",
-        .unit = "1",
-        .logarithmic = true,
-        .prior = {.kind = Prior::Kind::normal,
-                  .centre = std::log(experiment.simulation_accuracy),
-                  .scale = accuracy_spread,
-                  .low = std::log(1e-5),
-                  .high = std::log(experiment.simulation_accuracy) + most_inaccurate}};
-  fit_parameters[index_of_incoherence].description = {
-      .name = "incoherent_error",
-      .unit = "1",
-      .logarithmic = true,
-      .prior = {.kind = Prior::Kind::normal,
-                .centre = std::log(usual_incoherence),
-                .scale = accuracy_spread,
-                .low = std::log(1e-6),
-                .high = std::log(largest_incoherence)}};
-  const auto add = [&](const Effect& effect, bool nuisance) {
-    for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
-      fit_parameters.push_back({&effect, i, effect.parameters[i], nuisance});
-      // Half of all sensors are as simulated, within a part of the building tolerance; the tails
-      // are heavy, because some are far off.
-      Prior& prior = fit_parameters.back().description.prior;
-      if (nuisance && i == 0 && prior.kind == Prior::Kind::normal) {
-        prior.kind = Prior::Kind::student;
-        prior.degrees_of_freedom = 1.;
-        prior.scale *= as_simulated;
-      }
-    }
-  };
+  std::vector<FitParameter> out = common_parameters(experiment);
   for (const std::string& id : nuisance_ids()) {
     const Effect& effect = find_effect(id);
-    if (shows(experiment, effect) && !hypothesis.contains(id)) add(effect, true);
+    if (shows(experiment, effect) && !hypothesis.contains(id)) add_parameters(effect, true, out);
   }
-  for (const Effect* effect : hypothesis.effects()) add(*effect, false);
+  for (const Effect* effect : hypothesis.effects()) add_parameters(*effect, false, out);
   if (hypothesis.is_discrepancy())
     for (std::size_t i = 0; i < n_unknown_bands(); ++i)
-      fit_parameters.push_back(
-          {nullptr, i, log_uniform("unknown_cause", "1", 1e-4, 1., 0.), false});
+      out.push_back({nullptr, i, log_uniform("unknown_cause", "1", 1e-4, 1., 0.), false});
   if (!hypothesis.effects().empty())
-    fit_parameters.push_back({nullptr,
-                              0,
-                              {.name = form_error_level,
-                               .unit = "1",
-                               .logarithmic = true,
-                               .prior = {.kind = Prior::Kind::normal,
-                                         .centre = std::log(usual_form_level),
-                                         .scale = accuracy_spread,
-                                         .low = std::log(1e-3),
-                                         .high = 0.}},
-                              false});
-  return fit_parameters;
+    out.push_back({nullptr, 0,
+                   level(form_error_level, "1", usual_form_level, accuracy_spread, 1e-3, 1.),
+                   false});
+  return out;
 }
 
 Chain make_chain(const Experiment& experiment, const std::vector<FitParameter>& fit_parameters,
