@@ -86,14 +86,20 @@ std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
   constexpr std::size_t fewest = 3;
   const Candidate& best = result.candidates.front();
   const HypothesisFit& fit = result.fits[best.fit];
+  const HypothesisFit& none = *std::ranges::find_if(
+      result.fits, [](const HypothesisFit& f) { return f.hypothesis.name() == "none"; });
   std::size_t n_moving = 0;
+  bool is_explained = true;
   std::vector<std::size_t> suspects;
   for (std::size_t r = 0; r < experiment.records.size(); ++r) {
     if (experiment.records[r].is_still()) continue;
     ++n_moving;
-    if (leaves_much(experiment, r, fit.records[r])) suspects.push_back(r);
+    const bool is_left = leaves_much(experiment, r, fit.records[r]);
+    is_explained = is_explained && !is_left;
+    // An effect may bend to the misplaced record at the cost of the others.
+    if (is_left || leaves_much(experiment, r, none.records[r])) suspects.push_back(r);
   }
-  if (n_moving < fewest || suspects.empty()) return std::nullopt;
+  if (n_moving < fewest || is_explained) return std::nullopt;
   std::vector<MisplacedRecord> tried(suspects.size());
   for_each_parallel(suspects.size(), n_threads, [&](std::size_t i) {
     const PreparedRecord& record = experiment.records[suspects[i]];
