@@ -191,7 +191,7 @@ void conclude(Diagnosis& out, const Evidence& evidence, SearchResult& result,
                                                signals::Split::fit, InputNoise::as_measured);
   const Experiment& scored = has_moving(held_out) ? held_out : fitted;
   name_answers(result, experiment, fitted, scored);
-  out.unknown_cause = unknown_part(result, experiment, scored);
+  out.unknown_cause = unknown_part(result, experiment, scored, options.search.n_threads);
   if (out.unknown_cause && out.unknown_cause->replaces_effects) prefer_outside(result);
   if (evidence.is_shifted) add_delay(result);
   const Candidate& best = result.candidates.front();

@@ -122,6 +122,7 @@ json unknown_json(const std::optional<UnknownCause>& unknown) {
   for (const NamedTerm& term : unknown->terms)
     terms.push_back({{"term", term.name},
                      {"place", to_string(term.place)},
+                     {"like", term.like.empty() ? json(nullptr) : json(term.like)},
                      {"coefficient", json_number(term.coefficient)},
                      {"closes_with_those_before", json_number(term.closes)}});
   return {{"unexplained_power", json_number(unknown->unexplained)},

@@ -203,6 +203,25 @@ void add_reading_terms(const Experiment& experiment, const Scale& scale, std::ve
 
 }  // namespace
 
+namespace {
+
+/// Terms that an effect of the catalogue covers.
+std::string catalogued(const std::string& name) {
+  static const std::map<std::string, std::string> effects{{"angle^3", "hardening"},
+                                                          {"sign(angle)", "backlash"},
+                                                          {"sign(rate)", "joint_friction"},
+                                                          {"wind rate", "relative_drag"},
+                                                          {"wind^2 rate", "relative_drag"},
+                                                          {"delay", "delay"},
+                                                          {"moment^2", "sensor_nonlinearity"},
+                                                          {"moment^3", "sensor_nonlinearity"},
+                                                          {"acceleration", "coil_feedthrough"}};
+  const auto found = effects.find(name);
+  return found == effects.end() ? "" : found->second;
+}
+
+}  // namespace
+
 std::string to_string(const TermPlace place) {
   return place == TermPlace::joint ? "joint" : "reading";
 }
@@ -227,6 +246,7 @@ std::vector<Term> all_terms(const Experiment& experiment, std::span<const Prepar
     }
   }
   add_reading_terms(experiment, scale, out);
+  for (Term& term : out) term.like = catalogued(term.name);
   return out;
 }
 

@@ -25,6 +25,7 @@ struct Term {
   std::string name{};  // "angle^3"
   TermPlace place = TermPlace::joint;
   bool basic = false;  // a wrong calibration does the same
+  std::string like{};  // effect of the catalogue that does much the same
   std::function<void(Chain&, double coefficient)> add{};
 };
 

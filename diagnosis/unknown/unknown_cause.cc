@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "diagnosis/model/parallel.h"
 #include "diagnosis/prediction/chain_simulation.h"
 #include "diagnosis/records/spectrum.h"
 
@@ -31,7 +32,10 @@ Eigen::VectorXd stacked(std::span<const PreparedRecord> records,
 /// Terms with their coefficients on top of a chain.
 class Model {
  public:
-  Model(Chain chain, const std::vector<Term>& terms) : chain_(std::move(chain)), terms_(terms) {}
+  Model(Chain chain, const std::vector<Term>& terms, std::size_t threads)
+      : n_threads(threads), chain_(std::move(chain)), terms_(terms) {}
+
+  const std::size_t n_threads;
 
   struct Choice {
     std::vector<std::size_t> terms{};
@@ -80,30 +84,43 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& columns, const Eigen::VectorXd& ri
   return factors.solve(right).cwiseQuotient(sizes);
 }
 
-/// Gauss-Newton steps, halved until the error falls.
+/// Slopes of the prediction by these coefficients of a choice, one column each.
+Eigen::MatrixXd slopes_of(const Model& model, std::span<const PreparedRecord> records,
+                          const Model::Choice& choice, const Eigen::VectorXd& at) {
+  Eigen::MatrixXd out(at.size(), choice.coefficients.size());
+  for_each_parallel(static_cast<std::size_t>(out.cols()), model.n_threads, [&](std::size_t i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    out.col(column) = model.slope(records, choice, column, at);
+  });
+  return out;
+}
+
+/// Gauss-Newton steps, halved until the error falls. Slopes are kept as long as the steps with them
+/// succeed.
 Model::Choice fitted(const Model& model, std::span<const PreparedRecord> records,
                      const Eigen::VectorXd& measured, Model::Choice choice) {
-  constexpr int most_steps = 10, most_halvings = 4;
-  const Eigen::Index n = choice.coefficients.size();
+  constexpr int most_steps = 12, most_halvings = 4;
+  constexpr double least_progress = 1e-3, good_progress = 0.3;
   Eigen::VectorXd at = model.predicted(records, choice);
+  Eigen::MatrixXd slopes;
+  bool is_stale = true;
   for (int step = 0; step < most_steps; ++step) {
-    Eigen::MatrixXd slopes(at.size(), n);
-    for (Eigen::Index i = 0; i < n; ++i) slopes.col(i) = model.slope(records, choice, i, at);
+    const bool are_new = is_stale;
+    if (is_stale) slopes = slopes_of(model, records, choice, at);
     const Eigen::VectorXd error = measured - at;
     const Eigen::VectorXd way = solved(slopes, error);
-    double factor = 1.;
-    bool is_better = false;
-    for (int halving = 0; halving < most_halvings && !is_better; ++halving, factor *= 0.5) {
+    double factor = 1., gain = 0.;
+    for (int halving = 0; halving < most_halvings && gain <= 0.; ++halving, factor *= 0.5) {
       Model::Choice next = choice;
       next.coefficients += factor * way;
       const Eigen::VectorXd there = model.predicted(records, next);
-      if (!((measured - there).squaredNorm() < error.squaredNorm())) continue;
-      const double gain = 1. - (measured - there).squaredNorm() / error.squaredNorm();
+      gain = 1. - (measured - there).squaredNorm() / error.squaredNorm();
+      if (!(gain > 0.)) continue;
       choice = next;
       at = there;
-      is_better = gain > 1e-3;
     }
-    if (!is_better) break;
+    if (!(gain > least_progress) && are_new) break;
+    is_stale = !(gain > good_progress);
   }
   return choice;
 }
@@ -115,9 +132,7 @@ std::vector<std::size_t> promising_additions(const Model& model, const std::vect
                                              const Eigen::VectorXd& measured,
                                              const Model::Choice& choice) {
   const Eigen::VectorXd at = model.predicted(records, choice);
-  Eigen::MatrixXd known(at.size(), choice.coefficients.size());
-  for (Eigen::Index i = 0; i < known.cols(); ++i)
-    known.col(i) = model.slope(records, choice, i, at);
+  const Eigen::MatrixXd known = slopes_of(model, records, choice, at);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(known);
   const Eigen::MatrixXd basis =
       qr.householderQ() * Eigen::MatrixXd::Identity(known.rows(), known.cols());
@@ -127,20 +142,21 @@ std::vector<std::size_t> promising_additions(const Model& model, const std::vect
   };
   const Eigen::VectorXd error = without_known(measured - at);
   constexpr std::size_t n_promising = 3;
-  std::vector<std::pair<double, std::size_t>> gains;
-  for (std::size_t t = 0; t < terms.size(); ++t) {
-    if (std::ranges::find(choice.terms, t) != choice.terms.end()) continue;
+  std::vector<std::pair<double, std::size_t>> gains(terms.size());
+  for_each_parallel(terms.size(), model.n_threads, [&](std::size_t t) {
+    gains[t] = {0., t};
+    if (std::ranges::find(choice.terms, t) != choice.terms.end()) return;
     const Model::Choice wider = Model::extended(choice, t);
     const Eigen::VectorXd slope = model.slope(records, wider, choice.coefficients.size(), at);
     const Eigen::VectorXd column = without_known(slope);
     constexpr double parallel = 1e-6;
-    if (!(column.squaredNorm() > parallel * slope.squaredNorm())) continue;
-    gains.emplace_back(-std::pow(column.dot(error), 2) / column.squaredNorm(), t);
-  }
+    if (column.squaredNorm() > parallel * slope.squaredNorm())
+      gains[t].first = -std::pow(column.dot(error), 2) / column.squaredNorm();
+  });
   std::sort(gains.begin(), gains.end());
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < std::min(n_promising, gains.size()); ++i)
-    out.push_back(gains[i].second);
+    if (gains[i].first < 0.) out.push_back(gains[i].second);
   return out;
 }
 
@@ -164,9 +180,10 @@ std::optional<Model::Choice> widened(const Model& model, const std::vector<Term>
 }  // namespace
 
 UnknownCause describe_unknown(const Experiment& experiment, const Experiment& scored,
-                              const HypothesisFit& fit, const double noise_share) {
+                              const HypothesisFit& fit, const double noise_share,
+                              const std::size_t n_threads) {
   const std::vector<Term> terms = all_terms(experiment, scored.records);
-  const Model model(fit.chain(experiment), terms);
+  const Model model(fit.chain(experiment), terms, n_threads);
   const auto measured_of = [](const Experiment& of) {
     std::vector<std::vector<Complex>> bins;
     for (const PreparedRecord& record : of.records) bins.push_back(record.moment);
@@ -194,7 +211,7 @@ UnknownCause describe_unknown(const Experiment& experiment, const Experiment& sc
     choice = *wider;
     closed = now;
     const Term& term = terms[choice.terms.back()];
-    out.terms.push_back({.name = term.name, .place = term.place, .closes = now});
+    out.terms.push_back({.name = term.name, .place = term.place, .like = term.like, .closes = now});
     // All coefficients move when one is added.
     const std::size_t first = choice.terms.size() - out.terms.size();
     for (std::size_t i = 0; i < out.terms.size(); ++i)

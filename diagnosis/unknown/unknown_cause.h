@@ -12,6 +12,7 @@ namespace vibrissa::diagnosis {
 struct NamedTerm {
   std::string name{};  // term.h
   TermPlace place = TermPlace::joint;
+  std::string like{};  // effect of the catalogue that does much the same
   double coefficient = 0.;
   double closes = 0.;  // share of what was unexplained, by this term and those before it
 };
@@ -33,6 +34,7 @@ struct UnknownCause {
 /// of what is unexplained in `scored`. noise_share: share of the fit's error power there that is
 /// noise. Proven by tests/diagnosis/unknown/unknown_cause_test.cc.
 UnknownCause describe_unknown(const Experiment& experiment, const Experiment& scored,
-                              const HypothesisFit& fit, double noise_share);
+                              const HypothesisFit& fit, double noise_share,
+                              std::size_t n_threads = 2);
 
 }  // namespace vibrissa::diagnosis

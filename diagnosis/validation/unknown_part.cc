@@ -9,30 +9,34 @@ namespace {
 
 /// Terms for what a fit leaves; nothing where noise, or a random effect, explains it.
 std::optional<UnknownCause> left_by(const HypothesisFit& fit, const Experiment& experiment,
-                                    const Experiment& scored, const double least) {
+                                    const Experiment& scored, const double least,
+                                    const std::size_t n_threads) {
   const HeldOutScore score = score_held_out(experiment, scored, fit, {.n_resamples = 0});
   const double noise = score.overall.noise_floor * score.overall.noise_floor,
                left = score.overall.nrmse_after * score.overall.nrmse_after - noise;
   if (!score.not_predictable.empty() || !(left > least && left > (least > 0. ? noise : 0.)))
     return std::nullopt;
-  return describe_unknown(experiment, scored, fit, noise / (noise + left));
+  return describe_unknown(experiment, scored, fit, noise / (noise + left), n_threads);
 }
 
 }  // namespace
 
 std::optional<UnknownCause> unknown_part(const SearchResult& result, const Experiment& experiment,
-                                         const Experiment& scored) {
+                                         const Experiment& scored, const std::size_t n_threads) {
   const double least = power_without_cause(experiment.simulation_accuracy);
   const std::string& name = result.candidates.front().name;
   const auto none = std::ranges::find_if(
       result.fits, [](const HypothesisFit& fit) { return fit.hypothesis.name() == "none"; });
-  if (name == outside_catalogue) return left_by(*none, experiment, scored, 0.);
-  auto beside = left_by(result.fits[result.candidates.front().fit], experiment, scored, least);
+  if (name == outside_catalogue) return left_by(*none, experiment, scored, 0., n_threads);
+  auto beside =
+      left_by(result.fits[result.candidates.front().fit], experiment, scored, least, n_threads);
   if (!beside || name == "none" ||
       result.fits[result.candidates.front().fit].hypothesis.effects().empty())
     return beside;
-  auto alone = left_by(*none, experiment, scored, least);
-  if (!alone || alone->terms.empty() || alone->left > std::max(beside->left, 0.25 * least))
+  auto alone = left_by(*none, experiment, scored, least, n_threads);
+  // More terms, or what the catalogue has, would be no simpler than the answer.
+  if (!alone || alone->terms.size() != 1 || !alone->terms.front().like.empty() ||
+      alone->left > std::max(beside->left, 0.25 * least))
     return beside;
   alone->replaces_effects = true;
   return alone;

@@ -12,7 +12,7 @@ namespace vibrissa::diagnosis {
 /// random effect or the usual error of a simulation explains it. Proven by
 /// tests/diagnosis/diagnosis_test.cc, DescribesASpringThatIsInNoCatalogue.
 std::optional<UnknownCause> unknown_part(const SearchResult& result, const Experiment& experiment,
-                                         const Experiment& scored);
+                                         const Experiment& scored, std::size_t n_threads);
 
 /// An unknown cause takes the place of the best answer.
 void prefer_outside(SearchResult& result);

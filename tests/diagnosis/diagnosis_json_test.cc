@@ -240,9 +240,10 @@ TEST(VerdictText, DescribesWhatIsNotExplained) {
   Diagnosis diagnosis = example();
   EXPECT_TRUE(nlohmann::json::parse(diagnosis_json(diagnosis))["unknown_cause"].is_null());
   EXPECT_THAT(verdict_text(diagnosis), testing::Not(HasSubstr("Unknown part")));
-  diagnosis.unknown_cause = {.unexplained = 0.01,
-                             .terms = {{"rate |rate|", TermPlace::joint, 0.2, 0.7},
-                                       {"moment^2", TermPlace::reading, -0.1, 0.9}}};
+  diagnosis.unknown_cause = {
+      .unexplained = 0.01,
+      .terms = {{"rate |rate|", TermPlace::joint, "", 0.2, 0.7},
+                {"moment^2", TermPlace::reading, "sensor_nonlinearity", -0.1, 0.9}}};
   EXPECT_THAT(unwrapped(verdict_text(diagnosis)),
               HasSubstr("Unknown part: what is not explained looks like a further moment of the "
                         "joint, + 0.2 rate |rate|, and an error of the reading, - 0.1 moment^2 "
