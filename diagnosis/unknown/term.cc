@@ -117,6 +117,7 @@ struct JointTerm {
   const char* name;
   Function function;
   bool acceleration = false, wind = false;
+  const char* like = "";
 };
 
 const std::vector<JointTerm>& joint_terms() {
@@ -124,13 +125,14 @@ const std::vector<JointTerm>& joint_terms() {
       {"angle^2", [](const State& s) { return s.angle * s.angle; }},
       {"|angle|", [](const State& s) { return std::abs(s.angle); }},
       {"angle |angle|", [](const State& s) { return s.angle * std::abs(s.angle); }},
-      {"angle^3", [](const State& s) { return s.angle * s.angle * s.angle; }},
+      {"angle^3", [](const State& s) { return s.angle * s.angle * s.angle; }, false, false,
+       "hardening"},
       {"angle^5", [](const State& s) { return std::pow(s.angle, 5); }},
-      {"sign(angle)", [](const State& s) { return sign(s.angle); }},
+      {"sign(angle)", [](const State& s) { return sign(s.angle); }, false, false, "backlash"},
       {"rate^2", [](const State& s) { return s.rate * s.rate; }},
       {"rate |rate|", [](const State& s) { return s.rate * std::abs(s.rate); }},
       {"rate^3", [](const State& s) { return s.rate * s.rate * s.rate; }},
-      {"sign(rate)", [](const State& s) { return sign(s.rate); }},
+      {"sign(rate)", [](const State& s) { return sign(s.rate); }, false, false, "joint_friction"},
       {"angle rate", [](const State& s) { return s.angle * s.rate; }},
       {"|angle| rate", [](const State& s) { return std::abs(s.angle) * s.rate; }},
       {"angle^2 rate", [](const State& s) { return s.angle * s.angle * s.rate; }},
@@ -140,9 +142,10 @@ const std::vector<JointTerm>& joint_terms() {
       {"acceleration |acceleration|",
        [](const State& s) { return s.acceleration * std::abs(s.acceleration); }, true},
       {"wind", [](const State& s) { return s.wind; }, false, true},
-      {"wind rate", [](const State& s) { return s.wind * s.rate; }, false, true},
+      {"wind rate", [](const State& s) { return s.wind * s.rate; }, false, true, "relative_drag"},
       {"wind angle", [](const State& s) { return s.wind * s.angle; }, false, true},
-      {"wind^2 rate", [](const State& s) { return s.wind * s.wind * s.rate; }, false, true},
+      {"wind^2 rate", [](const State& s) { return s.wind * s.wind * s.rate; }, false, true,
+       "relative_drag"},
       {"wind^2 angle", [](const State& s) { return s.wind * s.wind * s.angle; }, false, true},
       {"wind^3", [](const State& s) { return s.wind * s.wind * s.wind; }, false, true},
       {"wind acceleration", [](const State& s) { return s.wind * s.acceleration; }, true, true}};
@@ -150,9 +153,11 @@ const std::vector<JointTerm>& joint_terms() {
 }
 
 /// Reading plus coefficient times a power of itself, in shares of the peak.
-Term reading_power(std::string name, const Scale& scale, double (*function)(double)) {
+Term reading_power(std::string name, std::string like, const Scale& scale,
+                   double (*function)(double)) {
   return {.name = std::move(name),
           .place = TermPlace::reading,
+          .like = std::move(like),
           .add = [scale, function](Chain& chain, double c) {
             chain.readout.push_back([scale, function, c](double moment) {
               constexpr double most = 3.;
@@ -163,9 +168,11 @@ Term reading_power(std::string name, const Scale& scale, double (*function)(doub
 }
 
 /// Reading times a filter.
-Term reading_filter(std::string name, const Scale& scale, Complex (*filter)(Complex x, double c)) {
+Term reading_filter(std::string name, std::string like, const Scale& scale,
+                    Complex (*filter)(Complex x, double c)) {
   return {.name = std::move(name),
           .place = TermPlace::reading,
+          .like = std::move(like),
           .add = [scale, filter](Chain& chain, double c) {
             chain.sensor.push_back(
                 [scale, filter, c](Complex s) { return filter(s / scale.frequency_rad_s, c); });
@@ -183,41 +190,26 @@ Term calibration(const Effect& effect, const Scales& scales) {
 }
 
 void add_reading_terms(const Experiment& experiment, const Scale& scale, std::vector<Term>& out) {
+  out.push_back(reading_filter("delay", "delay", scale,
+                               [](Complex x, double c) { return std::exp(-c * x); }));
   out.push_back(
-      reading_filter("delay", scale, [](Complex x, double c) { return std::exp(-c * x); }));
-  out.push_back(reading_power("moment^2", scale, [](double x) { return x * x; }));
-  out.push_back(reading_power("moment |moment|", scale, [](double x) { return x * std::abs(x); }));
-  out.push_back(reading_power("moment^3", scale, [](double x) { return x * x * x; }));
-  out.push_back(reading_power("sign(moment)", scale, [](double x) { return sign(x); }));
+      reading_power("moment^2", "sensor_nonlinearity", scale, [](double x) { return x * x; }));
+  out.push_back(
+      reading_power("moment |moment|", "", scale, [](double x) { return x * std::abs(x); }));
+  out.push_back(
+      reading_power("moment^3", "sensor_nonlinearity", scale, [](double x) { return x * x * x; }));
+  out.push_back(reading_power("sign(moment)", "", scale, [](double x) { return sign(x); }));
   if (!experiment.has_base) return;
   for (const bool of_rate : {false, true})
     out.push_back(
         {.name = of_rate ? "acceleration's rate" : "acceleration",
          .place = TermPlace::reading,
+         .like = of_rate ? "" : "coil_feedthrough",
          .add = [of_rate, scale, gain = experiment.scales.static_gain](Chain& chain, double c) {
            chain.feedthrough.push_back([of_rate, scale, gain, c](Complex s) {
              return c * gain * (of_rate ? s / scale.frequency_rad_s : Complex(1.));
            });
          }});
-}
-
-}  // namespace
-
-namespace {
-
-/// Terms that an effect of the catalogue covers.
-std::string catalogued(const std::string& name) {
-  static const std::map<std::string, std::string> effects{{"angle^3", "hardening"},
-                                                          {"sign(angle)", "backlash"},
-                                                          {"sign(rate)", "joint_friction"},
-                                                          {"wind rate", "relative_drag"},
-                                                          {"wind^2 rate", "relative_drag"},
-                                                          {"delay", "delay"},
-                                                          {"moment^2", "sensor_nonlinearity"},
-                                                          {"moment^3", "sensor_nonlinearity"},
-                                                          {"acceleration", "coil_feedthrough"}};
-  const auto found = effects.find(name);
-  return found == effects.end() ? "" : found->second;
 }
 
 }  // namespace
@@ -238,6 +230,7 @@ std::vector<Term> all_terms(const Experiment& experiment, std::span<const Prepar
       if ((term.acceleration && !inputs->has_acceleration()) || (term.wind && !inputs->has_wind()))
         continue;
       out.push_back({.name = term.name,
+                     .like = term.like,
                      .add = [function = term.function, scale, inputs](Chain& chain, double c) {
                        chain.joint.push_back([function, scale, inputs, c](const Lanes& numbers) {
                          return std::make_unique<TermLaw>(function, c, scale, inputs, numbers);
@@ -246,7 +239,6 @@ std::vector<Term> all_terms(const Experiment& experiment, std::span<const Prepar
     }
   }
   add_reading_terms(experiment, scale, out);
-  for (Term& term : out) term.like = catalogued(term.name);
   return out;
 }
 

@@ -60,7 +60,7 @@ class Model {
     out.coefficients(out.coefficients.size() - 1) = 0.;
     return out;
   }
-  /// Derivative of the prediction by the last coefficient of a choice.
+  /// Derivative of the prediction by coefficient i of a choice.
   Eigen::VectorXd slope(std::span<const PreparedRecord> records, Choice choice, Eigen::Index i,
                         const Eigen::VectorXd& at) const {
     constexpr double step = 1e-3;  // of the peak moment
@@ -183,7 +183,8 @@ UnknownCause describe_unknown(const Experiment& experiment, const Experiment& sc
                               const HypothesisFit& fit, const double noise_share,
                               const std::size_t n_threads) {
   const std::vector<Term> terms = all_terms(experiment, scored.records);
-  const Model model(fit.chain(experiment), terms, n_threads);
+  const Chain chain = fit.chain(experiment);
+  const Model model(chain, terms, n_threads);
   const auto measured_of = [](const Experiment& of) {
     std::vector<std::vector<Complex>> bins;
     for (const PreparedRecord& record : of.records) bins.push_back(record.moment);
@@ -218,7 +219,7 @@ UnknownCause describe_unknown(const Experiment& experiment, const Experiment& sc
       out.terms[i].coefficient = choice.coefficients(static_cast<Eigen::Index>(first + i));
   }
   out.left = (1. - (out.terms.empty() ? 0. : closed)) * out.unexplained;
-  const ResidualMoment residual(experiment, fit.chain(experiment));
+  const ResidualMoment residual(experiment, chain);
   out.over_angle = residual.over_angle();
   out.over_rate = residual.over_rate();
   return out;

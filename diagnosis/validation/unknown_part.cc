@@ -1,21 +1,25 @@
 #include "diagnosis/validation/unknown_part.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/validation/held_out.h"
 
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Terms for what a fit leaves; nothing where noise, or a random effect, explains it.
+/// Terms for what a fit leaves; nothing where a random effect explains it, nor, in an answer that
+/// is not outside the catalogue, where noise or the usual error of a simulation does.
 std::optional<UnknownCause> left_by(const HypothesisFit& fit, const Experiment& experiment,
-                                    const Experiment& scored, const double least,
+                                    const Experiment& scored, const bool is_outside,
                                     const std::size_t n_threads) {
   const HeldOutScore score = score_held_out(experiment, scored, fit, {.n_resamples = 0});
   const double noise = score.overall.noise_floor * score.overall.noise_floor,
-               left = score.overall.nrmse_after * score.overall.nrmse_after - noise;
-  if (!score.not_predictable.empty() || !(left > least && left > (least > 0. ? noise : 0.)))
-    return std::nullopt;
+               left = score.overall.nrmse_after * score.overall.nrmse_after - noise,
+               least = is_outside
+                           ? 0.
+                           : std::max(power_without_cause(experiment.simulation_accuracy), noise);
+  if (!score.not_predictable.empty() || !(left > least)) return std::nullopt;
   return describe_unknown(experiment, scored, fit, noise / (noise + left), n_threads);
 }
 
@@ -23,20 +27,18 @@ std::optional<UnknownCause> left_by(const HypothesisFit& fit, const Experiment& 
 
 std::optional<UnknownCause> unknown_part(const SearchResult& result, const Experiment& experiment,
                                          const Experiment& scored, const std::size_t n_threads) {
-  const double least = power_without_cause(experiment.simulation_accuracy);
-  const std::string& name = result.candidates.front().name;
-  const auto none = std::ranges::find_if(
+  const Candidate& best = result.candidates.front();
+  const HypothesisFit& answer = result.fits[best.fit];
+  const HypothesisFit& none = *std::ranges::find_if(
       result.fits, [](const HypothesisFit& fit) { return fit.hypothesis.name() == "none"; });
-  if (name == outside_catalogue) return left_by(*none, experiment, scored, 0., n_threads);
-  auto beside =
-      left_by(result.fits[result.candidates.front().fit], experiment, scored, least, n_threads);
-  if (!beside || name == "none" ||
-      result.fits[result.candidates.front().fit].hypothesis.effects().empty())
-    return beside;
-  auto alone = left_by(*none, experiment, scored, least, n_threads);
+  if (best.name == outside_catalogue) return left_by(none, experiment, scored, true, n_threads);
+  auto beside = left_by(answer, experiment, scored, false, n_threads);
+  if (!beside || answer.hypothesis.effects().empty()) return beside;
+  auto alone = left_by(none, experiment, scored, false, n_threads);
+  const double usual = std::pow(experiment.simulation_accuracy, 2);
   // More terms, or what the catalogue has, would be no simpler than the answer.
   if (!alone || alone->terms.size() != 1 || !alone->terms.front().like.empty() ||
-      alone->left > std::max(beside->left, 0.25 * least))
+      alone->left > std::max(beside->left, usual))
     return beside;
   alone->replaces_effects = true;
   return alone;
