@@ -18,8 +18,7 @@ constexpr double usual_form_level = 0.3;
 constexpr double accuracy_spread = 1.;
 /// Usual relative error that a bench adds anew in each record and at each frequency.
 constexpr double usual_incoherence = 0.002, largest_incoherence = 0.04;
-/// Largest level of a discrepancy relative to the usual one: what exceeds five times the accuracy
-/// has a cause.
+/// Largest level of a narrow discrepancy, relative to the accuracy.
 constexpr double most_inaccurate = 5.;
 /// Upper edges of the bands of an unknown cause, relative to the first mode's frequency; the last
 /// band has none.
@@ -67,10 +66,12 @@ std::vector<FitParameter> common_parameters(const Experiment& experiment) {
   out[index_of_joint_loss].description =
       normal("joint_loss_factor", "1", experiment.nominal.joint_loss_factor, 0.05, 0.7,
              most_joint_loss(experiment.nominal), 1.);
-  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
-    out[index_of_discrepancy + kind].description =
-        level("discrepancy", "1", experiment.simulation_accuracy, accuracy_spread, 1e-5,
-              experiment.simulation_accuracy * most_inaccurate);
+  const double accuracy = experiment.simulation_accuracy,
+               without_cause = std::sqrt(power_without_cause(accuracy));
+  for (std::size_t i = 0; i < n_discrepancy_levels; ++i)
+    out[index_of_discrepancy + i].description =
+        level("discrepancy", "1", accuracy, accuracy_spread, 1e-5,
+              i < n_record_kinds ? most_inaccurate * accuracy : without_cause);
   out[index_of_incoherence].description =
       level("incoherent_error", "1", usual_incoherence, accuracy_spread, 1e-6, largest_incoherence);
   return out;

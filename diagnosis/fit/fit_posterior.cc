@@ -159,10 +159,11 @@ Eigen::VectorXd inverse_deviations(const std::vector<std::vector<double>>& varia
   return out;
 }
 
-std::array<double, n_record_kinds> levels(const Eigen::VectorXd& x) {
-  std::array<double, n_record_kinds> out{};
-  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
-    out[kind] = std::exp(x(static_cast<Eigen::Index>(index_of_discrepancy + kind)));
+DiscrepancyLevels levels(const Eigen::VectorXd& x, const double form_level) {
+  DiscrepancyLevels out{};
+  for (std::size_t i = 0; i < n_discrepancy_levels; ++i)
+    out[i] = std::exp(x(static_cast<Eigen::Index>(index_of_discrepancy + i)));
+  out[index_of_form_level] = form_level;
   return out;
 }
 
@@ -182,7 +183,7 @@ FitPosterior::WhitenedErrors FitPosterior::whitened_errors(
 
 ModelDiscrepancy::Solution FitPosterior::discrepancy(const Eigen::VectorXd& x,
                                                      const WhitenedErrors& whitened) const {
-  return discrepancy_.solve(whitened.error, whitened.per_deviation, levels(x), form_level(x));
+  return discrepancy_.solve(whitened.error, whitened.per_deviation, levels(x, form_level(x)));
 }
 
 ModelDiscrepancy::Solution FitPosterior::discrepancy(const Eigen::VectorXd& x,
@@ -363,15 +364,13 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
   Eigen::MatrixXd columns = d.mean;
   remove_unknowns(at, s, columns, information);
   terms.project(columns, gradient, information);
-  for (std::size_t kind = 0; kind < n_record_kinds; ++kind) {
-    const auto i = static_cast<Eigen::Index>(index_of_discrepancy + kind);
-    gradient(i) += terms.gradient()[kind];
-    information(i, i) += terms.information()[kind];
-  }
-  if (has_form_errors()) {
-    gradient(x.size() - 1) += terms.gradient()[n_record_kinds];
-    information(x.size() - 1, x.size() - 1) += terms.information()[n_record_kinds];
-  }
+  const auto add_level = [&](const Eigen::Index i, const std::size_t level) {
+    gradient(i) += terms.gradient()[level];
+    information(i, i) += terms.information()[level];
+  };
+  for (std::size_t level = 0; level < n_discrepancy_levels; ++level)
+    add_level(static_cast<Eigen::Index>(index_of_discrepancy + level), level);
+  if (has_form_errors()) add_level(x.size() - 1, index_of_form_level);
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Prior& prior = fit_parameters_[static_cast<std::size_t>(i)].description.prior;
     gradient(i) += prior.slope(x(i));

@@ -26,7 +26,7 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
   x(index_of_acceleration_noise) = std::log(experiment.acceleration_noise);
   x(index_of_joint_share) = experiment.nominal.joint_share;
   x(index_of_joint_loss) = 1.;
-  x.segment(index_of_discrepancy, n_record_kinds)
+  x.segment(index_of_discrepancy, n_discrepancy_levels)
       .setConstant(std::log(experiment.simulation_accuracy));
   x(index_of_incoherence) = fit_parameters[index_of_incoherence].description.prior.centre;
   if (start != nullptr)

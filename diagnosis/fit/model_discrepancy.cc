@@ -38,6 +38,27 @@ std::vector<double> block_edges(const Experiment& experiment) {
   return edges;
 }
 
+/// One hat function for each octave: at a frequency [Hz] between edges.
+Eigen::VectorXd wide_forms(const std::vector<double>& edges, const double hz) {
+  const double octaves = std::log2(edges.back() / edges.front()),
+               x = std::clamp(std::log2(hz / edges.front()), 0., octaves);
+  Eigen::VectorXd out(static_cast<Eigen::Index>(std::ceil(octaves)) + 1);
+  for (Eigen::Index m = 0; m < out.size(); ++m)
+    out(m) = std::max(0., 1. - std::abs(x - static_cast<double>(m)));
+  return out;
+}
+
+/// The wide forms as constant and slope within a block.
+Eigen::MatrixXd wide_forms_of_block(const std::vector<double>& edges, const std::size_t above) {
+  const std::size_t last = edges.size() - 1;
+  const Eigen::VectorXd left = wide_forms(edges, edges[std::min(above == 0 ? 0 : above - 1, last)]),
+                        right = wide_forms(edges, edges[std::min(above, last)]);
+  Eigen::MatrixXd out(n_of_prediction, left.size());
+  out.row(0) = 0.5 * (left + right);
+  out.row(1) = 0.5 / slope_share * (right - left);
+  return out;
+}
+
 }  // namespace
 
 std::size_t record_kind(const PreparedRecord& record) {
@@ -59,108 +80,187 @@ ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment) {
           static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), f) - edges.begin());
       const auto [found, is_new] =
           known.try_emplace({kind, above}, static_cast<int>(kind_of_block_.size()));
-      if (is_new) kind_of_block_.push_back(kind);
+      if (is_new) {
+        kind_of_block_.push_back(kind);
+        wide_.push_back(wide_forms_of_block(edges, above));
+      }
       block_.back() = found->second;
       if (above > 0 && above < edges.size())
         position_.back() = 2. * (f - edges[above - 1]) / (edges[above] - edges[above - 1]) - 1.;
     }
   }
+  for (Eigen::Index row = 0; row < n_rows(); ++row) {
+    if (block(row) < 0) continue;
+    const auto k = static_cast<std::size_t>(block(row));
+    if (row > 0 && block(row) == block(row - 1))
+      ++segments_.back().n;
+    else
+      segments_.push_back({.block = k, .first = row, .n = 1});
+  }
+}
+
+/// The wide forms, in units of the block's own terms: terms x forms.
+Eigen::MatrixXd ModelDiscrepancy::forms_of_block(const std::size_t block,
+                                                 const DiscrepancyLevels& levels) const {
+  const std::size_t kind = kind_of_block_[block];
+  Eigen::MatrixXd out =
+      Eigen::MatrixXd::Zero(n_of_prediction + shapes_.changes.cols(), wide_[block].cols());
+  out.topRows<n_of_prediction>() = levels[n_record_kinds + kind] / levels[kind] * wide_[block];
+  return out;
+}
+
+Eigen::MatrixXd ModelDiscrepancy::prior_covariance(const int a, const int b,
+                                                   const DiscrepancyLevels& levels) const {
+  const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+  const Eigen::MatrixXd left = forms_of_block(i, levels), right = forms_of_block(j, levels);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(left.rows(), left.rows());
+  if (a == b) out.setIdentity();
+  if (kind_of_block_[i] == kind_of_block_[j]) out += left * right.transpose();
+  return out;
 }
 
 ModelDiscrepancy::Solution ModelDiscrepancy::solve(const Eigen::VectorXcd& error,
                                                    const Eigen::VectorXd& per_deviation,
-                                                   const std::array<double, n_record_kinds>& delta,
-                                                   const double level) const {
+                                                   const DiscrepancyLevels& levels) const {
   Solution out;
   out.of_ = this;
   const Eigen::Index n_terms = n_of_prediction + shapes_.changes.cols();
   out.whitened_.setZero(n_rows(), n_terms);
-  out.inverse_.assign(n_blocks(), Eigen::MatrixXcd::Zero(n_terms, n_terms));
-  out.weights_.assign(n_blocks(), Eigen::VectorXcd::Zero(n_terms));
-  for (Eigen::Index row = 0; row < n_rows(); ++row) {
-    const auto i = static_cast<std::size_t>(row);
-    if (block_[i] < 0) continue;
-    const auto k = static_cast<std::size_t>(block_[i]);
-    auto u = out.whitened_.row(row);
-    u(0) = delta[kind_of_block_[k]] * per_deviation(row) * shapes_.mean(row);
-    u(1) = slope_share * position_[i] * u(0);
-    u.tail(n_terms - n_of_prediction) = level * per_deviation(row) * shapes_.changes.row(row);
-    for (Eigen::Index a = 0; a < n_terms; ++a) {
-      const Complex conjugate = std::conj(u(a));
-      out.weights_[k](a) += conjugate * error(row);
-      for (Eigen::Index b = 0; b <= a; ++b) out.inverse_[k](a, b) += conjugate * u(b);
+  for (const Segment& s : segments_)
+    for (Eigen::Index row = s.first; row < s.first + s.n; ++row) {
+      auto u = out.whitened_.row(row);
+      u(0) = levels[kind_of_block_[s.block]] * per_deviation(row) * shapes_.mean(row);
+      u(1) = slope_share * position_[static_cast<std::size_t>(row)] * u(0);
+      u.tail(n_terms - n_of_prediction) =
+          levels[index_of_form_level] * per_deviation(row) * shapes_.changes.row(row);
     }
+  out.invert(levels);
+  const Solution::PerBlock products = out.overlap(error);
+  out.weights_ = out.amplitudes(products);
+  for (std::size_t k = 0; k < n_blocks(); ++k)
+    out.gain_ += (products[k].adjoint() * out.weights_[k]).value().real();
+  out.add_gradient(out.wide_amplitudes(products));
+  return out;
+}
+
+namespace {
+
+/// Logarithm of the determinant of a Hermitian matrix.
+double log_determinant(const Eigen::LLT<Eigen::MatrixXcd>& llt) {
+  return 2. * llt.matrixLLT().diagonal().real().array().log().sum();
+}
+
+}  // namespace
+
+void ModelDiscrepancy::Solution::invert(const DiscrepancyLevels& levels) {
+  const Eigen::Index n_terms = whitened_.cols(),
+                     n_wide = of_->wide_.empty() ? 0 : of_->wide_.front().cols();
+  const Eigen::MatrixXcd identity = Eigen::MatrixXcd::Identity(n_terms, n_terms),
+                         wide_identity = Eigen::MatrixXcd::Identity(n_wide, n_wide);
+  PerKind wide_precision;
+  wide_precision.fill(wide_identity);
+  PerBlock gram = overlap(whitened_);
+  for (std::size_t k = 0; k < gram.size(); ++k) {
+    const Eigen::LLT<Eigen::MatrixXcd> llt(identity + gram[k]);
+    gain_ -= log_determinant(llt);
+    inverse_.push_back(llt.solve(identity));
+    forms_.push_back(of_->forms_of_block(k, levels));
+    wide_.push_back(inverse_[k] * forms_[k]);
+    wide_precision[of_->kind_of_block_[k]] += wide_[k].adjoint() * gram[k] * forms_[k];
   }
-  const Eigen::MatrixXcd identity = Eigen::MatrixXcd::Identity(n_terms, n_terms);
-  for (std::size_t k = 0; k < n_blocks(); ++k) {
-    const Eigen::MatrixXcd gram = out.inverse_[k].selfadjointView<Eigen::Lower>();
-    const Eigen::LLT<Eigen::MatrixXcd> llt(identity + gram);
-    const Eigen::VectorXcd products = out.weights_[k];
-    out.inverse_[k] = llt.solve(identity);
-    out.weights_[k] = out.inverse_[k] * products;
-    out.gain_ += products.dot(out.weights_[k]).real() -
-                 2. * Eigen::MatrixXcd(llt.matrixL()).diagonal().real().array().log().sum();
-    const Eigen::MatrixXcd share = out.inverse_[k] * gram;
-    for (Eigen::Index a = 0; a < n_terms; ++a) {
-      const std::size_t kind = a < n_of_prediction ? kind_of_block_[k] : n_record_kinds;
-      const double of_variance = 2. * share(a, a).real();
-      out.gradient_[kind] += 2. * std::norm(out.weights_[k](a)) - of_variance;
-      out.information_[kind] += of_variance * of_variance;
-    }
+  for (std::size_t kind = 0; kind < n_record_kinds; ++kind) {
+    const Eigen::LLT<Eigen::MatrixXcd> llt(wide_precision[kind]);
+    gain_ -= log_determinant(llt);
+    wide_covariance_[kind] = llt.solve(wide_identity);
   }
+}
+
+void ModelDiscrepancy::Solution::add_gradient(const PerKind& wide_weights) {
+  const auto add = [&](const std::size_t level, const Complex weight, const double share) {
+    gradient_[level] += 2. * std::norm(weight) - 2. * share;
+    information_[level] += 4. * share * share;
+  };
+  for (std::size_t k = 0; k < inverse_.size(); ++k) {
+    const std::size_t kind = of_->kind_of_block_[k];
+    // What the wide forms leave to the block's own amplitudes.
+    const Eigen::MatrixXcd seen = forms_[k] - wide_[k];
+    const Eigen::VectorXcd own = weights_[k] - forms_[k] * wide_weights[kind];
+    for (Eigen::Index a = 0; a < own.size(); ++a)
+      add(a < n_of_prediction ? kind : index_of_form_level, own(a),
+          1. - inverse_[k](a, a).real() -
+              (seen.row(a) * wide_covariance_[kind] * seen.row(a).adjoint()).value().real());
+  }
+  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
+    for (Eigen::Index m = 0; m < wide_weights[kind].size(); ++m)
+      add(n_record_kinds + kind, wide_weights[kind](m), 1. - wide_covariance_[kind](m, m).real());
+}
+
+ModelDiscrepancy::Solution::PerBlock ModelDiscrepancy::Solution::overlap(
+    const Columns& columns) const {
+  PerBlock out(of_->n_blocks(), Eigen::MatrixXcd::Zero(whitened_.cols(), columns.cols()));
+  for (const Segment& s : of_->segments_)
+    out[s.block] += whitened_.middleRows(s.first, s.n).adjoint() * columns.middleRows(s.first, s.n);
+  return out;
+}
+
+ModelDiscrepancy::Solution::PerKind ModelDiscrepancy::Solution::wide_amplitudes(
+    const PerBlock& overlap) const {
+  PerKind out;
+  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
+    out[kind] = Eigen::MatrixXcd::Zero(wide_covariance_[kind].rows(),
+                                       overlap.empty() ? 0 : overlap.front().cols());
+  for (std::size_t k = 0; k < overlap.size(); ++k)
+    out[of_->kind_of_block_[k]] += wide_[k].adjoint() * overlap[k];
+  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
+    out[kind] = wide_covariance_[kind] * out[kind];
+  return out;
+}
+
+ModelDiscrepancy::Solution::PerBlock ModelDiscrepancy::Solution::amplitudes(
+    const PerBlock& overlap) const {
+  const PerKind wide = wide_amplitudes(overlap);
+  PerBlock out;
+  for (std::size_t k = 0; k < overlap.size(); ++k)
+    out.push_back(inverse_[k] * overlap[k] + wide_[k] * wide[of_->kind_of_block_[k]]);
   return out;
 }
 
 Eigen::VectorXcd ModelDiscrepancy::Solution::mean() const {
   Eigen::VectorXcd out = Eigen::VectorXcd::Zero(whitened_.rows());
-  for (Eigen::Index row = 0; row < out.size(); ++row)
-    if (const int k = of_->block_[static_cast<std::size_t>(row)]; k >= 0)
-      out(row) = (whitened_.row(row) * weights_[static_cast<std::size_t>(k)]).value();
+  for (const Segment& s : of_->segments_)
+    out.segment(s.first, s.n) = whitened_.middleRows(s.first, s.n) * weights_[s.block];
   return out;
 }
 
 Eigen::VectorXd ModelDiscrepancy::Solution::leverage() const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(whitened_.rows());
-  for (Eigen::Index row = 0; row < out.size(); ++row)
-    if (const int k = of_->block_[static_cast<std::size_t>(row)]; k >= 0)
-      out(row) = (whitened_.row(row) * inverse_[static_cast<std::size_t>(k)])
-                     .dot(whitened_.row(row))
-                     .real();
+  for (const Segment& s : of_->segments_) {
+    const auto u = whitened_.middleRows(s.first, s.n);
+    const Eigen::MatrixXcd& wide = wide_[s.block];
+    const Eigen::MatrixXcd covariance =
+        inverse_[s.block] + wide * wide_covariance_[of_->kind_of_block_[s.block]] * wide.adjoint();
+    out.segment(s.first, s.n) = (u * covariance).cwiseProduct(u.conjugate()).rowwise().sum().real();
+  }
   return out;
 }
 
 void ModelDiscrepancy::Solution::project(const Eigen::MatrixXd& columns, Eigen::VectorXd& gradient,
                                          Eigen::MatrixXd& information) const {
-  const Eigen::Index n = columns.cols(), n_terms = whitened_.cols();
-  std::vector<Eigen::MatrixXcd> products(inverse_.size(), Eigen::MatrixXcd::Zero(n_terms, n));
-  for (Eigen::Index row = 0; row < whitened_.rows(); ++row) {
-    const int k = of_->block_[static_cast<std::size_t>(row)];
-    if (k < 0) continue;
-    Eigen::MatrixXcd& sum = products[static_cast<std::size_t>(k)];
-    for (Eigen::Index c = 0; c < n; ++c) {
-      const Complex value(columns(2 * row, c), columns(2 * row + 1, c));
-      for (Eigen::Index a = 0; a < n_terms; ++a) sum(a, c) += std::conj(whitened_(row, a)) * value;
-    }
-  }
+  // Real and imaginary parts in turn are complex numbers.
+  const Eigen::Map<const Eigen::MatrixXcd> complex_columns(
+      reinterpret_cast<const Complex*>(columns.data()), whitened_.rows(), columns.cols());
+  const PerBlock products = overlap(complex_columns), explained = amplitudes(products);
   for (std::size_t k = 0; k < products.size(); ++k) {
     gradient -= 2. * (products[k].adjoint() * weights_[k]).real();
-    information -= 2. * (products[k].adjoint() * inverse_[k] * products[k]).real();
+    information -= 2. * (products[k].adjoint() * explained[k]).real();
   }
 }
 
 Eigen::VectorXcd ModelDiscrepancy::Solution::apply_inverse(const Eigen::VectorXcd& column) const {
-  std::vector<Eigen::VectorXcd> overlap(inverse_.size(), Eigen::VectorXcd::Zero(whitened_.cols()));
-  const auto block_of = [&](Eigen::Index row) {
-    return of_->block_[static_cast<std::size_t>(row)];
-  };
-  for (Eigen::Index row = 0; row < column.size(); ++row)
-    if (const int k = block_of(row); k >= 0)
-      overlap[static_cast<std::size_t>(k)] += whitened_.row(row).adjoint() * column(row);
-  for (std::size_t k = 0; k < overlap.size(); ++k) overlap[k] = inverse_[k] * overlap[k];
+  const PerBlock explained = amplitudes(overlap(column));
   Eigen::VectorXcd out = column;
-  for (Eigen::Index row = 0; row < column.size(); ++row)
-    if (const int k = block_of(row); k >= 0)
-      out(row) -= (whitened_.row(row) * overlap[static_cast<std::size_t>(k)]).value();
+  for (const Segment& s : of_->segments_)
+    out.segment(s.first, s.n) -= whitened_.middleRows(s.first, s.n) * explained[s.block];
   return out;
 }
 

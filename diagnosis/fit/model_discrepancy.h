@@ -12,6 +12,11 @@ namespace vibrissa::diagnosis {
 /// What moved the sensor in a record: base, wind, or both. Each kind has its own level of
 /// discrepancy.
 inline constexpr std::size_t n_record_kinds = 3;
+/// Two levels of each kind, within blocks and of the wide forms, and that of the effects' form
+/// errors.
+inline constexpr std::size_t n_discrepancy_levels = 2 * n_record_kinds,
+                             index_of_form_level = n_discrepancy_levels;
+using DiscrepancyLevels = std::array<double, n_discrepancy_levels + 1>;
 /// Index of the kind; n_record_kinds for a record at rest.
 std::size_t record_kind(const PreparedRecord& record);
 
@@ -23,12 +28,14 @@ struct DiscrepancyShapes {
 };
 
 /// The part of the error that no simulation gets right: in a block k of frequency,
-///   R = eps_k (1 + slope_k t / 2) D_0 + sum_j eps_jk D_j + noise,   t = -1 .. 1 within the block,
+///   R = (eps_k + slope_k t / 2 + sum_m h_m(f) w_m) D_0 + sum_j eps_jk D_j + noise,   t = -1 .. 1,
 /// D_0 the predicted moment, D_j the form error of effect j; eps_k, slope_k ~ CN(0, delta^2),
-/// eps_jk ~ CN(0, level^2). One eps serves all records of a kind, so it explains no error that
-/// depends on level, time or input. Blocks: a sixth of an octave, narrower near a resonance. The
-/// complex Gaussian with these terms integrated out by the Woodbury identity (Kennedy and O'Hagan
-/// 2001, model discrepancy; Golub and Van Loan, 4th ed., 2013, 2.1.4). Proven by
+/// w_m ~ CN(0, wide delta^2), eps_jk ~ CN(0, level^2). h_m are the wide forms: a hat
+/// function over log f for each octave, linear within a block. One eps and one w serve all records
+/// of a kind, so they explain no error that depends on level, time or input. Blocks: a sixth of an
+/// octave, narrower near a resonance. The complex Gaussian with these terms integrated out by the
+/// Woodbury identity, first within the blocks, then over them (Kennedy and O'Hagan 2001, model
+/// discrepancy; Golub and Van Loan, 4th ed., 2013, 2.1.4). Proven by
 /// tests/diagnosis/fit/model_discrepancy_test.cc.
 class ModelDiscrepancy {
  public:
@@ -43,13 +50,13 @@ class ModelDiscrepancy {
   /// The terms given the errors. All rows are divided by the standard deviations of their noise.
   class Solution {
    public:
-    /// The terms of each row, with their standard deviations: rows x terms.
+    /// The terms of each row, with their standard deviations: rows x terms of its block.
     const Eigen::MatrixXcd& terms() const { return whitened_; }
     /// Log likelihood relative to noise alone.
     double log_likelihood_gain() const { return gain_; }
-    /// Derivative of it by ln delta of each kind, and the expected information; last by ln level.
-    const std::array<double, n_record_kinds + 1>& gradient() const { return gradient_; }
-    const std::array<double, n_record_kinds + 1>& information() const { return information_; }
+    /// Derivative of it by the logarithm of each level, and the expected information.
+    const DiscrepancyLevels& gradient() const { return gradient_; }
+    const DiscrepancyLevels& information() const { return information_; }
     /// Posterior mean of the discrepancy, whitened, and its share of each row's variance.
     Eigen::VectorXcd mean() const;
     Eigen::VectorXd leverage() const;
@@ -62,20 +69,44 @@ class ModelDiscrepancy {
 
    private:
     friend class ModelDiscrepancy;
+    using PerBlock = std::vector<Eigen::MatrixXcd>;
+    using PerKind = std::array<Eigen::MatrixXcd, n_record_kinds>;
+    using Columns = Eigen::Ref<const Eigen::MatrixXcd, 0, Eigen::OuterStride<>>;
+    /// Products of the terms with columns.
+    PerBlock overlap(const Columns& columns) const;
+    /// Amplitudes of the wide forms, and of all terms, most probable for an error of that overlap.
+    PerKind wide_amplitudes(const PerBlock& overlap) const;
+    PerBlock amplitudes(const PerBlock& overlap) const;
+    void invert(const DiscrepancyLevels& levels);
+    void add_gradient(const PerKind& wide_weights);
+
     const ModelDiscrepancy* of_ = nullptr;
-    Eigen::MatrixXcd whitened_;              // rows x terms
-    std::vector<Eigen::MatrixXcd> inverse_;  // of 1 + U' U, per block
-    std::vector<Eigen::VectorXcd> weights_;  // posterior mean of the terms, per block
+    Eigen::MatrixXcd whitened_;  // rows x terms
+    PerBlock inverse_;           // of 1 + U' U
+    PerBlock forms_;             // the wide forms in these terms: terms x forms
+    PerBlock wide_;              // inverse_ times forms_
+    PerKind wide_covariance_;    // of the wide amplitudes, given the errors
+    PerBlock weights_;           // posterior mean of the terms
     double gain_ = 0.;
-    std::array<double, n_record_kinds + 1> gradient_{}, information_{};
+    DiscrepancyLevels gradient_{}, information_{};
   };
+  /// Covariance of the terms of two blocks: I within one, and the wide forms of one kind.
+  Eigen::MatrixXd prior_covariance(int block_a, int block_b, const DiscrepancyLevels& levels) const;
   Solution solve(const Eigen::VectorXcd& whitened_error, const Eigen::VectorXd& per_deviation,
-                 const std::array<double, n_record_kinds>& delta, double level) const;
+                 const DiscrepancyLevels& levels) const;
 
  private:
   std::vector<int> block_;        // of each row; -1: at rest
   std::vector<double> position_;  // t of each row
+  /// Neighbouring rows of one block.
+  struct Segment {
+    std::size_t block = 0;
+    Eigen::Index first = 0, n = 0;
+  };
+  Eigen::MatrixXd forms_of_block(std::size_t block, const DiscrepancyLevels& levels) const;
+  std::vector<Segment> segments_;
   std::vector<std::size_t> kind_of_block_;
+  std::vector<Eigen::MatrixXd> wide_;  // of each block: its first terms x wide forms
   DiscrepancyShapes shapes_;
 };
 

@@ -225,6 +225,7 @@ Attribution attribute_gap(const Experiment& fitted_on, const Experiment& records
 
 std::vector<std::string> named_calibrations(const Attribution& attribution, const double accuracy) {
   std::vector<std::string> out;
+  if (attribution.reducible < power_without_cause(accuracy)) return out;
   const auto& nuisances = nuisance_ids();
   for (const AttributedChange& change : attribution.changes)
     if (const double closes = std::max(change.share, change.missed);

@@ -45,7 +45,7 @@ Attribution attribute_gap(const Experiment& fitted_on, const Experiment& records
 /// The calibration parameters to be named: the 95 % interval excludes the nominal value, and they
 /// close least_share or more of the gap, in company or as the last one (a wrong damping closes
 /// nothing while the resonance is wrong). This part must be larger than the error that a simulation
-/// of the given accuracy has anyway.
+/// of the given accuracy has anyway, and the whole gap larger than power_without_cause().
 std::vector<std::string> named_calibrations(const Attribution& attribution, double accuracy);
 
 }  // namespace vibrissa::diagnosis

@@ -123,10 +123,10 @@ class Reduction {
     return found->second;
   }
 
-  /// What a fit without one effect leaves more than the whole fit, in the records that show it
-  /// best, relative to what is worth a name. more: power that no prediction can take away.
+  /// What a fit without one effect leaves more than the whole fit, in fitted and unseen records
+  /// together, relative to what is worth a name. more: power that no prediction can take away.
   double need_of(std::size_t whole, std::size_t without, const double more = 0.) {
-    double need = 0.;
+    double returned = 0., worth = 0.;
     for (const Experiment* records : {&scored_, &fitted_}) {
       const double with = error_power(whole, *records),
                    recalibrated = error_power(known_.at("none"), *records),
@@ -135,9 +135,10 @@ class Reduction {
       // Recalibration may make a simulation worse that has no gap.
       if (result_.fits[without].hypothesis.effects().empty())
         left = std::min(left, nominal_power_[records]);
-      need = std::max(need, (left - with + more) / std::max(least_share * gap, any_error()));
+      returned += left - with + more;
+      worth += std::max(least_share * gap, any_error());
     }
-    return need;
+    return returned / worth;
   }
 
   /// Power of the noise that an effect adds to the fit records, relative to the measured moment.
@@ -168,13 +169,12 @@ class Reduction {
 
   /// The same, relative to what is worth a name of the gap as it was brought.
   double return_of(std::size_t whole, std::size_t without) {
-    double need = 0.;
+    double returned = 0., worth = 0.;
     for (const Experiment* records : {&scored_, &fitted_}) {
-      const double more = error_power(without, *records) - error_power(whole, *records),
-                   gap = nominal_power_[records] - floor_[records];
-      need = std::max(need, more / std::max(least_share * gap, any_error()));
+      returned += error_power(without, *records) - error_power(whole, *records);
+      worth += std::max(least_share * (nominal_power_[records] - floor_[records]), any_error());
     }
-    return need;
+    return returned / worth;
   }
 
   double any_error() const { return std::pow(best_of_usual * experiment_.simulation_accuracy, 2); }

@@ -33,22 +33,23 @@ class ModelDiscrepancyTest : public testing::Test {
     for (Complex& value : out) value = {normal(generator), normal(generator)};
     return out;
   }
-  using Levels = std::array<double, n_record_kinds>;
-  ModelDiscrepancy::Solution solve(const Levels& delta, double level) const {
-    return discrepancy_.solve(error_, per_deviation_, delta, level);
+  ModelDiscrepancy::Solution solve(const DiscrepancyLevels& levels) const {
+    return discrepancy_.solve(error_, per_deviation_, levels);
   }
-  /// The whitened covariance I + sum over terms u u', from the terms of each row.
+  /// The whitened covariance I + U P U', from the terms of each row and their prior covariance.
   Eigen::MatrixXcd covariance(const ModelDiscrepancy::Solution& solution) const {
     Eigen::MatrixXcd out = Eigen::MatrixXcd::Identity(n(), n());
     const Eigen::MatrixXcd& u = solution.terms();
     for (Eigen::Index a = 0; a < n(); ++a)
       for (Eigen::Index b = 0; b < n(); ++b)
-        if (discrepancy_.block(a) >= 0 && discrepancy_.block(a) == discrepancy_.block(b))
-          out(a, b) += u.row(b).dot(u.row(a));
+        if (const int j = discrepancy_.block(a), k = discrepancy_.block(b); j >= 0 && k >= 0)
+          out(a, b) +=
+              (u.row(a) * discrepancy_.prior_covariance(j, k, levels_) * u.row(b).adjoint())
+                  .value();
     return out;
   }
 
-  const Levels levels_{0.3, 0.1, 0.2};
+  const DiscrepancyLevels levels_{0.3, 0.1, 0.2, 0.5, 0.05, 0.4, 0.4};
   Experiment experiment_;
   ModelDiscrepancy discrepancy_;
   Eigen::VectorXcd error_;
@@ -56,7 +57,7 @@ class ModelDiscrepancyTest : public testing::Test {
 };
 
 TEST_F(ModelDiscrepancyTest, IsTheGaussianOfItsWholeCovariance) {
-  const auto solution = solve(levels_, 0.4);
+  const auto solution = solve(levels_);
   const Eigen::LLT<Eigen::MatrixXcd> llt(covariance(solution));
   const Eigen::VectorXcd weighed = llt.solve(error_);
   const double whole = -error_.dot(weighed).real() -
@@ -72,22 +73,21 @@ TEST_F(ModelDiscrepancyTest, IsTheGaussianOfItsWholeCovariance) {
 
 TEST_F(ModelDiscrepancyTest, ItsGradientIsThatOfTheLikelihood) {
   constexpr double h = 1e-5;
-  const auto solution = solve(levels_, 0.4);
-  for (std::size_t kind = 0; kind <= n_record_kinds; ++kind) {
+  const auto solution = solve(levels_);
+  for (std::size_t level = 0; level < levels_.size(); ++level) {
     const auto gain = [&](double step) {
-      Levels moved = levels_;
-      if (kind < n_record_kinds) moved[kind] *= std::exp(step);
-      return solve(moved, kind == n_record_kinds ? 0.4 * std::exp(step) : 0.4)
-          .log_likelihood_gain();
+      DiscrepancyLevels moved = levels_;
+      moved[level] *= std::exp(step);
+      return solve(moved).log_likelihood_gain();
     };
-    EXPECT_NEAR(solution.gradient()[kind], (gain(h) - gain(-h)) / (2. * h),
-                1e-5 * (1. + std::abs(solution.gradient()[kind])))
-        << kind;
+    EXPECT_NEAR(solution.gradient()[level], (gain(h) - gain(-h)) / (2. * h),
+                1e-5 * (1. + std::abs(solution.gradient()[level])))
+        << level;
   }
 }
 
 TEST_F(ModelDiscrepancyTest, ProjectsColumnsByTheInverseOfTheCovariance) {
-  const auto solution = solve(levels_, 0.4);
+  const auto solution = solve(levels_);
   const Eigen::VectorXcd column = random(5);
   Eigen::MatrixXd parts(2 * n(), 1);
   for (Eigen::Index row = 0; row < n(); ++row) {
@@ -113,7 +113,8 @@ TEST_F(ModelDiscrepancyTest, BuysOneValueABlockHoweverManyBinsItHas) {
   error_ = 0.01 * mean;
   for (Eigen::Index row = 0; row < n(); ++row)
     if (discrepancy_.block(row) < 0) error_(row) = 0.;
-  const double left = error_.squaredNorm() - solve({0.01, 0.01, 0.01}, 1.).log_likelihood_gain();
+  const double left =
+      error_.squaredNorm() - solve({0.01, 0.01, 0.01, 1e-3, 1e-3, 1e-3, 1.}).log_likelihood_gain();
   const auto n_blocks = static_cast<double>(discrepancy_.n_blocks());
   EXPECT_LT(left, 12. * n_blocks);
   EXPECT_GT(error_.squaredNorm(), 100. * left);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "diagnosis/diagnosis.h"
 #include "tests/diagnosis/one_mode_rig.h"
 
 namespace vibrissa::diagnosis {
@@ -80,7 +81,8 @@ TEST(Search, ASensorThatIsMerelyOffIsNoAnswerWhereMuchIsLeft) {
   std::vector<std::string> all;
   for (const Effect& effect : effect_catalogue())
     if (!effect.calibration) all.push_back(effect.id);
-  EXPECT_EQ(search(experiment_of(rig), {.left_out = all}).candidates.front().name,
+  const UpdatedModel simulation(test::nominal_of(test::OneModeRig{}, false));
+  EXPECT_EQ(diagnose(simulation, test::rig_dataset(rig), {.search = {.left_out = all}}).verdict,
             outside_catalogue);
 }
 
