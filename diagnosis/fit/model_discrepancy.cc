@@ -38,14 +38,15 @@ std::vector<double> block_edges(const Experiment& experiment) {
   return edges;
 }
 
-/// One hat function for each octave: at a frequency [Hz] between edges.
+/// One hat function for each octave, without their mean, which is a gain: at a frequency [Hz]
+/// between edges.
 Eigen::VectorXd wide_forms(const std::vector<double>& edges, const double hz) {
   const double octaves = std::log2(edges.back() / edges.front()),
                x = std::clamp(std::log2(hz / edges.front()), 0., octaves);
   Eigen::VectorXd out(static_cast<Eigen::Index>(std::ceil(octaves)) + 1);
   for (Eigen::Index m = 0; m < out.size(); ++m)
     out(m) = std::max(0., 1. - std::abs(x - static_cast<double>(m)));
-  return out;
+  return out.array() - out.mean();
 }
 
 /// The wide forms as constant and slope within a block.

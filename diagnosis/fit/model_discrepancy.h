@@ -31,7 +31,8 @@ struct DiscrepancyShapes {
 ///   R = (eps_k + slope_k t / 2 + sum_m h_m(f) w_m) D_0 + sum_j eps_jk D_j + noise,   t = -1 .. 1,
 /// D_0 the predicted moment, D_j the form error of effect j; eps_k, slope_k ~ CN(0, delta^2),
 /// w_m ~ CN(0, wide delta^2), eps_jk ~ CN(0, level^2). h_m are the wide forms: a hat
-/// function over log f for each octave, linear within a block. One eps and one w serve all records
+/// function over log f for each octave, linear within a block; without their mean, because a gain
+/// is a calibration parameter. One eps and one w serve all records
 /// of a kind, so they explain no error that depends on level, time or input. Blocks: a sixth of an
 /// octave, narrower near a resonance. The complex Gaussian with these terms integrated out by the
 /// Woodbury identity, first within the blocks, then over them (Kennedy and O'Hagan 2001, model

@@ -45,6 +45,11 @@ class Reduction {
     }
   }
 
+  /// Does a fit predict records that no fit has seen better than one with fewer effects?
+  bool predicts_better(const std::size_t whole, const std::size_t fewer) {
+    return &scored_ != &fitted_ && error_power(fewer) - error_power(whole) > any_error();
+  }
+
   /// The calibration parameters that close a part of the gap. Beside an effect: those without which
   /// (nominal, all else fitted again) too much of it returns.
   std::vector<std::string> needed_calibrations(const std::size_t whole) {
@@ -228,12 +233,14 @@ void name_answers(SearchResult& result, const Experiment& experiment, const Expe
       candidate.fit = reduction.recalibrated();
     const bool is_known = !result.fits[candidate.fit].hypothesis.is_discrepancy();
     if (candidate.probability > hopeless && is_known) {
-      candidate.fit = reduction.simplest(candidate.fit);
+      const std::size_t simplest = reduction.simplest(candidate.fit);
+      // Small effects need no name, but without them the values of the others may be biased.
+      if (!reduction.predicts_better(candidate.fit, simplest)) candidate.fit = simplest;
       candidate.calibrations = candidate.probability > not_probable
                                    ? reduction.needed_calibrations(candidate.fit)
                                    : named_calibrations(reduction.attribution(candidate.fit),
                                                         experiment.simulation_accuracy);
-      std::vector<std::string> ids = effect_ids(result.fits[candidate.fit].hypothesis.name());
+      std::vector<std::string> ids = effect_ids(result.fits[simplest].hypothesis.name());
       ids.insert(ids.end(), candidate.calibrations.begin(), candidate.calibrations.end());
       candidate.name = joined_name(std::move(ids));
       if (reduction.leaves_much(candidate.fit)) candidate.name = outside_catalogue;
