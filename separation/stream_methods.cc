@@ -4,6 +4,7 @@
 #include "separation/filters/line_canceller.h"
 #include "separation/filters/nlms.h"
 #include "separation/filters/rls.h"
+#include "separation/not_louder.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::separation {
@@ -25,22 +26,31 @@ Made make_nlms(const FdafOptions& options) {
   return std::make_unique<Nlms>(nlms);
 }
 
+using Make = std::function<Made(const FdafOptions&)>;
+
+// The running means span the memory of the filter.
+Make not_louder(const Make& make) {
+  return [make](const FdafOptions& options) -> Made {
+    return std::make_unique<NotLouder>(make(options), options.filter_length + options.block_length);
+  };
+}
+
 }  // namespace
 
 const std::vector<StreamMethod>& stream_methods() {
   static const std::vector<StreamMethod> methods = {
       {"fdaf", "partitioned frequency-domain adaptive filter",
-       [](const FdafOptions& o) -> Made { return std::make_unique<Fdaf>(o); }},
-      {"kalman", "partitioned frequency-domain Kalman filter", make_kalman},
-      {"nlms", "normalised least mean squares in the time domain", make_nlms},
+       not_louder([](const FdafOptions& o) -> Made { return std::make_unique<Fdaf>(o); })},
+      {"kalman", "partitioned frequency-domain Kalman filter", not_louder(make_kalman)},
+      {"nlms", "normalised least mean squares in the time domain", not_louder(make_nlms)},
       {"rls", "recursive least squares, 64 taps",
-       [](const FdafOptions&) -> Made { return std::make_unique<Rls>(RlsOptions{}); }},
+       not_louder([](const FdafOptions&) -> Made { return std::make_unique<Rls>(RlsOptions{}); })},
       {"line_canceller",
        "removes steady tones, which it predicts from the past of the moment; needs no "
        "accelerometer",
-       [](const FdafOptions&) -> Made {
+       not_louder([](const FdafOptions&) -> Made {
          return std::make_unique<LineCanceller>(LineCancellerOptions{});
-       }}};
+       })}};
   return methods;
 }
 

@@ -10,7 +10,8 @@
 
 namespace vibrissa::separation {
 
-/// A separator that adapts to the record sample by sample and needs no model.
+/// A separator that adapts to the record sample by sample, needs no model, and makes no quiet
+/// stretch louder (see NotLouder).
 struct StreamMethod {
   std::string name;   // name for the user, also of the result column
   std::string about;  // one line of description
