@@ -14,10 +14,10 @@
 #include "diagnosis/prediction/record_simulation.h"
 #include "diagnosis/verdict_text.h"
 #include "separation/filters/bvrm_separator.h"
-#include "separation/identification/identification_json.h"
 #include "separation/identification/identify.h"
 #include "separation/model/sampled_bvrm.h"
 #include "separation/stream_methods.h"
+#include "separation/verdict/identification_json.h"
 #include "signals/base/decimal_point.h"
 #include "signals/system/output_file.h"
 
@@ -47,9 +47,10 @@ std::pair<SampledBvrm, std::string> identify(
   options.period_samples = period_samples;
   if (hold) options.hold = separation::parse_hold(*hold);
   options.direct_term = direct_term;
-  const auto [fit, scored] = held_out ? separation::SplitRecord{record, *held_out}
-                                      : separation::hold_out_last_third(record);
-  const auto found = separation::identify_bvrm(fit, scored, options);
+  const auto [fit, scored] =
+      held_out ? separation::SplitRecord{record, *held_out} : separation::hold_out_part(record);
+  const auto found = held_out ? separation::identify_bvrm(fit, scored, options)
+                              : separation::identify_record(record, options);
   const auto report =
       separation::identification_report(found, separation::examine(found, fit, scored), method);
   return {{found.fit.model, found.hold}, report.dump()};

@@ -17,9 +17,7 @@ std::string plane_text(const std::vector<separation::PlaneEstimate>& points) {
   return text.empty() ? "none" : text;
 }
 
-}  // namespace
-
-report::Table identification_table(const separation::FittedBvrm& fit) {
+report::Table table_of(const std::vector<separation::ModeEstimate>& modes) {
   report::Table table({{"mode", ""},
                        {"frequency", "Hz", 6},
                        {"± sd", "Hz", 2},
@@ -28,12 +26,32 @@ report::Table identification_table(const separation::FittedBvrm& fit) {
                        {"static gain", "kg m"},
                        {"± sd", "kg m", 2}});
   std::size_t number = 0;
-  for (const auto& mode : fit.modes) {
+  for (const auto& mode : modes) {
     table.add_row({++number, mode.frequency_hz.value, mode.frequency_hz.standard_deviation,
                    mode.damping_ratio.value, mode.damping_ratio.standard_deviation,
                    mode.static_gain_kg_m.value, mode.static_gain_kg_m.standard_deviation});
   }
   return table;
+}
+
+}  // namespace
+
+report::Table identification_table(const separation::FittedBvrm& fit) {
+  return table_of(fit.modes);
+}
+
+std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict) {
+  std::vector<separation::ModeEstimate> modes;
+  for (const std::size_t k : verdict.determined) modes.push_back(fit.modes[k]);
+  std::string text = verdict.sentence + "\n";
+  if (!modes.empty()) text += table_of(modes).to_text();
+  for (const auto& other : verdict.undetermined) {
+    const auto& mode = fit.modes[other.mode];
+    text += "not determined: " + report::Cell(mode.frequency_hz.value).rounded(6) +
+            " Hz, damping ratio " + report::Cell(mode.damping_ratio.value).rounded(4) + ": " +
+            other.reason + "\n";
+  }
+  return text;
 }
 
 report::Table output_only_table(const separation::OutputOnlyIdentification& found) {

@@ -3,11 +3,15 @@
 #include <string>
 
 #include "report/figures/table.h"
-#include "separation/identification/identification_json.h"
+#include "separation/verdict/identification_json.h"
 
 namespace vibrissa::views {
 
 report::Table identification_table(const separation::FittedBvrm& fit);
+
+/// The sentence of the verdict, the table of the determined modes, and a line for each pair of
+/// poles that is not determined.
+std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict);
 
 /// One row per mode, and one row without damping for each undamped line.
 report::Table output_only_table(const separation::OutputOnlyIdentification& found);

@@ -32,7 +32,7 @@ struct IdentifyCommandOptions {
   std::optional<std::string> hold;
   std::string method = "output-error";
   bool no_direct_term = false, cross_validation = false, output_only = false;
-  std::size_t max_lags = separation::OutputOnlyOptions{}.max_lags;
+  std::optional<std::size_t> max_lags;
   bool frequency_response = false;
   std::string response_as;
 };
@@ -97,16 +97,18 @@ void identify_from_response(const IdentifyCommandOptions& options) {
                                                .direct_term = !options.no_direct_term});
   const std::optional<std::string> model_file = model_file_of(options);
   if (model_file) separation::write_bvrm(*model_file, {found.fit.model});
+  const separation::Verdict verdict = separation::judge(found, response);
   if (options.common.json) {
-    print_json(separation::identified_response_json(found));
+    print_json(separation::identified_response_json(found, verdict));
     return;
   }
-  std::cout << views::identification_table(found.fit).to_text() << "direct term "
+  std::cout << views::verdict_text(found.fit, verdict) << "direct term "
             << found.fit.direct_term_kg_m.value << " kg m; order " << found.order << ", "
             << response.value.size() << " lines from " << response.frequency_hz.front() << " to "
             << response.frequency_hz.back() << " Hz, " << separation::to_string(found.fit.end)
             << "\nfit of every third line by a model of the others: " << found.held_out_fit_percent
-            << " %\n";
+            << " %\n"
+            << (found.order_words.empty() ? "" : "order: " + found.order_words + "\n");
   say_written(options, model_file);
 }
 
@@ -125,19 +127,50 @@ void identify_from_output(const IdentifyCommandOptions& options) {
   std::cout << views::output_only_table(found).to_text() << found.words << "\n";
 }
 
+void say_identified(const IdentifyCommandOptions& options, const separation::Identification& result,
+                    const separation::ModelEvidence& evidence) {
+  std::cout << views::verdict_text(result.fit, evidence.verdict) << "direct term "
+            << result.fit.direct_term_kg_m.value << " kg m"
+            << (result.direct_term ? "" : " (not told from zero)") << "; order " << result.order
+            << ", " << separation::to_string(result.hold) << " input, "
+            << separation::to_string(result.fit.end)
+            << "\nfit on held-out data, free simulation: " << result.held_out_fit_percent << " % ("
+            << result.held_out_vaf_percent << " % of the variance)\n"
+            << (result.order_words.empty() ? "" : "order: " + result.order_words + "\n")
+            << (result.scatter_words.empty() ? "" : result.scatter_words + "\n")
+            << views::evidence_text(evidence);
+  if (!options.held_out_file && !options.common.quiet)
+    std::cout << "Held out: the last "
+              << (result.n_hits > 1 ? "of " + std::to_string(result.n_hits) + " hits" : "third")
+              << " of the record scored a model of the rest; the model above is of the whole "
+                 "record.\n";
+}
+
+void offer_output_only(const signals::Record& record, const std::string& file) {
+  const std::string& input = signals::channel::base_acceleration;
+  if (record.has(input) || !record.has(signals::channel::base_moment)) return;
+  throw signals::UserError(file + ": no column " + input +
+                           ": name it (--column 'base_acceleration=NAME[unit]'); if it was not "
+                           "measured, 'vibrissa identify " +
+                           file +
+                           " --output-only' gives resonances and damping from the moment alone");
+}
+
 void identify(const IdentifyCommandOptions& options) {
   const signals::Record all = options.record.read(options.record_file);
+  offer_output_only(all, options.record_file);
   separation::IdentifyOptions identify = options.identify;
   identify.method = separation::parse_identify_method(options.method);
   if (options.hold) identify.hold = separation::parse_hold(*options.hold);
   identify.direct_term = !options.no_direct_term;
   if (options.cross_validation) identify.order_rule = separation::OrderRule::cross_validation;
-  // Without a second file the last third is held out, never used to fit.
+  // Without a second file the last third scores the model, then the model is fitted to all.
   const auto [fit, held_out] =
       options.held_out_file
           ? separation::SplitRecord{all, options.record.read(*options.held_out_file)}
-          : separation::hold_out_last_third(all);
-  const auto result = separation::identify_bvrm(fit, held_out, identify);
+          : separation::hold_out_part(all);
+  const auto result = options.held_out_file ? separation::identify_bvrm(fit, held_out, identify)
+                                            : separation::identify_record(all, identify);
   const separation::ModelEvidence evidence = separation::examine(result, fit, held_out);
   // The header comes first: it may be refused, and then nothing has been written.
   if (options.c_header_file) {
@@ -150,17 +183,7 @@ void identify(const IdentifyCommandOptions& options) {
     print_json(separation::identification_report(result, evidence, options.method));
     return;
   }
-  std::cout << views::identification_table(result.fit).to_text() << "direct term "
-            << result.fit.direct_term_kg_m.value << " kg m; order " << result.order << ", "
-            << separation::to_string(result.hold) << " input, "
-            << separation::to_string(result.fit.end)
-            << "\nfit on held-out data, free simulation: " << result.held_out_fit_percent << " % ("
-            << result.held_out_vaf_percent << " % of the variance)\n"
-            << (result.order_words.empty() ? "" : "order: " + result.order_words + "\n")
-            << views::evidence_text(evidence);
-  if (!options.held_out_file && !options.common.quiet) {
-    std::cout << "Held out: the last third of the record.\n";
-  }
+  say_identified(options, result, evidence);
   say_written(options, model_file);
 }
 
@@ -172,10 +195,9 @@ void add_other_inputs(CLI::App& command, IdentifyCommandOptions& options) {
       "highest order tried (default 20); --max-order is not used");
   command
       .add_option("--lags", options.max_lags,
-                  "For --output-only: half of the longest lag of the covariances [samples]; the "
-                  "longest lag should cover a few periods of the lowest resonance")
-      ->check(positive_number())
-      ->capture_default_str();
+                  "For --output-only: half of the longest lag of the covariances [samples], which "
+                  "should cover a few periods of the lowest resonance (default: from the data)")
+      ->check(positive_number());
   command.add_flag("--frequency-response", options.frequency_response,
                    "The file holds a measured frequency response base acceleration -> base "
                    "moment: a Universal File (function of type 4), a .mat or a CSV");
@@ -215,7 +237,7 @@ void add_identify_command(CLI::App& app) {
       ->check(CLI::Range(1, highest_order));
   command
       ->add_option("--max-order", options->identify.max_order,
-                   "Highest number of poles tried (2, 4, ...)")
+                   "Highest number of poles tried (2, 4, ...), above 6 while unseen data gain")
       ->check(CLI::Range(1, highest_order))
       ->capture_default_str();
   command->add_flag("--cross-validation", options->cross_validation,
@@ -226,7 +248,7 @@ void add_identify_command(CLI::App& app) {
       ->check(not_negative_number());
   command->add_option("--hold", options->hold,
                       "Input between samples: first_order, zero_order or band_limited (default: "
-                      "first_order or band_limited, whichever fits better)");
+                      "the one that fits best)");
   command->add_flag("--no-direct-term", options->no_direct_term,
                     "Leaves out the direct term (strictly proper model)");
   command

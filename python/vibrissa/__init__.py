@@ -79,7 +79,7 @@ class Diagnosis:
         return f"Diagnosis({self.verdict}, probability {best['probability']:.2g})"
 
 
-def identify(record, *, held_out=None, order=None, max_order=6, period_samples=0,
+def identify(record, *, held_out=None, order=None, max_order=20, period_samples=0,
              method="output-error", hold=None, direct_term=True):
     """Identifies the model from base_acceleration_m_s2 to base_moment_N_m.
 

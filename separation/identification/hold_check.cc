@@ -21,19 +21,6 @@ struct Candidate {
   std::vector<double> squared_residual;  // of all segments, one after the other
 };
 
-// Of the mode with the largest peak.
-Estimate unphysical_lead(const FittedBvrm& fit) {
-  const auto& modes = fit.model.modes;
-  const auto peak = [](const ModalTerm& m) { return std::abs(m.b0) / (m.a1 * std::sqrt(m.a0)); };
-  const auto strongest = std::ranges::max_element(modes, {}, peak);
-  const auto first = parameters_per_mode * (strongest - modes.begin());
-  const double lead = strongest->b1 / strongest->b0;
-  const Eigen::Vector2d by_gains(1. / strongest->b0, -lead / strongest->b0);
-  const double variance = by_gains.dot(fit.covariance.block<2, 2>(first, first) * by_gains);
-  const double most = 2. * strongest->damping_ratio() / std::sqrt(strongest->a0);
-  return {lead < 0. ? lead : std::max(0., lead - most), std::sqrt(variance)};
-}
-
 Candidate try_hold(const Bvrm& model, std::span<const Segment> segments, double rate_hz,
                    SrivcOptions options, Hold hold) {
   options.hold = hold;
@@ -108,6 +95,18 @@ double mean_square(std::span<const Segment> segments) {
 }
 
 }  // namespace
+
+Estimate unphysical_lead(const FittedBvrm& fit) {
+  const auto& modes = fit.model.modes;
+  const auto peak = [](const ModalTerm& m) { return std::abs(m.b0) / (m.a1 * std::sqrt(m.a0)); };
+  const auto strongest = std::ranges::max_element(modes, {}, peak);
+  const auto first = parameters_per_mode * (strongest - modes.begin());
+  const double lead = strongest->b1 / strongest->b0;
+  const Eigen::Vector2d by_gains(1. / strongest->b0, -lead / strongest->b0);
+  const double variance = by_gains.dot(fit.covariance.block<2, 2>(first, first) * by_gains);
+  const double most = 2. * strongest->damping_ratio() / std::sqrt(strongest->a0);
+  return {lead < 0. ? lead : std::max(0., lead - most), std::sqrt(variance)};
+}
 
 HoldDiagnosis check_hold(const Bvrm& model, std::span<const Segment> segments,
                          double sampling_rate_hz, const SrivcOptions& told) {

@@ -19,6 +19,9 @@ struct HoldTrial {
   Estimate unphysical_lead_s;
 };
 
+/// Of the mode with the largest peak, see HoldTrial; 0 within the physical range.
+Estimate unphysical_lead(const FittedBvrm& fit);
+
 struct HoldDiagnosis {
   Hold told = Hold::first_order;
   Hold likely = Hold::first_order;  // the given hold, unless the data contradict it

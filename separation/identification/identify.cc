@@ -2,20 +2,24 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "separation/identification/channel_delay.h"
 #include "separation/identification/identify_frequency.h"
 #include "separation/identification/order_selection.h"
 #include "separation/identification/output_error.h"
+#include "separation/identification/piece_scatter.h"
 #include "separation/identification/srivc.h"
+#include "separation/identification/structure_choice.h"
 #include "separation/metrics/metrics.h"
+#include "separation/metrics/residual_tests.h"
+#include "separation/numerics/significance.h"
+#include "separation/segments/hit_blocks.h"
 #include "signals/base/error.h"
 #include "signals/base/is_constant.h"
 #include "signals/base/number_text.h"
-#include "signals/spectra/frequency_response.h"
 
 namespace vibrissa::separation {
 
@@ -58,6 +62,11 @@ void check_all(std::span<const Record> fit_records, const Record& held_out,
   for (std::size_t i = 0; i < fit_records.size(); ++i)
     check_record(fit_records[i], rate, "fit record " + std::to_string(i + 1));
   check_record(held_out, rate, "held-out record");
+  if (std::ranges::all_of(fit_records, [&](const Record& record) {
+        return record.n_samples() < options.period_samples;
+      }))
+    throw UserError("identification: the fit records contain no whole period of " +
+                    std::to_string(options.period_samples) + " samples");
   const std::size_t order = options.order.value_or(options.max_order);
   if (order == 0 || order % 2 != 0)
     throw UserError("identification: order = " + std::to_string(order) +
@@ -93,20 +102,6 @@ std::size_t affordable_order(std::span<const Record> records, const IdentifyOpti
   return order;
 }
 
-signals::FrequencyResponse measured_response(std::span<const Record> records,
-                                             std::size_t period_samples) {
-  const Record& longest = *std::ranges::max_element(records, {}, &Record::n_samples);
-  const auto input = longest.channel(channel::base_acceleration);
-  const auto output = longest.channel(channel::base_moment);
-  if (period_samples > 0)
-    return signals::periodic_response(input, output, longest.sampling_rate_hz(), period_samples);
-  constexpr std::size_t shortest_segment = 32, longest_segment = 2048;
-  const std::size_t segment =
-      std::clamp(std::bit_floor(longest.n_samples() / 4), shortest_segment, longest_segment);
-  return signals::welch_response(input, output, longest.sampling_rate_hz(),
-                                 {.segment_samples = segment});
-}
-
 std::vector<Segment> segments_of(std::span<const Record> records) {
   std::vector<Segment> segments;
   for (const Record& record : records)
@@ -123,9 +118,11 @@ double information_criterion(const FittedBvrm& fit, double n_samples, double n_u
   return n_samples * std::log(mean_square) + n_unknowns * std::log(n_samples);
 }
 
-struct Trial {
+/// A model of the selected order with all allowed unknowns.
+struct Selected {
   FittedBvrm fit;
-  IdentificationTrial summary;
+  Hold hold = Hold::first_order;
+  std::string words;
 };
 
 class Identifier {
@@ -135,146 +132,158 @@ class Identifier {
         options_(options),
         rate_(records[0].sampling_rate_hz()),
         n_samples_(static_cast<double>(total_samples(records))),
-        order_(affordable_order(records, options)),
-        response_(measured_response(records, options.period_samples)),
-        segments_(segments_of(records)) {
-    for (const Segment& segment : segments_)
-      for (const double m : segment.base_moment) mean_square_moment_ += m * m / n_samples_;
-  }
+        segments_(segments_of(records)) {}
 
-  std::vector<Trial> run() const {
-    std::vector<Trial> trials;
-    const std::vector<Hold> holds = options_.hold
-                                        ? std::vector<Hold>{*options_.hold}
-                                        : std::vector<Hold>{Hold::first_order, Hold::band_limited};
-    for (const Hold hold : holds) try_hold(hold, trials);
-    if (trials.empty())
-      throw UserError("identification: the frequency response of " +
-                      std::to_string(response_.frequency_hz.size()) +
-                      " excited lines does not determine a model of order " +
-                      std::to_string(options_.order.value_or(2)) +
-                      "; excite more lines or lower the order");
-    return trials;
-  }
-
-  /// Nothing when the order was given, or the records are too short to hold a part out.
-  std::optional<OrderSelection> select(Hold hold, std::size_t max_order) const {
+  Selected select() const {
     constexpr std::size_t fewest_samples = 400;
     const auto too_short = [](const Segment& s) { return s.base_moment.size() < fewest_samples; };
-    if (options_.order || max_order == 2 || std::ranges::any_of(segments_, too_short)) return {};
-    return select_order(segments_, rate_,
-                        {.max_order = max_order,
-                         .delay_s = options_.delay_s,
-                         .fit = fit_options(hold),
-                         .period_samples = options_.period_samples});
+    const std::size_t highest = affordable_order(records_, options_);
+    if (options_.order || highest == 2 || std::ranges::any_of(segments_, too_short))
+      return by_criterion(highest);
+    return by_held_out_parts(highest);
   }
 
-  double duration_s() const { return n_samples_ / rate_; }
+  /// What the records determine of a model of this order.
+  ModelStructure structure_of(const Selected& selected) const {
+    const OutputErrorOptions allowed = fit_options(selected.hold);
+    if (!selected.fit.covariance.allFinite()) return {selected.hold, allowed.direct_term, true};
+    static const std::vector<Hold> all{Hold::first_order, Hold::zero_order, Hold::band_limited};
+    return choose_structure(selected.fit, segments_, rate_,
+                            options_.hold ? std::vector<Hold>{*options_.hold} : all, allowed);
+  }
 
-  /// The same order and hold by another method.
-  FittedBvrm refit(IdentifyMethod method, std::size_t order, Hold hold) const {
-    if (method == IdentifyMethod::srivc) {
-      SrivcOptions srivc;
-      srivc.hold = hold;
-      srivc.direct_term = options_.direct_term;
-      srivc.nuisance = options_.nuisance;
-      return refine_srivc(frequency_fit(order, hold).model, segments_, rate_, srivc);
+  /// The model of these unknowns by the method of the options.
+  ScatteredFit fit(const Bvrm& start, const ModelStructure& structure) const {
+    OutputErrorOptions output_error = fit_options(structure.hold);
+    if (options_.method == IdentifyMethod::output_error) {
+      output_error.direct_term = structure.direct_term;
+      output_error.viscous_term = structure.viscous_term;
+      return widen_by_scatter(refine_output_error(start, segments_, rate_, output_error), segments_,
+                              rate_, output_error);
     }
-    return frequency_fit(order, hold);
+    return widen_by_scatter(by_other_method(start, structure.hold), segments_, rate_, output_error);
   }
 
  private:
-  void try_hold(Hold hold, std::vector<Trial>& trials) const {
-    for (FittedBvrm& fit :
-         fit_orders(response_, segments_, rate_, order_, options_.delay_s, fit_options(hold)))
-      if (!options_.order || fit.model.order() == *options_.order)
-        trials.push_back(summarise(std::move(fit), hold));
+  /// The holds that differ while all unknowns are free.
+  std::vector<Hold> holds() const {
+    if (options_.hold) return {*options_.hold};
+    if (options_.direct_term) return {Hold::first_order, Hold::band_limited};
+    return {Hold::first_order, Hold::zero_order, Hold::band_limited};
   }
 
-  FittedBvrm frequency_fit(std::size_t order, Hold hold) const {
+  Selected by_held_out_parts(std::size_t highest) const {
+    OrderOptions choice{.max_order = highest,
+                        .delay_s = options_.delay_s,
+                        .fit = fit_options(holds().front()),
+                        .holds = holds(),
+                        .period_samples = options_.period_samples};
+    // The end of a ring-down tells nothing of modes that have decayed.
+    constexpr std::size_t fruitless_after_hit = 5;
+    if (!hits_of(segments_[0].base_acceleration).empty())
+      choice.fruitless_orders = fruitless_after_hit;
+    const OrderSelection selection = select_order(segments_, rate_, choice);
+    const std::size_t asked = options_.order_rule == OrderRule::cross_validation
+                                  ? selection.by_cross_validation
+                                  : selection.by_information;
+    Selected selected = first_converged(selection, asked);
+    const std::size_t order = selected.fit.model.order();
+    if (asked != order)
+      selected.words += "; the fit of order " + std::to_string(asked) +
+                        " to the whole record did not converge, so order " + std::to_string(order) +
+                        " is returned";
+    else if (order == options_.max_order)
+      selected.words +=
+          "; this is the highest order that was tried, so more modes may be there: "
+          "allow more (--max-order)";
+    else if (order == highest)
+      selected.words += "; this is the highest order that the samples of the record allow";
+    return selected;
+  }
+
+  /// The model of the order asked for, fitted to the whole records; when that does not converge or
+  /// decay, of the lower order with the smallest criterion, then of a higher one; of the order
+  /// asked for when none does.
+  Selected first_converged(const OrderSelection& selection, std::size_t asked) const {
+    std::vector<const OrderTrial*> trials;
+    for (const OrderTrial& trial : selection.trials) trials.push_back(&trial);
+    std::ranges::sort(trials, {}, [&](const OrderTrial* trial) {
+      const int rank = trial->order == asked ? 0 : trial->order < asked ? 1 : 2;
+      return std::pair(rank, trial->information_criterion);
+    });
+    std::optional<FittedBvrm> first;
+    for (const OrderTrial* trial : trials) {
+      FittedBvrm fit =
+          refine_output_error(trial->fit.model, segments_, rate_, fit_options(selection.hold));
+      const bool decays = !lasting_mode_hz(fit.model, n_samples_ / rate_);
+      if (fit.end == FitEnd::converged && decays)
+        return {std::move(fit), selection.hold, selection.words};
+      if (!first) first = std::move(fit);
+    }
+    return {std::move(*first), selection.hold, selection.words};
+  }
+
+  /// The lowest criterion among the converged fits with decaying modes; among all fits when there
+  /// is none.
+  Selected by_criterion(std::size_t highest) const {
+    const signals::FrequencyResponse response =
+        response_of(segments_, rate_, options_.period_samples);
+    double mean_square_moment = 0.;
+    for (const Segment& segment : segments_)
+      for (const double m : segment.base_moment) mean_square_moment += m * m / n_samples_;
+    std::optional<Selected> best;
+    std::pair<bool, double> least;
+    for (const Hold hold : holds())
+      for (FittedBvrm& fit :
+           fit_orders(response, segments_, rate_, highest, options_.delay_s, fit_options(hold))) {
+        const std::size_t order = fit.model.order();
+        if (options_.order && order != *options_.order) continue;
+        const auto unknowns = static_cast<double>(n_unknowns(order, records_.size(), options_));
+        const std::pair rank(fit.end != FitEnd::converged ||
+                                 lasting_mode_hz(fit.model, n_samples_ / rate_).has_value(),
+                             information_criterion(fit, n_samples_, unknowns, mean_square_moment));
+        if (best && !(rank < least)) continue;
+        least = rank;
+        best = Selected{.fit = std::move(fit), .hold = hold, .words = {}};
+      }
+    if (!best)
+      throw UserError("identification: the frequency response of " +
+                      std::to_string(response.frequency_hz.size()) +
+                      " excited lines does not determine a model of order " +
+                      std::to_string(options_.order.value_or(2)) +
+                      "; excite more lines or lower the order");
+    return std::move(*best);
+  }
+
+  FittedBvrm by_other_method(const Bvrm& start, Hold hold) const {
     FrequencyFitOptions frequency;
-    frequency.order = order;
+    frequency.order = start.order();
     frequency.direct_term = options_.direct_term;
     frequency.delay_s = options_.delay_s;
     frequency.sampling = Sampling{rate_, hold};
-    return identify_frequency(response_, frequency);
+    const FittedBvrm in_frequency =
+        identify_frequency(response_of(segments_, rate_, options_.period_samples), frequency);
+    if (options_.method == IdentifyMethod::frequency) return in_frequency;
+    SrivcOptions srivc;
+    srivc.hold = hold;
+    srivc.direct_term = options_.direct_term;
+    srivc.nuisance = options_.nuisance;
+    return refine_srivc(in_frequency.model, segments_, rate_, srivc);
   }
 
   OutputErrorOptions fit_options(Hold hold) const {
     return {.hold = hold, .direct_term = options_.direct_term, .nuisance = options_.nuisance};
   }
 
-  Trial summarise(FittedBvrm fit, Hold hold) const {
-    const std::size_t order = fit.model.order();
-    const auto unknowns = static_cast<double>(n_unknowns(order, records_.size(), options_));
-    IdentificationTrial summary{.order = order,
-                                .hold = hold,
-                                .residual_rms_n_m = std::sqrt(fit.residual_variance),
-                                .information_criterion = information_criterion(
-                                    fit, n_samples_, unknowns, mean_square_moment_),
-                                .end = fit.end};
-    return {std::move(fit), summary};
-  }
-
   std::span<const Record> records_;
   const IdentifyOptions& options_;
   double rate_, n_samples_;
-  std::size_t order_;
-  signals::FrequencyResponse response_;
   std::vector<Segment> segments_;
-  double mean_square_moment_ = 0.;
 };
 
-// The records do not determine a mode that hardly decays within them: it is near a line of the
-// input and fits that line through the accelerometer noise. In a separator that starts at rest it
-// would oscillate without end.
-std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
-  const auto lasting = std::ranges::find_if(
-      model.modes, [&](const ModalTerm& mode) { return 0.5 * mode.a1 * duration_s < 1.; });
-  if (lasting == model.modes.end()) return std::nullopt;
-  return lasting->frequency_hz();
-}
-
-// The lowest criterion among the converged fits with decaying modes; among all fits when there is
-// none.
-const Trial& choose(const std::vector<Trial>& trials, double duration_s) {
-  const auto rank = [&](const Trial& trial) {
-    return std::pair(trial.fit.end != FitEnd::converged ||
-                         lasting_mode_hz(trial.fit.model, duration_s).has_value(),
-                     trial.summary.information_criterion);
-  };
-  return *std::ranges::min_element(trials, {}, rank);
-}
-
-/// The highest order under this hold up to which every model decays, and why the next does not.
-struct DecayingOrders {
-  std::size_t highest = 2;
-  std::string words;
-};
-
-DecayingOrders decaying_orders(const std::vector<Trial>& trials, Hold hold, double duration_s) {
-  DecayingOrders orders;
-  for (const Trial& trial : trials) {
-    if (trial.summary.hold != hold) continue;
-    if (const auto mode_hz = lasting_mode_hz(trial.fit.model, duration_s)) {
-      orders.words = "; order " + std::to_string(trial.summary.order) +
-                     " was not considered, because its mode at " +
-                     signals::to_text(std::round(10. * *mode_hz) / 10.) +
-                     " Hz does not decay within the record";
-      break;
-    }
-    orders.highest = trial.summary.order;
-  }
-  return orders;
-}
-
-// The one with the hold of the first choice and this order; the first choice when there is none.
-const Trial& of_order(const std::vector<Trial>& trials, const Trial& first, std::size_t order) {
-  const auto found = std::ranges::find_if(trials, [&](const Trial& trial) {
-    return trial.summary.hold == first.summary.hold && trial.summary.order == order &&
-           trial.fit.end == FitEnd::converged;
-  });
-  return found == trials.end() ? first : *found;
+void take(ScatteredFit scattered, Identification& result) {
+  result.fit = std::move(scattered.fit);
+  result.scatter_words = std::move(scattered.words);
 }
 
 std::vector<double> free_simulation(const Bvrm& model, const Record& record, Hold hold,
@@ -282,6 +291,66 @@ std::vector<double> free_simulation(const Bvrm& model, const Record& record, Hol
   return simulate_like(model, record.channel(channel::base_acceleration),
                        record.channel(channel::base_moment), record.sampling_rate_hz(), hold,
                        nuisance);
+}
+
+std::vector<double> held_out_errors(const Bvrm& model, const Record& held_out, Hold hold,
+                                    const Nuisance& nuisance) {
+  const auto simulated = free_simulation(model, held_out, hold, nuisance);
+  const auto moment = held_out.channel(channel::base_moment);
+  std::vector<double> errors(moment.begin(), moment.end());
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] -= simulated[i];
+  return errors;
+}
+
+/// Whether the model is contradicted by what the held-out record left unexplained.
+bool is_doubtful(const Identification& found, const Record& held_out, const Nuisance& nuisance) {
+  if (found.fit.end != FitEnd::converged) return true;
+  const auto errors = held_out_errors(found.scored, held_out, found.hold, nuisance);
+  ResidualTestOptions lags;
+  lags.max_lag = std::min(lags.max_lag, errors.size() / samples_per_lag);
+  return lags.max_lag > 0 && !signals::is_constant(errors) &&
+         !test_residual(errors, held_out.channel(channel::base_acceleration), lags)
+              .independence.passed();
+}
+
+/// Each hit for itself; the whole record when its input is no hit.
+std::vector<Record> blocks_of(const Record& record) {
+  std::vector<Record> records;
+  for (const Block& block : hit_blocks(record.channel(channel::base_acceleration)))
+    records.push_back(record.slice(block.first, block.end - block.first));
+  if (records.empty()) records.push_back(record);
+  return records;
+}
+
+struct DelayedResult {
+  Identification result;
+  IdentifyOptions options;
+};
+
+/// The identification with a delay between the channels, when the held-out record gains by it.
+std::optional<DelayedResult> with_delay(std::span<const Record> fit, const Record& held_out,
+                                        const Identification& without,
+                                        const IdentifyOptions& options) {
+  const std::vector<Segment> segments = segments_of(fit);
+  const std::optional<Estimate> delay =
+      options.delay_s == 0.
+          ? estimate_delay(segments, held_out.sampling_rate_hz(),
+                           {.direct_term = options.direct_term, .nuisance = options.nuisance})
+          : std::nullopt;
+  if (!delay) return std::nullopt;
+  DelayedResult delayed{.result = {}, .options = options};
+  delayed.options.delay_s = delay->value;
+  delayed.result = identify_bvrm(fit, held_out, delayed.options);
+  delayed.result.found_delay_s = delay;
+  const auto squared = [&](const Identification& found) {
+    auto errors = held_out_errors(found.scored, held_out, found.hold, options.nuisance);
+    for (double& e : errors) e *= e;
+    return errors;
+  };
+  constexpr double significant = 4.;  // standard deviations
+  if (!(mean_difference_significance(squared(without), squared(delayed.result)) > significant))
+    return std::nullopt;
+  return delayed;
 }
 
 }  // namespace
@@ -311,34 +380,16 @@ Identification identify_bvrm(std::span<const Record> fit_records, const Record& 
                              const IdentifyOptions& options) {
   check_all(fit_records, held_out, options);
   const Identifier identifier(fit_records, options);
-  const std::vector<Trial> trials = identifier.run();
-  const double duration_s = identifier.duration_s();
-  const Trial& first = choose(trials, duration_s);
-  const DecayingOrders decaying = decaying_orders(trials, first.summary.hold, duration_s);
-  const std::optional<OrderSelection> selection =
-      identifier.select(first.summary.hold, decaying.highest);
-  const bool held_out_rules = options.order_rule == OrderRule::cross_validation;
-  const Trial& best = !selection ? first
-                                 : of_order(trials, first,
-                                            held_out_rules ? selection->by_cross_validation
-                                                           : selection->by_information);
+  Selected selected = identifier.select();
+  const ModelStructure structure = identifier.structure_of(selected);
   Identification result;
-  if (selection) {
-    result.order_words = selection->words + decaying.words;
-    const std::size_t asked =
-        held_out_rules ? selection->by_cross_validation : selection->by_information;
-    if (asked != best.summary.order) {
-      result.order_words += "; the fit of order " + std::to_string(asked) +
-                            " to the whole record did not converge, so order " +
-                            std::to_string(best.summary.order) + " is returned";
-    }
-  }
-  result.fit = options.method == IdentifyMethod::output_error
-                   ? best.fit
-                   : identifier.refit(options.method, best.summary.order, best.summary.hold);
-  result.hold = best.summary.hold;
-  result.order = best.summary.order;
-  for (const Trial& trial : trials) result.trials.push_back(trial.summary);
+  take(identifier.fit(selected.fit.model, structure), result);
+  result.scored = result.fit.model;
+  result.order_words = std::move(selected.words);
+  result.hold = structure.hold;
+  result.order = result.fit.model.order();
+  result.direct_term = structure.direct_term;
+  result.viscous_term = structure.viscous_term;
   const auto held_out_moment = held_out.channel(channel::base_moment);
   const auto simulated = free_simulation(result.fit.model, held_out, result.hold, options.nuisance);
   result.held_out_fit_percent = fit_percent(held_out_moment, simulated);
@@ -353,6 +404,32 @@ Identification identify_bvrm(std::span<const Record> fit_records, const Record& 
 Identification identify_bvrm(const Record& fit_record, const Record& held_out,
                              const IdentifyOptions& options) {
   return identify_bvrm(std::span(&fit_record, 1), held_out, options);
+}
+
+SplitRecord hold_out_part(const Record& record) {
+  const std::vector<Block> blocks = hit_blocks(record.channel(channel::base_acceleration));
+  if (blocks.size() < 2) return hold_out_last_third(record);
+  const std::size_t n_fit = blocks.back().first;
+  return {.fit = record.slice(0, n_fit),
+          .held_out = record.slice(n_fit, record.n_samples() - n_fit)};
+}
+
+Identification identify_record(const Record& record, const IdentifyOptions& options) {
+  check_record(record, record.sampling_rate_hz(), "record");
+  const auto [fit, held_out] = hold_out_part(record);
+  const std::vector<Record> fit_records = blocks_of(fit), all = blocks_of(record);
+  IdentifyOptions used = options;
+  Identification result = identify_bvrm(fit_records, held_out, used);
+  if (is_doubtful(result, held_out, options.nuisance))
+    if (std::optional<DelayedResult> delayed = with_delay(fit_records, held_out, result, options)) {
+      used.delay_s = delayed->options.delay_s;
+      result = std::move(delayed->result);
+    }
+  result.n_hits = hits_of(record.channel(channel::base_acceleration)).size();
+  const Identifier identifier(all, used);
+  take(identifier.fit(result.fit.model, {result.hold, result.direct_term, result.viscous_term}),
+       result);
+  return result;
 }
 
 }  // namespace vibrissa::separation

@@ -74,22 +74,32 @@ void check_order(std::size_t order) {
 
 }  // namespace
 
+FrequencyOrders::FrequencyOrders(const FrequencyProblem& problem, int max_iterations)
+    : problem_(problem), max_iterations_(max_iterations), smaller_(problem.with_best_gains({})) {}
+
+std::optional<FittedBvrm> FrequencyOrders::next() {
+  ++n_modes_;
+  if (n_parameters(n_modes_, problem_.direct_term()) > problem_.n_residuals()) return std::nullopt;
+  std::optional<LevenbergResult> best;
+  for (const Eigen::VectorXd& start : starts(problem_, smaller_)) {
+    LevenbergResult result = refine(problem_, start, max_iterations_);
+    if (!best || result.equations.cost < best->equations.cost) best = std::move(result);
+  }
+  if (!best) return std::nullopt;
+  smaller_ = best->parameters;
+  return fitted(problem_, *best);
+}
+
 std::vector<FittedBvrm> identify_frequency_orders(const signals::FrequencyResponse& response,
                                                   const FrequencyFitOptions& options) {
   check_order(options.order);
   const FrequencyProblem problem(response, options.sampling, options.direct_term, options.delay_s);
+  FrequencyOrders orders(problem, options.max_iterations);
   std::vector<FittedBvrm> fits;
-  Eigen::VectorXd smaller = problem.with_best_gains({});
-  for (std::size_t n_modes = 1; 2 * n_modes <= options.order; ++n_modes) {
-    if (n_parameters(n_modes, options.direct_term) > problem.n_residuals()) break;
-    std::optional<LevenbergResult> best;
-    for (const Eigen::VectorXd& start : starts(problem, smaller)) {
-      LevenbergResult result = refine(problem, start, options.max_iterations);
-      if (!best || result.equations.cost < best->equations.cost) best = std::move(result);
-    }
-    if (!best) break;
-    smaller = best->parameters;
-    fits.push_back(fitted(problem, *best));
+  while (2 * fits.size() < options.order) {
+    std::optional<FittedBvrm> fit = orders.next();
+    if (!fit) break;
+    fits.push_back(std::move(*fit));
   }
   return fits;
 }

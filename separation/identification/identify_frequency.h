@@ -33,4 +33,19 @@ FittedBvrm identify_frequency(const signals::FrequencyResponse& response,
 std::vector<FittedBvrm> identify_frequency_orders(const signals::FrequencyResponse& response,
                                                   const FrequencyFitOptions& options);
 
+/// The same, one order at a time.
+class FrequencyOrders {
+ public:
+  /// Keeps a reference to the problem.
+  FrequencyOrders(const FrequencyProblem& problem, int max_iterations);
+  /// The fit of the next order; nothing when the lines do not determine it.
+  std::optional<FittedBvrm> next();
+
+ private:
+  const FrequencyProblem& problem_;
+  int max_iterations_;
+  std::size_t n_modes_ = 0;
+  Eigen::VectorXd smaller_;  // parameters of the fit before
+};
+
 }  // namespace vibrissa::separation

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "separation/identification/frequency_problem.h"
 #include "separation/identification/identify_frequency.h"
@@ -68,38 +70,81 @@ double relative_error(const FrequencyResponse& measured, const Bvrm& model) {
   return std::sqrt((weight * (h - g).abs2()).sum() / (weight * (h - mean).abs2()).sum());
 }
 
-std::size_t best_order(const FrequencyResponse& known, const FrequencyResponse& held_out,
-                       const IdentifyResponseOptions& options) {
-  constexpr double exact = 1e-9;  // a response that was computed, not measured
+struct SelectedOrder {
+  std::size_t order = 2;
+  double held_out_error = std::numeric_limits<double>::infinity();  // relative
+};
+
+SelectedOrder best_order(const FrequencyResponse& known, const FrequencyResponse& held_out,
+                         const std::size_t max_order, const bool direct_term) {
+  constexpr double exact = 1e-4;  // no measured response is better; digits of a file are worse
   // Twice the logarithm of the likelihood that a mode, four parameters, must bring to lines that
   // it did not see.
   constexpr double least_gain = 4.;
+  constexpr std::size_t fruitless_orders = 3;
   const double share = std::exp(-0.5 * least_gain / static_cast<double>(2 * held_out.value.size()));
-  std::size_t best = 2;
-  double least = std::numeric_limits<double>::infinity(), least_error = least;
-  for (const FittedBvrm& fit : identify_frequency_orders(
-           known, {.order = options.max_order, .direct_term = options.direct_term})) {
-    const double error = relative_error(held_out, fit.model);
-    if (least_error < exact || !(error < share * least_error)) continue;
-    least_error = error;
-    const double criterion = information_criterion(fit, known.value.size(), options.direct_term);
+  const FrequencyProblem problem(known, std::nullopt, direct_term, 0.);
+  FrequencyOrders orders(problem, FrequencyFitOptions{}.max_iterations);
+  SelectedOrder best;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t gained = 2;
+  for (std::size_t order = 2; order <= std::min(max_order, gained + 2 * fruitless_orders);
+       order += 2) {
+    const std::optional<FittedBvrm> fit = orders.next();
+    if (!fit || best.held_out_error < exact) break;
+    const double error = relative_error(held_out, fit->model);
+    if (!(error < share * best.held_out_error)) continue;
+    best.held_out_error = error;
+    gained = order;
+    const double criterion = information_criterion(*fit, known.value.size(), direct_term);
     if (!(criterion < least)) continue;
     least = criterion;
-    best = fit.model.order();
+    best.order = order;
   }
   return best;
+}
+
+FrequencyResponse conjugate_of(FrequencyResponse response) {
+  for (std::complex<double>& value : response.value) value = std::conj(value);
+  return response;
+}
+
+bool has_other_convention(const FrequencyResponse& measured,
+                          const IdentifyResponseOptions& options) {
+  constexpr std::size_t low_order = 6;
+  constexpr double of_the_error = 0.5;
+  const std::size_t highest = std::min(low_order, options.order.value_or(options.max_order));
+  const auto error_of = [&](const FrequencyResponse& response) {
+    return best_order(lines_of(response, false), lines_of(response, true), highest,
+                      options.direct_term)
+        .held_out_error;
+  };
+  const double of_conjugate = error_of(conjugate_of(measured));
+  return of_conjugate < of_the_error && of_conjugate < of_the_error * error_of(measured);
 }
 
 }  // namespace
 
 IdentifiedResponse identify_response(const FrequencyResponse& response,
                                      const IdentifyResponseOptions& options) {
-  const FrequencyResponse measured = with_deviation(response);
+  FrequencyResponse measured = with_deviation(response);
+  IdentifiedResponse found;
+  found.conjugated = has_other_convention(measured, options);
+  if (found.conjugated) measured = conjugate_of(std::move(measured));
   const FrequencyResponse known = lines_of(measured, false), held_out = lines_of(measured, true);
   FrequencyFitOptions fit{.direct_term = options.direct_term};
-  fit.order = options.order ? *options.order : best_order(known, held_out, options);
-  return {identify_frequency(measured, fit), fit.order,
-          100. * (1. - relative_error(held_out, identify_frequency(known, fit).model))};
+  fit.order = options.order
+                  ? *options.order
+                  : best_order(known, held_out, options.max_order, options.direct_term).order;
+  found.fit = identify_frequency(measured, fit);
+  found.order = fit.order;
+  found.held_out_fit_percent =
+      100. * (1. - relative_error(held_out, identify_frequency(known, fit).model));
+  if (!options.order && fit.order == options.max_order)
+    found.order_words =
+        "this is the highest order that was tried, so more modes may be there: allow more "
+        "(--max-order)";
+  return found;
 }
 
 }  // namespace vibrissa::separation

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <complex>
+#include <limits>
 #include <numeric>
 #include <optional>
 
 #include "separation/identification/frequency_problem.h"
 #include "separation/identification/identify_frequency.h"
 #include "separation/identification/pole_search.h"
-#include "separation/model/simulation.h"
 #include "separation/numerics/significance.h"
+#include "separation/segments/hit_blocks.h"
 #include "separation/segments/whitener.h"
 #include "signals/base/error.h"
+#include "signals/base/number_text.h"
+#include "signals/spectra/fft.h"
 
 namespace vibrissa::separation {
 
@@ -35,32 +39,6 @@ Parts split(std::span<const Segment> segments, double held_out_share) {
                               segment.base_moment.subspan(n - n_held, n_held)});
   }
   return parts;
-}
-
-signals::FrequencyResponse response_of(std::span<const Segment> segments, double rate_hz,
-                                       std::size_t period_samples) {
-  const Segment& longest = *std::ranges::max_element(
-      segments, {}, [](const Segment& segment) { return segment.base_moment.size(); });
-  if (period_samples > 0 && longest.base_moment.size() >= period_samples)
-    return signals::periodic_response(longest.base_acceleration, longest.base_moment, rate_hz,
-                                      period_samples);
-  constexpr std::size_t shortest = 32, longest_window = 2048;
-  const std::size_t window =
-      std::clamp(std::bit_floor(longest.base_moment.size() / 4), shortest, longest_window);
-  return signals::welch_response(longest.base_acceleration, longest.base_moment, rate_hz,
-                                 {.segment_samples = window});
-}
-
-std::vector<double> errors(const Bvrm& model, std::span<const Segment> segments, double rate_hz,
-                           const OutputErrorOptions& options) {
-  std::vector<double> result;
-  for (const Segment& segment : segments) {
-    const auto simulated = simulate_like(model, segment.base_acceleration, segment.base_moment,
-                                         rate_hz, options.hold, options.nuisance);
-    for (std::size_t i = 0; i < simulated.size(); ++i)
-      result.push_back(segment.base_moment[i] - simulated[i]);
-  }
-  return result;
 }
 
 double mean(std::span<const double> x) {
@@ -107,7 +85,6 @@ void choose(const std::vector<std::vector<double>>& held_out_squares, double rou
       })->order;
   selection.by_information =
       std::ranges::min_element(selection.trials, {}, &OrderTrial::information_criterion)->order;
-  selection.words = verdict(selection);
 }
 
 void check_options(std::span<const Segment> segments, const OrderOptions& options) {
@@ -138,22 +115,200 @@ std::vector<Bvrm> one_more_mode(const FrequencyProblem& problem, const FittedBvr
   return starts;
 }
 
+/// Whether data that were not fitted still gain, as the order rises.
+class Growth {
+ public:
+  Growth(std::span<const Segment> held_out, double rate_hz, const OrderOptions& options,
+         double rounding)
+      : held_out_(held_out), rate_hz_(rate_hz), options_(options), rounding_(rounding) {
+    for (const Segment& segment : held_out)
+      duration_s_ += static_cast<double>(segment.base_moment.size()) / rate_hz /
+                     options.held_out_share * (1. - options.held_out_share);
+  }
+
+  bool hear(const FittedBvrm& fit, const OutputErrorOptions& fit_options) {
+    lasting_hz_ = lasting_mode_hz(fit.model, duration_s_);
+    if (lasting_hz_ && !squares_.empty()) return false;
+    squares_.push_back(squares(output_errors(fit.model, held_out_, rate_hz_, fit_options)));
+    constexpr double significant = 2.;  // standard deviations
+    if (mean_difference_significance(squares_[gained_], squares_.back()) > significant)
+      gained_ = squares_.size() - 1;
+    return mean(squares_.back()) > rounding_ &&
+           squares_.size() - 1 - gained_ < options_.fruitless_orders;
+  }
+
+  const std::vector<std::vector<double>>& held_out_squares() const { return squares_; }
+  bool still_gains() const { return gained_ + 1 == squares_.size() && gained_ > 0; }
+
+  std::string words() const {
+    if (!lasting_hz_ || squares_.empty()) return {};
+    return "; order " + std::to_string(2 * squares_.size() + 2) +
+           " was not considered, because its mode at " +
+           signals::to_text(std::round(10. * *lasting_hz_) / 10.) +
+           " Hz does not decay within the record";
+  }
+
+ private:
+  std::span<const Segment> held_out_;
+  double rate_hz_;
+  const OrderOptions& options_;
+  double rounding_, duration_s_ = 0.;
+  std::vector<std::vector<double>> squares_;  // of each order
+  std::size_t gained_ = 0;                    // place of the last order that gained
+  std::optional<double> lasting_hz_;
+};
+
+/// The fits of rising order to one part, scored by another.
+class Comparison {
+ public:
+  Comparison(std::span<const Segment> fitting, std::span<const Segment> held_out, double rate_hz,
+             std::size_t max_order, const OutputErrorOptions& fit, const OrderOptions& options)
+      : fitting_(fitting), rate_hz_(rate_hz), fit_options_(fit) {
+    // Errors that are rounding are not told apart.
+    double moment = 0.;
+    for (const Segment& segment : fitting)
+      moment = std::max(moment, mean_square(segment.base_moment));
+    rounding_ = 1e-20 * moment;
+    growth_.emplace(held_out, rate_hz, options, rounding_);
+    fits_ = fit_orders(response_of(fitting, rate_hz, options.period_samples), fitting, rate_hz,
+                       max_order, options.delay_s, fit,
+                       [&](const FittedBvrm& found) { return growth_->hear(found, fit); });
+    if (fits_.empty())
+      throw UserError(
+          "order selection: the frequency response of the fitting parts does not determine even "
+          "two poles; excite more lines");
+    fits_.resize(growth_->held_out_squares().size());
+  }
+
+  const std::vector<FittedBvrm>& fits() const { return fits_; }
+  const Growth& growth() const { return *growth_; }
+  double rounding() const { return rounding_; }
+  std::vector<double> errors_of(const FittedBvrm& fit) const {
+    return output_errors(fit.model, fitting_, rate_hz_, fit_options_);
+  }
+
+  std::vector<OrderTrial> trials() const {
+    std::vector<OrderTrial> trials;
+    for (std::size_t i = 0; i < fits_.size(); ++i) {
+      OrderTrial trial{.order = fits_[i].model.order(), .fit = fits_[i]};
+      const std::vector<double> error = errors_of(trial.fit);
+      const auto n = static_cast<double>(error.size());
+      trial.fitted_mean_square = mean_square(error);
+      trial.held_out_mean_square = mean(growth_->held_out_squares()[i]);
+      trial.information_criterion =
+          n * std::log(std::max(trial.fitted_mean_square, rounding_)) +
+          static_cast<double>(n_unknowns(trial.fit, fitting_.size(), fit_options_)) * std::log(n);
+      trials.push_back(std::move(trial));
+    }
+    return trials;
+  }
+
+ private:
+  std::span<const Segment> fitting_;
+  double rate_hz_;
+  OutputErrorOptions fit_options_;
+  double rounding_ = 0.;
+  std::optional<Growth> growth_;
+  std::vector<FittedBvrm> fits_;
+};
+
+/// Comparisons of raw segments under every hold; the best hold first.
+Comparison with_best_hold(const Parts& raw, double rate_hz, const OrderOptions& options,
+                          OutputErrorOptions& fit) {
+  const std::vector<Hold> holds =
+      options.holds.empty() ? std::vector<Hold>{fit.hold} : options.holds;
+  std::optional<Comparison> best;
+  double least = 0.;
+  for (const Hold hold : holds) {
+    OutputErrorOptions tried = fit;
+    tried.hold = hold;
+    Comparison comparison(raw.fitting, raw.held_out, rate_hz, options.max_order, tried, options);
+    const double criterion =
+        std::ranges::min(comparison.trials(), {}, &OrderTrial::information_criterion)
+            .information_criterion;
+    if (best && !(criterion < least)) continue;
+    least = criterion;
+    best.emplace(std::move(comparison));
+    fit.hold = hold;
+  }
+  return std::move(*best);
+}
+
+/// Nothing unless every segment begins with one hit.
+std::optional<signals::FrequencyResponse> response_to_hits(std::span<const Segment> segments,
+                                                           double rate_hz) {
+  std::size_t length = std::numeric_limits<std::size_t>::max();
+  for (const Segment& segment : segments) {
+    if (hits_of(segment.base_acceleration).size() != 1) return std::nullopt;
+    length = std::min(length, segment.base_moment.size());
+  }
+  constexpr std::size_t longest = 8192;
+  length = std::min(length, longest);
+  signals::RealFft fft(length);
+  const auto spectrum = [&](std::span<const double> x, double mean) {
+    auto time = fft.time();
+    for (std::size_t i = 0; i < length; ++i) time[i] = x[i] - mean;
+    fft.forward();
+    return std::vector<std::complex<double>>(fft.spectrum().begin(), fft.spectrum().end());
+  };
+  std::vector<std::complex<double>> cross(length / 2 + 1);
+  std::vector<double> power(length / 2 + 1);
+  for (const Segment& segment : segments) {
+    const auto x = spectrum(pulses_of(segment.base_acceleration), 0.);
+    const auto y = spectrum(segment.base_moment, mean(segment.base_moment));
+    for (std::size_t k = 0; k < power.size(); ++k) {
+      cross[k] += y[k] * std::conj(x[k]);
+      power[k] += std::norm(x[k]);
+    }
+  }
+  signals::FrequencyResponse response;
+  for (std::size_t k = 1; k + 1 < power.size(); ++k) {
+    response.frequency_hz.push_back(static_cast<double>(k) * rate_hz / static_cast<double>(length));
+    response.value.push_back(cross[k] / power[k]);
+    // The noise of the moment is the same at all lines.
+    response.standard_deviation.push_back(1. / std::sqrt(power[k]));
+  }
+  return response;
+}
+
 }  // namespace
+
+std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
+  const auto lasting = std::ranges::find_if(
+      model.modes, [&](const ModalTerm& mode) { return 0.5 * mode.a1 * duration_s < 1.; });
+  if (lasting == model.modes.end()) return std::nullopt;
+  return lasting->frequency_hz();
+}
+
+signals::FrequencyResponse response_of(std::span<const Segment> segments, double rate_hz,
+                                       std::size_t period_samples) {
+  if (period_samples == 0)
+    if (auto hit = response_to_hits(segments, rate_hz)) return std::move(*hit);
+  const Segment& longest = *std::ranges::max_element(
+      segments, {}, [](const Segment& segment) { return segment.base_moment.size(); });
+  if (period_samples > 0 && longest.base_moment.size() >= period_samples)
+    return signals::periodic_response(longest.base_acceleration, longest.base_moment, rate_hz,
+                                      period_samples);
+  constexpr std::size_t shortest = 32, longest_window = 2048;
+  const std::size_t window =
+      std::clamp(std::bit_floor(longest.base_moment.size() / 4), shortest, longest_window);
+  return signals::welch_response(longest.base_acceleration, longest.base_moment, rate_hz,
+                                 {.segment_samples = window});
+}
 
 std::vector<FittedBvrm> fit_orders(const signals::FrequencyResponse& response,
                                    std::span<const Segment> segments, double sampling_rate_hz,
                                    std::size_t max_order, double delay_s,
-                                   const OutputErrorOptions& options) {
+                                   const OutputErrorOptions& options,
+                                   const WantsNextOrder& wants_next) {
   const Sampling sampling{.rate_hz = sampling_rate_hz, .hold = options.hold};
   const FrequencyProblem problem(response, sampling, options.direct_term, delay_s);
-  const auto frequency_fits =
-      identify_frequency_orders(response, {.order = max_order,
-                                           .direct_term = options.direct_term,
-                                           .delay_s = delay_s,
-                                           .sampling = sampling});
+  FrequencyOrders frequency_orders(problem, FrequencyFitOptions{}.max_iterations);
   std::vector<FittedBvrm> fits;
-  for (const FittedBvrm& start : frequency_fits) {
-    std::vector<Bvrm> starts{start.model};
+  while (2 * fits.size() < max_order) {
+    const std::optional<FittedBvrm> start = frequency_orders.next();
+    if (!start) break;
+    std::vector<Bvrm> starts{start->model};
     if (!fits.empty())
       for (Bvrm& warm : one_more_mode(problem, fits.back(), options.direct_term))
         starts.push_back(std::move(warm));
@@ -163,6 +318,7 @@ std::vector<FittedBvrm> fit_orders(const signals::FrequencyResponse& response,
       if (!best || fit.residual_variance < best->residual_variance) best = std::move(fit);
     }
     fits.push_back(std::move(*best));
+    if (wants_next && !wants_next(fits.back())) break;
   }
   return fits;
 }
@@ -171,44 +327,21 @@ OrderSelection select_order(std::span<const Segment> segments, double sampling_r
                             const OrderOptions& options) {
   check_options(segments, options);
   const Parts raw = split(segments, options.held_out_share);
-  const auto fit_parts = [&](std::span<const Segment> parts) {
-    auto fits = fit_orders(response_of(parts, sampling_rate_hz, options.period_samples), parts,
-                           sampling_rate_hz, options.max_order, options.delay_s, options.fit);
-    if (fits.empty())
-      throw UserError(
-          "order selection: the frequency response of the fitting parts does not determine even "
-          "two "
-          "poles; excite more lines");
-    return fits;
-  };
-  const auto errors_of = [&](const FittedBvrm& fit, std::span<const Segment> parts) {
-    return errors(fit.model, parts, sampling_rate_hz, options.fit);
-  };
-  const Whitener whitener(errors_of(fit_parts(raw.fitting).back(), raw.fitting),
-                          options.whitening_taps);
+  OutputErrorOptions fit = options.fit;
+  const Comparison rough = with_best_hold(raw, sampling_rate_hz, options, fit);
+  const Whitener whitener(rough.errors_of(rough.fits().back()), options.whitening_taps);
   const WhitenedSegments fitting(raw.fitting, whitener), held_out(raw.held_out, whitener);
-
-  // Errors that are rounding are not told apart.
-  double moment = 0.;
-  for (const Segment& segment : fitting.segments())
-    moment = std::max(moment, mean_square(segment.base_moment));
-  const double rounding = 1e-20 * moment;
+  const std::size_t highest = rough.fits().back().model.order();
+  const Comparison white(fitting.segments(), held_out.segments(), sampling_rate_hz, highest, fit,
+                         options);
 
   OrderSelection selection;
-  std::vector<std::vector<double>> held_out_squares;
-  for (FittedBvrm& fit : fit_parts(fitting.segments())) {
-    const std::vector<double> error = errors_of(fit, fitting.segments());
-    held_out_squares.push_back(squares(errors_of(fit, held_out.segments())));
-    OrderTrial trial{.order = fit.model.order(), .fit = std::move(fit)};
-    const auto n = static_cast<double>(error.size());
-    trial.fitted_mean_square = mean_square(error);
-    trial.held_out_mean_square = mean(held_out_squares.back());
-    trial.information_criterion =
-        n * std::log(std::max(trial.fitted_mean_square, rounding)) +
-        static_cast<double>(n_unknowns(trial.fit, segments.size(), options.fit)) * std::log(n);
-    selection.trials.push_back(std::move(trial));
-  }
-  choose(held_out_squares, rounding, selection);
+  selection.hold = fit.hold;
+  selection.trials = white.trials();
+  choose(white.growth().held_out_squares(), white.rounding(), selection);
+  const std::string& limit = rough.growth().words();
+  selection.at_ceiling = selection.by_information == options.max_order && highest > 2;
+  selection.words = verdict(selection) + (limit.empty() ? white.growth().words() : limit);
   return selection;
 }
 

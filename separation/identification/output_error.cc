@@ -60,6 +60,9 @@ FittedBvrm refine_output_error(const Bvrm& start, std::span<const Segment> segme
 
   Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(problem.n_unknowns());
   unknowns.head(problem.n_model_parameters()) = to_parameters(start, options.direct_term);
+  if (!options.viscous_term)
+    for (std::size_t k = 0; k < n_modes; ++k)
+      unknowns[parameters_per_mode * static_cast<Eigen::Index>(k)] = 0.;
   fit_linear_unknowns(problem, n_modes, unknowns);
   const LevenbergResult result =
       minimise(unknowns,
@@ -70,17 +73,32 @@ FittedBvrm refine_output_error(const Bvrm& start, std::span<const Segment> segme
                 .n_residuals = problem.n_samples(),
                 .negligible_cost = 1e-26 * problem.total()});
 
-  const double n_free = problem.n_samples() - static_cast<double>(problem.n_unknowns());
+  const double n_free = problem.n_samples() - static_cast<double>(problem.n_free());
   const double variance = result.equations.cost / n_free;
   const Eigen::Index m = problem.n_model_parameters();
   Eigen::MatrixXd covariance = inverse_information(result.equations.matrix);
   if (covariance.size() > 0) covariance = (variance * covariance.topLeftCorner(m, m)).eval();
+  for (Eigen::Index b1 = 0; !options.viscous_term && b1 < covariance.rows() - 3;
+       b1 += parameters_per_mode)
+    covariance(b1, b1) = 0.;
   FittedBvrm fit =
       make_fitted(result.parameters.head(m), covariance, options.direct_term, start.delay_s);
   fit.residual_variance = variance;
   fit.end = result.end;
   fit.n_iterations = result.n_iterations;
   return fit;
+}
+
+std::vector<double> output_errors(const Bvrm& model, std::span<const Segment> segments,
+                                  double sampling_rate_hz, const OutputErrorOptions& options) {
+  std::vector<double> errors;
+  for (const Segment& segment : segments) {
+    const auto simulated = simulate_like(model, segment.base_acceleration, segment.base_moment,
+                                         sampling_rate_hz, options.hold, options.nuisance);
+    for (std::size_t i = 0; i < simulated.size(); ++i)
+      errors.push_back(segment.base_moment[i] - simulated[i]);
+  }
+  return errors;
 }
 
 }  // namespace vibrissa::separation

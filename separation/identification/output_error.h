@@ -14,6 +14,8 @@ namespace vibrissa::separation {
 struct OutputErrorOptions {
   Hold hold = Hold::first_order;
   bool direct_term = true;
+  /// Without it b1 = 0 in every mode: the moment is elastic (see ModalTerm).
+  bool viscous_term = true;
   /// Estimated for each segment together with the model; otherwise at rest at the first sample, no
   /// offset.
   Nuisance nuisance = {};
@@ -32,5 +34,9 @@ struct OutputErrorOptions {
 /// Cramer-Rao bound) and time_domain_fit_test.cc in tests/separation.
 FittedBvrm refine_output_error(const Bvrm& start, std::span<const Segment> segments,
                                double sampling_rate_hz, const OutputErrorOptions& options = {});
+
+/// Measured minus simulated moment (simulate_like()), one segment after the other.
+std::vector<double> output_errors(const Bvrm& model, std::span<const Segment> segments,
+                                  double sampling_rate_hz, const OutputErrorOptions& options);
 
 }  // namespace vibrissa::separation

@@ -126,7 +126,19 @@ bool OutputErrorProblem::linearise(const Eigen::VectorXd& unknowns, NormalEquati
     scatter(first_nuisance, equations);
     first_nuisance += n_nuisance_;
   }
+  fix_viscous_terms(equations);
   return true;
+}
+
+// Equations of their own, whose solution is no step.
+void OutputErrorProblem::fix_viscous_terms(NormalEquations& equations) const {
+  for (Eigen::Index k = 0; k < n_fixed(); ++k) {
+    const Eigen::Index b1 = parameters_per_mode * k;
+    equations.matrix.row(b1).setZero();
+    equations.matrix.col(b1).setZero();
+    equations.matrix(b1, b1) = 1.;
+    equations.gradient[b1] = 0.;
+  }
 }
 
 // Columns of the Gram matrix: model parameters, error, offset, free responses. The free responses

@@ -21,6 +21,8 @@ class OutputErrorProblem {
   ~OutputErrorProblem();
 
   Eigen::Index n_unknowns() const { return n_unknowns_; }
+  /// Of the unknowns, those that the options leave free.
+  Eigen::Index n_free() const { return n_unknowns_ - n_fixed(); }
   Eigen::Index n_model_parameters() const { return n_model_; }
   double n_samples() const { return n_samples_; }
   /// sum M^2 over the samples used.
@@ -33,6 +35,10 @@ class OutputErrorProblem {
  private:
   struct Mode;
 
+  Eigen::Index n_fixed() const {
+    return options_.viscous_term ? 0 : static_cast<Eigen::Index>(n_modes_);
+  }
+  void fix_viscous_terms(NormalEquations& equations) const;
   void add_segment(const AlignedSegment& segment, Eigen::Index first_nuisance,
                    const Eigen::VectorXd& unknowns);
   // Output and sensitivities of one mode over a block of samples; free: its two numbers, or none.

@@ -10,6 +10,7 @@
 #include "signals/base/error.h"
 #include "signals/base/is_constant.h"
 #include "signals/base/number_text.h"
+#include "signals/spectra/resample.h"
 
 namespace vibrissa::separation {
 
@@ -218,12 +219,7 @@ std::string describe(const OutputOnlyIdentification& found) {
          "excitation, so a resonance of the excitation looks like a resonance of the sensor";
 }
 
-struct Sizes {
-  std::size_t n_rows, max_order;
-};
-
-// The longest lag must stay well within one of the pieces that the jackknife leaves out.
-Sizes checked_sizes(std::span<const double> moment, const OutputOnlyOptions& options) {
+void check_moment(std::span<const double> moment, const OutputOnlyOptions& options) {
   constexpr std::size_t fewest_samples = 400;
   if (moment.size() < fewest_samples)
     throw UserError("output-only identification: " + std::to_string(moment.size()) +
@@ -238,11 +234,126 @@ Sizes checked_sizes(std::span<const double> moment, const OutputOnlyOptions& opt
   if (signals::is_constant(moment))
     throw UserError(
         "output-only identification: the moment is constant, so no mode can be identified from it");
-  const std::size_t n_rows = std::min(options.max_lags, moment.size() / (4 * n_pieces));
+}
+
+/// Resonances and lines of one sampling rate.
+struct OneRate {
+  std::vector<OutputOnlyMode> modes;
+  std::vector<Estimate> undamped_hz;
+  std::size_t n_orders = 0;
+  double rate_hz = 0., longest_lag_s = 0.;
+};
+
+OneRate at_one_rate(std::span<const double> moment, double rate_hz, std::size_t n_rows,
+                    std::size_t max_order) {
+  const LagSums sums(without_line(moment), 2 * n_rows - 1);
+  const std::size_t highest = std::min(max_order, (n_rows - 1) / 2 * 2);
+  const auto poles = [&](std::optional<std::size_t> without) {
+    return covariance_poles(sums.covariances(without), highest, rate_hz);
+  };
+  std::vector<PolesByOrder> without_piece;
+  for (std::size_t piece = 0; piece < n_pieces; ++piece) without_piece.push_back(poles(piece));
+  OneRate found{.modes = {},
+                .undamped_hz = {},
+                .n_orders = highest / 2,
+                .rate_hz = rate_hz,
+                .longest_lag_s = 2. * static_cast<double>(n_rows) / rate_hz};
+  for (const Chain& chain : standing_chains(poles(std::nullopt))) {
+    const OutputOnlyMode mode = mode_of(chain, without_piece);
+    if (is_determined(mode, found.longest_lag_s))
+      found.modes.push_back(mode);
+    else if (is_undamped(mode, found.longest_lag_s))
+      found.undamped_hz.push_back(mode.frequency_hz);
+  }
+  return found;
+}
+
+// The longest lag must stay well within one of the pieces that the jackknife leaves out.
+std::size_t most_rows(std::size_t n_samples) {
+  return n_samples / (4 * n_pieces);
+}
+
+OneRate at_given_lags(std::span<const double> moment, double rate_hz,
+                      const OutputOnlyOptions& options) {
+  const std::size_t n_rows = std::min(*options.max_lags, most_rows(moment.size()));
   if (n_rows < 4)
     throw UserError("output-only identification: " + std::to_string(n_rows) +
                     " lags are too few; take at least 4");
-  return {n_rows, std::min(options.max_order, (n_rows - 1) / 2 * 2)};
+  return at_one_rate(moment, rate_hz, n_rows, options.max_order);
+}
+
+/// The full rate first, then each half of the one before.
+std::vector<OneRate> at_falling_rates(std::span<const double> moment, double rate_hz,
+                                      std::size_t max_order) {
+  constexpr std::size_t rows = 40, fewest_rows = 20;
+  std::vector<OneRate> rates{
+      at_one_rate(moment, rate_hz, std::min(rows, most_rows(moment.size())), max_order)};
+  std::vector<double> slower(moment.begin(), moment.end());
+  while (most_rows(slower.size() / 2) >= fewest_rows) {
+    slower = signals::resample(without_line(slower), 2., 1.);
+    const double slower_hz = rates.back().rate_hz / 2.;
+    rates.push_back(
+        at_one_rate(slower, slower_hz, std::min(rows, most_rows(slower.size())), max_order));
+  }
+  return rates;
+}
+
+bool is_same(const Estimate& a_hz, const Estimate& b_hz, double half_width_hz) {
+  return std::abs(a_hz.value - b_hz.value) <
+         half_width_hz + 4. * (a_hz.standard_deviation + b_hz.standard_deviation);
+}
+
+double half_width_hz(const OutputOnlyMode& mode) {
+  return mode.damping_ratio.value * mode.frequency_hz.value;
+}
+
+/// Whether a mode decays by a factor e within these lags.
+bool decays_within(const OutputOnlyMode& mode, double lag_s) {
+  return 2. * std::numbers::pi * half_width_hz(mode) * lag_s > 1.;
+}
+
+/// Adds a mode; of the same mode found twice, the one whose damping is better determined.
+void add(const OutputOnlyMode& mode, std::vector<OutputOnlyMode>& modes) {
+  const auto other = std::ranges::find_if(modes, [&](const OutputOnlyMode& present) {
+    return is_same(present.frequency_hz, mode.frequency_hz, half_width_hz(present));
+  });
+  if (other == modes.end())
+    modes.push_back(mode);
+  else if (mode.damping_ratio.standard_deviation < other->damping_ratio.standard_deviation)
+    *other = mode;
+}
+
+/// Each resonance from the rate whose lags span 8 to 16 of its periods; a slow decay also from half
+/// of that rate.
+void join(const std::vector<OneRate>& rates, OutputOnlyIdentification& found) {
+  constexpr double lowest_share = 0.1, overlap = 0.95;  // of the rate, of the lowest share
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const bool is_lowest = i + 1 == rates.size();
+    const double from_hz = is_lowest ? 0. : overlap * lowest_share * rates[i].rate_hz;
+    const double below_hz = i == 0 ? rates[0].rate_hz : 2. * lowest_share * rates[i].rate_hz;
+    const auto is_here = [&](const Estimate& f) {
+      return f.value >= from_hz && f.value < below_hz;
+    };
+    for (const OutputOnlyMode& mode : rates[i].modes)
+      if (is_here(mode.frequency_hz)) add(mode, found.modes);
+    for (const Estimate& line : rates[i].undamped_hz)
+      if (is_here(line)) found.undamped_hz.push_back(line);
+    if (is_lowest) break;
+    for (const OutputOnlyMode& mode : rates[i + 1].modes)
+      if (is_here(mode.frequency_hz) && !decays_within(mode, rates[i].longest_lag_s))
+        add(mode, found.modes);
+  }
+  // A line near the border of two rates is found twice; longer lags may tell the decay of a line.
+  std::vector<Estimate> lines;
+  for (const Estimate& line : found.undamped_hz) {
+    const auto is_mode = [&](const OutputOnlyMode& mode) {
+      return is_same(mode.frequency_hz, line, half_width_hz(mode));
+    };
+    const auto is_line = [&](const Estimate& other) { return is_same(other, line, 0.); };
+    if (std::ranges::none_of(found.modes, is_mode) && std::ranges::none_of(lines, is_line))
+      lines.push_back(line);
+  }
+  found.undamped_hz = std::move(lines);
 }
 
 }  // namespace
@@ -268,23 +379,18 @@ PolesByOrder covariance_poles(std::span<const double> covariances, std::size_t m
 OutputOnlyIdentification identify_output_only(std::span<const double> moment,
                                               double sampling_rate_hz,
                                               const OutputOnlyOptions& options) {
-  const auto [n_rows, max_order] = checked_sizes(moment, options);
-  const LagSums sums(without_line(moment), 2 * n_rows - 1);
-  const auto poles = [&, max_order = max_order](std::optional<std::size_t> without) {
-    return covariance_poles(sums.covariances(without), max_order, sampling_rate_hz);
-  };
-  std::vector<PolesByOrder> without_piece;
-  for (std::size_t piece = 0; piece < n_pieces; ++piece) without_piece.push_back(poles(piece));
-
+  check_moment(moment, options);
   OutputOnlyIdentification found;
-  found.n_orders = max_order / 2;
-  const double longest_lag_s = 2. * static_cast<double>(n_rows) / sampling_rate_hz;
-  for (const Chain& chain : standing_chains(poles(std::nullopt))) {
-    const OutputOnlyMode mode = mode_of(chain, without_piece);
-    if (is_determined(mode, longest_lag_s))
-      found.modes.push_back(mode);
-    else if (is_undamped(mode, longest_lag_s))
-      found.undamped_hz.push_back(mode.frequency_hz);
+  if (options.max_lags) {
+    OneRate only = at_given_lags(moment, sampling_rate_hz, options);
+    found.n_orders = only.n_orders;
+    found.modes = std::move(only.modes);
+    found.undamped_hz = std::move(only.undamped_hz);
+  } else {
+    const std::vector<OneRate> rates =
+        at_falling_rates(moment, sampling_rate_hz, options.max_order);
+    found.n_orders = rates.front().n_orders;
+    join(rates, found);
   }
   std::ranges::sort(found.modes, {}, [](const auto& mode) { return mode.frequency_hz.value; });
   std::ranges::sort(found.undamped_hz, {}, &Estimate::value);

@@ -2,6 +2,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ struct OutputOnlyOptions {
   std::size_t max_order = 20;  // orders 2, 4, ... as far as the record allows
   /// Rows of the Hankel matrix, as far as the record allows: lags up to twice as many samples
   /// are used. They should span a few periods of the lowest resonance; more only add noise.
-  std::size_t max_lags = 40;
+  /// Nothing: lags from the data, see identify_output_only().
+  std::optional<std::size_t> max_lags = std::nullopt;
 };
 
 /// A resonance whose pole is stable over the orders.
@@ -48,6 +50,11 @@ struct OutputOnlyIdentification {
 /// decay rate from one order to the next, over a third of the orders; its estimate is the median
 /// over these orders. Deviations: jackknife over 20 parts of the record. A mode is returned when
 /// its deviations are below half of zeta f and half of zeta, and the lags span one of its periods.
+/// Without max_lags the record is also taken at the rate divided by 2, 4, 8, ..., as far as it is
+/// long enough, each with 40 rows: a resonance is looked for where the lags span 8 to 16 of its
+/// periods (the highest octaves: at the full rate, the lowest: at the lowest), and one that decays
+/// by less than a factor e within them where they span twice as many, if its damping is better
+/// determined there.
 /// Gain and direct term cannot be identified, and a coloured excitation looks like a resonance of
 /// the structure. Throws UserError for fewer than 400 samples, a constant record, a value that is
 /// not finite, an odd order. Proven by tests/separation/identification/output_only_test.cc: exact

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -15,6 +16,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 using signals::test::rate_hz;
 
@@ -54,6 +56,52 @@ TEST(Identify, FindsTheSensorByEveryMethodAndSaysWhich) {
   const auto unknown = vibrissa("identify '" + record + "' --method arx");
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.errors, HasSubstr("output-error, srivc, frequency"));
+}
+
+TEST(Identify, BeginsWithWhetherTheResultCanBeBelieved) {
+  const Folder folder;
+  const std::string record = folder.file("r.csv"), noise = folder.file("noise.csv");
+  signals::write_record(record, measured(6000));
+  const auto good = vibrissa("identify '" + record + "' -o '" + folder.file("m.json") + "'");
+  ASSERT_EQ(good.status, 0) << good.errors;
+  EXPECT_THAT(good.output, StartsWith("Usable from"));
+  EXPECT_THAT(good.output, HasSubstr("the model above is of the whole record"));
+  const json found = vibrissa("identify '" + record + "' --json").json();
+  EXPECT_EQ(found["usable"], true);
+  EXPECT_EQ(found["modes"].size(), 1u);
+  EXPECT_GT(found["band_hz"][1].get<double>(), 31.);
+  signals::Record unrelated = measured(3000);
+  const auto other = measured(6000).channel(signals::channel::base_moment);
+  unrelated.set_channel(signals::channel::base_moment, {other.end() - 3000, other.end()});
+  signals::write_record(noise, unrelated);
+  EXPECT_THAT(vibrissa("identify '" + noise + "' -o '" + folder.file("n.json") + "'").output,
+              StartsWith("Not usable: "));
+}
+
+TEST(Identify, NamesTwoClocksFirst) {
+  const Folder folder;
+  const std::string record = folder.file("r.csv");
+  signals::Record late = measured(6000);
+  const auto a = late.channel(signals::channel::base_acceleration);
+  std::vector<double> shifted(a.begin(), a.end());
+  std::rotate(shifted.begin(), shifted.end() - 10, shifted.end());
+  late.set_channel(signals::channel::base_acceleration, shifted);
+  signals::write_record(record, late);
+  const auto result = vibrissa("identify '" + record + "' -o '" + folder.file("m.json") + "'");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.output, StartsWith("The moment leads the base acceleration by 2"));
+  EXPECT_THAT(result.output, HasSubstr("two clocks"));
+  EXPECT_THAT(result.output, HasSubstr("31.4"));
+}
+
+TEST(Separate, SaysWhatAModelWouldLeaveWhereNoWindBlows) {
+  const Folder folder;
+  const std::string record = folder.file("r.csv");
+  signals::write_record(record, measured(6000));
+  const auto result = vibrissa("separate '" + record + "' -o '" + folder.file("w.csv") + "'");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("Advice: without wind"));
+  EXPECT_THAT(result.output, HasSubstr("vibrissa identify"));
 }
 
 TEST(Identify, OfAFewHundredSamplesEndsWithATableAndAModel) {
@@ -146,6 +194,15 @@ TEST(Identify, FindsResonanceAndDampingWithoutAnyInputChannel) {
   EXPECT_THAT(found["words"].get<std::string>(), HasSubstr("no gain and no direct term"));
   const auto text = vibrissa("identify '" + record + "' --output-only");
   EXPECT_THAT(text.output, HasSubstr("damping ratio"));
+}
+
+TEST(Identify, OffersTheOutputAloneWhereTheInputIsMissing) {
+  const Folder folder;
+  const auto result =
+      vibrissa("identify '" +
+               folder.write("r.csv", "time_s,base_moment_N_m\n0,1\n0.002,2\n0.004,1\n") + "'");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("--output-only"));
 }
 
 TEST(Identify, RefusesWithoutAnInputWhatNeedsOne) {

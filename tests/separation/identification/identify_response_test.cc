@@ -70,6 +70,20 @@ TEST(IdentifyResponse, GoesByCoherenceWhereThereIsNoDeviation) {
 }
 
 // A curve through all its own lines would fit noise; the lines that it did not see tell.
+TEST(IdentifyResponse, RecognisesTheOtherSignConvention) {
+  signals::FrequencyResponse written;
+  for (int i = 1; i <= 200; ++i) written.frequency_hz.push_back(0.5 * i);
+  written.value = response(test::sensor(1, -2e-7), written.frequency_hz);
+  EXPECT_FALSE(identify_response(written).conjugated);
+  for (auto& value : written.value) value = std::conj(value);
+  const IdentifiedResponse found = identify_response(written);
+  EXPECT_TRUE(found.conjugated);
+  EXPECT_EQ(found.order, 2u);
+  EXPECT_NEAR(found.fit.modes[0].frequency_hz.value, 31.47, 1e-3);
+  EXPECT_NEAR(found.fit.modes[0].damping_ratio.value, 0.027, 1e-5);
+  EXPECT_GT(found.held_out_fit_percent, 99.);
+}
+
 TEST(IdentifyResponse, SaysThatNoiseIsNotExplained) {
   const Bvrm nothing{.modes = {make_modal_term(40., 0.05, 1e-9)}};
   const auto found = identify_response(noisy_response(nothing, 10., 3), {.order = 6});

@@ -41,8 +41,8 @@ TEST(OrderSelection, FittedErrorNeverRisesWithTheOrder) {
       for (std::uint64_t seed = 1; seed <= 2; ++seed) {
         const Rig rig =
             measure(test::sensor(n_modes, -2e-7), 3000, 0.03, accelerometer_noise, seed);
-        const OrderSelection selection = select(rig, {.max_order = 8});
-        ASSERT_EQ(selection.trials.size(), 4u);
+        const OrderSelection selection = select(rig, {.max_order = 8, .fruitless_orders = 4});
+        ASSERT_GE(selection.trials.size(), 2u);
         for (std::size_t i = 1; i < selection.trials.size(); ++i)
           EXPECT_LE(selection.trials[i].fitted_mean_square,
                     selection.trials[i - 1].fitted_mean_square * (1. + 1e-9))

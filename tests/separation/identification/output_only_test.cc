@@ -104,6 +104,21 @@ TEST(OutputOnly, ComesNearTheCramerRaoBoundAndStatesItsDeviation) {
   }
 }
 
+// A ring-down sampled so fast that forty lags see less than a period of it.
+TEST(OutputOnly, FindsASlowDecayFromTheDataAlone) {
+  constexpr double fast_hz = 4000., zeta = 0.005;
+  for (const double frequency_hz : {12., 31., 45.}) {
+    const Bvrm model{.modes = {make_modal_term(frequency_hz, zeta, 1.)}};
+    const Signal x = simulate(model, test::white_noise(120000, 1., 11), fast_hz, Hold::zero_order);
+    const auto found = identify_output_only(x, fast_hz);
+    ASSERT_EQ(found.modes.size(), 1u) << frequency_hz << ": " << found.words;
+    const OutputOnlyMode& mode = found.modes[0];
+    EXPECT_NEAR(mode.frequency_hz.value, frequency_hz, 4. * mode.frequency_hz.standard_deviation);
+    EXPECT_NEAR(mode.damping_ratio.value, zeta, 4. * mode.damping_ratio.standard_deviation);
+    EXPECT_TRUE(identify_output_only(x, fast_hz, {.max_lags = 40}).modes.empty());
+  }
+}
+
 TEST(OutputOnly, FindsNoModeInWhiteNoise) {
   std::size_t n_found = 0;
   for (int draw = 0; draw < 50; ++draw) {

@@ -1,4 +1,4 @@
-#include "separation/identification/identification_json.h"
+#include "separation/verdict/identification_json.h"
 
 #include <algorithm>
 #include <array>
@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "separation/model/simulation.h"
+#include "signals/base/number_text.h"
 
 namespace vibrissa::separation {
 
@@ -52,9 +53,27 @@ nlohmann::json identification_json(const Identification& identification) {
   return document;
 }
 
-nlohmann::json identified_response_json(const IdentifiedResponse& identified) {
+void add_verdict(const Verdict& verdict, nlohmann::json& document) {
+  document["usable"] = verdict.usable;
+  document["verdict"] = verdict.sentence;
+  document["band_hz"] = {verdict.band.low_hz, verdict.band.high_hz};
+  const nlohmann::json all = document["modes"];
+  nlohmann::json modes = nlohmann::json::array(), others = nlohmann::json::array();
+  for (const std::size_t k : verdict.determined) modes.push_back(all[k]);
+  for (const UndeterminedMode& other : verdict.undetermined) {
+    others.push_back(all[other.mode]);
+    others.back()["reason"] = other.reason;
+  }
+  document["modes"] = std::move(modes);
+  document["not_determined"] = std::move(others);
+}
+
+nlohmann::json identified_response_json(const IdentifiedResponse& identified,
+                                        const Verdict& verdict) {
   nlohmann::json document = fitted_json(identified.fit);
+  add_verdict(verdict, document);
   document["fit_percent"] = identified.held_out_fit_percent;
+  document["conjugated"] = identified.conjugated;
   return document;
 }
 
@@ -79,21 +98,31 @@ nlohmann::json output_only_json(const OutputOnlyIdentification& found) {
 
 ModelEvidence examine(const Identification& identification, const signals::Record& fitted,
                       const signals::Record& held_out) {
-  const auto& model = identification.fit.model;
   const auto input = held_out.channel(base_acceleration);
   const auto moment = held_out.channel(base_moment);
-  std::vector<double> residual =
-      simulate_like(model, input, moment, held_out.sampling_rate_hz(), identification.hold);
+  std::vector<double> residual = simulate_like(identification.scored, input, moment,
+                                               held_out.sampling_rate_hz(), identification.hold);
   std::transform(moment.begin(), moment.end(), residual.begin(), residual.begin(), std::minus<>());
+  ResidualTestOptions lags;
+  lags.max_lag = std::min(lags.max_lag, residual.size() / samples_per_lag);
+  ModelEvidence evidence{.poles_zeros = poles_and_zeros(identification.fit),
+                         .residual = test_residual(residual, input, lags),
+                         .hold = {},
+                         .verdict = judge(identification, fitted)};
+  if (identification.held_out_fit_percent > 100. * (1. - exact_share)) {
+    evidence.residual.words = "it is less than " + signals::to_text(100. * exact_share) +
+                              " % of the moment, too small to tell about delay, order or hold";
+    return evidence;
+  }
+  // Between two hits that were glued the record is no answer to its input.
+  if (identification.n_hits > 1) return evidence;
   const std::array<Segment, 1> segments = {
       {{fitted.channel(base_acceleration), fitted.channel(base_moment)}}};
   SrivcOptions told;
   told.hold = identification.hold;
-  told.direct_term = model.direct_term_kg_m != 0.;
-  ResidualTestOptions lags;
-  lags.max_lag = std::min(lags.max_lag, residual.size() / samples_per_lag);
-  return {poles_and_zeros(identification.fit), test_residual(residual, input, lags),
-          check_hold(model, segments, fitted.sampling_rate_hz(), told)};
+  told.direct_term = identification.direct_term;
+  evidence.hold = check_hold(identification.fit.model, segments, fitted.sampling_rate_hz(), told);
+  return evidence;
 }
 
 nlohmann::json evidence_json(const ModelEvidence& evidence) {
@@ -109,7 +138,13 @@ nlohmann::json identification_report(const Identification& identification,
                                      const ModelEvidence& evidence, const std::string& method) {
   nlohmann::json document = identification_json(identification);
   document.update(evidence_json(evidence));
+  add_verdict(evidence.verdict, document);
   document["order_words"] = identification.order_words;
+  if (identification.found_delay_s) {
+    document["delay_s"] = identification.found_delay_s->value;
+    document["delay_sd_s"] = identification.found_delay_s->standard_deviation;
+  }
+  document["scatter_words"] = identification.scatter_words;
   document["method"] = method;
   return document;
 }

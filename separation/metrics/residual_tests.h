@@ -45,7 +45,7 @@ struct ResidualTests {
 /// that is correlated with the input shows a wrong model. Means are removed. Throws UserError for
 /// unequal lengths, fewer than samples_per_lag samples for each lag, a constant signal, values that
 /// are not finite, or a false_alarm outside (0, 1). Proven by
-/// tests/separation/identification/residual_tests_test.cc: rates of false alarms and of detection.
+/// tests/separation/metrics/residual_tests_test.cc: rates of false alarms and of detection.
 ResidualTests test_residual(std::span<const double> residual,
                             std::span<const double> base_acceleration,
                             const ResidualTestOptions& options = {});

@@ -1,4 +1,4 @@
-#include "separation/identification/residual_tests.h"
+#include "separation/metrics/residual_tests.h"
 
 #include <algorithm>
 #include <bit>

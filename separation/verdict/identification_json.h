@@ -7,18 +7,25 @@
 #include "separation/identification/identify.h"
 #include "separation/identification/identify_response.h"
 #include "separation/identification/output_only.h"
-#include "separation/identification/residual_tests.h"
+#include "separation/metrics/residual_tests.h"
 #include "separation/model/poles_zeros.h"
+#include "separation/verdict/verdict.h"
 
 namespace vibrissa::separation {
 
 /// {"modes": [{"frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd",
 /// "static_gain_kg_m", "static_gain_sd_kg_m"}], "direct_term", "direct_term_sd", "order", "end"}.
 nlohmann::json fitted_json(const FittedBvrm& fit);
-/// The same with "fit_percent" of the held-out lines.
-nlohmann::json identified_response_json(const IdentifiedResponse& identified);
+/// The document of `vibrissa identify --frequency-response --json`: the same and that of
+/// add_verdict(), with "fit_percent" of the held-out lines and "conjugated".
+nlohmann::json identified_response_json(const IdentifiedResponse& identified,
+                                        const Verdict& verdict);
 /// The same with "fit_percent" and "vaf_percent" of the held-out record, and "hold".
 nlohmann::json identification_json(const Identification& identification);
+
+/// Adds "usable", "verdict" (the sentence), "band_hz" [low, high], and moves the modes that are not
+/// determined from "modes" to "not_determined", each with its "reason".
+void add_verdict(const Verdict& verdict, nlohmann::json& document);
 
 /// {"modes": [{"frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd", "n_orders"}],
 ///  "undamped": [{"frequency_hz", "frequency_sd_hz"}], "n_orders", "words"}.
@@ -29,9 +36,11 @@ struct ModelEvidence {
   PolesAndZeros poles_zeros;
   ResidualTests residual;
   HoldDiagnosis hold;  // hold of the input between its samples
+  Verdict verdict;
 };
 
-/// Tests the residual on the held-out record and the hold on the fitted record.
+/// Tests the residual of the scored model on the held-out record, and the hold on the fitted
+/// record. An error below exact_share of the moment accuses neither delay nor order nor hold.
 ModelEvidence examine(const Identification& identification, const signals::Record& fitted,
                       const signals::Record& held_out);
 
@@ -39,7 +48,9 @@ ModelEvidence examine(const Identification& identification, const signals::Recor
 ///  "residual_white", "residual_independent_of_input", "residual_words", "hold_words"}.
 nlohmann::json evidence_json(const ModelEvidence& evidence);
 
-/// The document of `vibrissa identify --json`: both of the above, and "order_words", "method".
+/// The document of `vibrissa identify --json`: identification_json(), evidence_json(),
+/// add_verdict(), and "order_words", "scatter_words", "method"; with "delay_s" and
+/// "delay_sd_s" when a delay between the channels was found.
 nlohmann::json identification_report(const Identification& identification,
                                      const ModelEvidence& evidence, const std::string& method);
 

@@ -1,0 +1,195 @@
+#include "separation/verdict/verdict.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include "separation/identification/order_selection.h"
+#include "separation/segments/hit_blocks.h"
+#include "signals/spectra/fft.h"
+#include "signals/spectra/frequency_response.h"
+
+namespace vibrissa::separation {
+
+namespace {
+
+std::string rounded(double value, int digits) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << value;
+  return text.str();
+}
+
+std::string hertz(double value) {
+  return rounded(value, 4) + " Hz";
+}
+
+/// Why this pair of poles is no mode; nothing when it is one.
+std::optional<std::string> reason_against(const ModeEstimate& mode, const Band& band) {
+  const double f = mode.frequency_hz.value, zeta = mode.damping_ratio.value;
+  if (zeta >= 1.) return "two real poles, no oscillation";
+  if (f * (1. + zeta) < band.low_hz || f * (1. - zeta) > band.high_hz)
+    return "outside the band that was excited, " + hertz(band.low_hz) + " to " +
+           hertz(band.high_hz);
+  const double deviation = mode.damping_ratio.standard_deviation;
+  if (!std::isfinite(deviation)) return "the data do not determine the damping";
+  if (!(zeta > 2. * deviation))
+    return "damping ratio " + rounded(zeta, 2) + " +- " + rounded(deviation, 2) +
+           " is not told from zero";
+  return std::nullopt;
+}
+
+template <typename FurtherReason>
+void sort_modes(const FittedBvrm& fit, const FurtherReason& further, Verdict& verdict) {
+  for (std::size_t k = 0; k < fit.modes.size(); ++k) {
+    std::optional<std::string> reason = reason_against(fit.modes[k], verdict.band);
+    if (!reason) reason = further(k);
+    // A mode at the border of stability ends a fit as unstable; it is not told from zero damping.
+    if (!reason && fit.end != FitEnd::converged && fit.end != FitEnd::unstable)
+      reason = "the fit did not converge (" + to_string(fit.end) + ")";
+    if (reason)
+      verdict.undetermined.push_back({k, *reason});
+    else
+      verdict.determined.push_back(k);
+  }
+}
+
+/// explained: share of the variance of unseen data.
+void conclude(const FittedBvrm& fit, double explained_percent, const std::string& unseen,
+              Verdict& verdict) {
+  const std::string share =
+      rounded(explained_percent, explained_percent > 99. ? 4 : 3) + " % of " + unseen;
+  verdict.usable = !verdict.determined.empty() && explained_percent >= 50.;
+  if (verdict.usable) {
+    verdict.sentence = "Usable from " + hertz(verdict.band.low_hz) + " to " +
+                       hertz(verdict.band.high_hz) + ": the model explains " + share + ".";
+    return;
+  }
+  verdict.sentence = "Not usable: ";
+  if (explained_percent < 50.)
+    verdict.sentence += explained_percent > 0. ? "the model explains only " + share
+                                               : "the model explains nothing of " + unseen;
+  else
+    verdict.sentence += "no mode is determined, although the model explains " + share;
+  if (fit.end != FitEnd::converged)
+    verdict.sentence += "; the fit did not converge (" + to_string(fit.end) + ")";
+  verdict.sentence += ".";
+}
+
+/// The sensor answers its base without delay but for the filters of its electronics.
+std::string delay_sentence(const Estimate& delay_s, double rate_hz) {
+  const double ms = 1e3 * delay_s.value;
+  return std::string("The moment ") + (ms < 0. ? "leads" : "lags behind") +
+         " the base acceleration by " + rounded(std::abs(ms), 4) + " +- " +
+         rounded(1e3 * delay_s.standard_deviation, 2) + " ms (" +
+         rounded(std::abs(delay_s.value) * rate_hz, 3) + " samples): " +
+         (ms < 0. ? "no sensor answers before it is moved, so the channels are on two clocks"
+                  : "the channels are on two clocks, or a filter delays the moment") +
+         "; the model has this delay.";
+}
+
+/// The lines up to the first one at which the pulse has less than a tenth of its largest
+/// amplitude, as usual in impact testing (20 dB). Nothing when the input is no hit.
+std::optional<Band> hit_band(const signals::Record& record) {
+  const auto input = record.channel(signals::channel::base_acceleration);
+  if (hits_of(input).empty()) return std::nullopt;
+  const Block block = hit_blocks(input).front();
+  const std::vector<double> pulse = pulses_of(input.subspan(block.first, block.end - block.first));
+  signals::RealFft fft(pulse.size());
+  std::ranges::copy(pulse, fft.time().begin());
+  fft.forward();
+  const auto spectrum = fft.spectrum();
+  constexpr double share = 0.1;
+  double largest = 0.;
+  std::size_t k = 1;
+  for (; k < spectrum.size(); ++k) {
+    largest = std::max(largest, std::abs(spectrum[k]));
+    if (std::abs(spectrum[k]) < share * largest) break;
+  }
+  const double step = record.sampling_rate_hz() / static_cast<double>(pulse.size());
+  return Band{step, static_cast<double>(k - 1) * step};
+}
+
+double line_spacing(const signals::FrequencyResponse& response, double at_hz) {
+  const auto& f = response.frequency_hz;
+  const auto above = std::upper_bound(f.begin() + 1, f.end() - 1, at_hz);
+  return *above - *(above - 1);
+}
+
+}  // namespace
+
+Band coherent_band(const signals::Record& record) {
+  if (const auto hit = hit_band(record)) return *hit;
+  const auto input = record.channel(signals::channel::base_acceleration);
+  const double highest = record.sampling_rate_hz() / 2.;
+  constexpr std::size_t shortest = 32, longest = 2048;
+  const std::size_t segment = std::clamp(std::bit_floor(input.size() / 8), shortest, longest);
+  if (input.size() < 2 * segment) return {0., highest};
+  const signals::WelchOptions options{.segment_samples = segment};
+  const auto response = signals::welch_response(
+      input, record.channel(signals::channel::base_moment), record.sampling_rate_hz(), options);
+  constexpr double false_alarm = 0.01;
+  const double averages = signals::welch_averages(input.size(), options);
+  const double limit =
+      1. - std::pow(false_alarm / static_cast<double>(response.value.size()), 1. / (averages - 1.));
+  Band band{.low_hz = highest, .high_hz = 0.};
+  for (std::size_t i = 0; i < response.value.size(); ++i)
+    if (response.coherence[i] > limit) {
+      band.low_hz = std::min(band.low_hz, response.frequency_hz[i]);
+      band.high_hz = response.frequency_hz[i];
+    }
+  if (band.high_hz < band.low_hz) return {0., highest};
+  return band;
+}
+
+Verdict judge(const Identification& identification, const signals::Record& fitted) {
+  Verdict verdict;
+  verdict.band = coherent_band(fitted);
+  const double duration_s = static_cast<double>(fitted.n_samples()) / fitted.sampling_rate_hz();
+  const FittedBvrm& fit = identification.fit;
+  sort_modes(
+      fit,
+      [&](std::size_t k) -> std::optional<std::string> {
+        Bvrm alone;
+        alone.modes = {fit.model.modes[k]};
+        if (!lasting_mode_hz(alone, duration_s)) return std::nullopt;
+        return "it does not decay within the record";
+      },
+      verdict);
+  conclude(fit, identification.held_out_vaf_percent,
+           "the variance of data that it has not seen (free simulation)", verdict);
+  if (identification.found_delay_s)
+    verdict.sentence = delay_sentence(*identification.found_delay_s, fitted.sampling_rate_hz()) +
+                       " " + verdict.sentence;
+  return verdict;
+}
+
+Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& response) {
+  Verdict verdict;
+  verdict.band = {response.frequency_hz.front(), response.frequency_hz.back()};
+  const bool exact = identified.held_out_fit_percent > 100. * (1. - exact_share);
+  const FittedBvrm& fit = identified.fit;
+  sort_modes(
+      fit,
+      [&](std::size_t k) -> std::optional<std::string> {
+        const double f = fit.modes[k].frequency_hz.value;
+        const double width = 2. * fit.modes[k].damping_ratio.value * f;
+        const double step = line_spacing(response, f);
+        if (exact || width >= 2. * step) return std::nullopt;
+        return "the damping is not resolved: the peak is " + rounded(width, 2) +
+               " Hz wide at half power, the lines are " + rounded(step, 3) +
+               " Hz apart; the frequency is found";
+      },
+      verdict);
+  const double left = 1. - identified.held_out_fit_percent / 100.;
+  conclude(fit, 100. * (1. - left * left), "the variance of lines that it has not seen", verdict);
+  if (identified.conjugated)
+    verdict.sentence +=
+        " The response has the sign convention exp(-j w t); its conjugate was "
+        "fitted.";
+  return verdict;
+}
+
+}  // namespace vibrissa::separation

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "separation/identification/identify.h"
+#include "separation/identification/identify_response.h"
+#include "separation/metrics/metrics.h"
+#include "signals/record/record.h"
+
+namespace vibrissa::separation {
+
+/// A pair of poles of a model that the data do not determine as a mode.
+struct UndeterminedMode {
+  std::size_t mode = 0;  // place in the fit
+  std::string reason;
+};
+
+/// Whether a result can be believed.
+struct Verdict {
+  bool usable = false;
+  std::string sentence;                 // usable or not, for what band, how good on unseen data
+  Band band;                            // where the data tell the model
+  std::vector<std::size_t> determined;  // places in the fit
+  std::vector<UndeterminedMode> undetermined;
+};
+
+/// Share of the moment below which an error is too small to tell about delay, order or hold: no
+/// accelerometer is calibrated that well (ISO 16063-21 reaches 0.5 %).
+inline constexpr double exact_share = 1e-3;
+
+/// The band between the lowest and the highest line whose coherence is above the limit that
+/// unrelated noise exceeds in one record of a hundred: 1 - (0.01 / lines)^(1 / (averages - 1))
+/// (Carter, Knapp & Nuttall 1973). The whole band when no line is above it.
+Band coherent_band(const signals::Record& record);
+
+/// A pair of poles is a mode when the fit converged, it lies within the band, oscillates, decays
+/// within the record, and its damping ratio is above twice its deviation. A model is usable when it
+/// has a mode and explains more of the variance of unseen data than it leaves. Proven by
+/// tests/separation/verdict/verdict_test.cc.
+Verdict judge(const Identification& identification, const signals::Record& fitted);
+
+/// The same for a frequency response, whose band is that of its lines. A resonance with less than
+/// two lines within its half-power width 2 zeta f has no damping that the lines tell, unless the
+/// model is exact.
+Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& response);
+
+}  // namespace vibrissa::separation

@@ -1,0 +1,111 @@
+#include "separation/verdict/verdict.h"
+
+#include <gmock/gmock.h>
+
+#include "separation/model/simulation.h"
+#include "separation/verdict/identification_json.h"
+#include "tests/separation/moment_record.h"
+
+namespace vibrissa::separation {
+namespace {
+
+using test::make_record;
+using test::rate_hz;
+using test::Signal;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+signals::Record noisy_record(const Signal& motion, const Bvrm& truth, double noise_share,
+                             std::uint64_t seed) {
+  const Signal moment = simulate(truth, motion, rate_hz);
+  return make_record(motion, test::plus_noise(moment, noise_share * test::rms(moment), seed));
+}
+
+// Only below 60 Hz.
+Signal slow_motion(std::size_t n, std::uint64_t seed) {
+  return test::Lines(1., 60., 200, seed).sample(n, rate_hz);
+}
+
+FittedBvrm known_fit(const std::vector<ModalTerm>& modes, double relative_deviation) {
+  Bvrm model{.modes = modes};
+  const Eigen::VectorXd parameters = to_parameters(model, false);
+  const Eigen::VectorXd variance = (relative_deviation * parameters).array().square().matrix();
+  return make_fitted(parameters, variance.asDiagonal(), false, 0.);
+}
+
+TEST(Verdict, SaysForWhichBandAModelOfANoisySensorIsUsableAndHowGood) {
+  const signals::Record record =
+      noisy_record(test::white_noise(6000, 3., 1), test::sensor(1), 0.1, 2);
+  const Verdict verdict = judge(identify_record(record), record);
+  EXPECT_TRUE(verdict.usable);
+  EXPECT_THAT(verdict.sentence, AllOf(StartsWith("Usable from"), HasSubstr("99."),
+                                      HasSubstr("data that it has not seen")));
+  EXPECT_EQ(verdict.determined.size(), 1u);
+  EXPECT_LT(verdict.band.low_hz, 31.);
+  EXPECT_GT(verdict.band.high_hz, 60.);
+}
+
+TEST(Verdict, CallsNoiseNotUsable) {
+  const signals::Record record =
+      make_record(test::white_noise(4000, 1., 3), test::white_noise(4000, 1., 4));
+  const Verdict verdict = judge(identify_record(record), record);
+  EXPECT_FALSE(verdict.usable);
+  EXPECT_THAT(verdict.sentence, StartsWith("Not usable: the model explains"));
+}
+
+TEST(Verdict, KnowsTheBandThatWasExcited) {
+  const signals::Record record = noisy_record(slow_motion(8000, 5), test::sensor(1), 0.05, 6);
+  const Band band = coherent_band(record);
+  EXPECT_LT(band.low_hz, 5.);
+  EXPECT_NEAR(band.high_hz, 60., 5.);
+}
+
+TEST(Verdict, SetsPolesApartThatTheDataDoNotTell) {
+  const signals::Record record = noisy_record(slow_motion(8000, 7), test::sensor(1), 0.05, 8);
+  Identification found;
+  found.held_out_vaf_percent = 99.;
+  const auto reasons_of = [&](const ModalTerm& mode, double deviation) {
+    found.fit = known_fit({make_modal_term(30., 0.02, 1e-6), mode}, deviation);
+    const Verdict verdict = judge(found, record);
+    EXPECT_EQ(verdict.determined.size() + verdict.undetermined.size(), 2u);
+    return verdict.undetermined.empty() ? std::string() : verdict.undetermined[0].reason;
+  };
+  EXPECT_EQ(reasons_of(make_modal_term(40., 0.02, 1e-6), 0.01), "");
+  EXPECT_THAT(reasons_of(make_modal_term(150., 0.02, 1e-6), 0.01), HasSubstr("outside the band"));
+  EXPECT_THAT(reasons_of(make_modal_term(40., 3., 1e-6), 0.01), HasSubstr("two real poles"));
+  EXPECT_THAT(reasons_of(make_modal_term(40., 1e-6, 1e-6), 0.01), HasSubstr("does not decay"));
+  EXPECT_THAT(reasons_of(make_modal_term(40., 0.02, 1e-6), 0.8), HasSubstr("not told from zero"));
+  found.fit.end = FitEnd::step_limit;
+  EXPECT_TRUE(judge(found, record).determined.empty());
+}
+
+TEST(Verdict, TakesThePeakBetweenTwoLinesForAFrequencyWithoutDamping) {
+  const Bvrm truth{.modes = {make_modal_term(212.1, 8e-4, 30.)}};
+  std::mt19937_64 random(9);
+  std::normal_distribution<double> normal;
+  signals::FrequencyResponse response;
+  for (double f = 100.; f < 300.; f += 0.3125) response.frequency_hz.push_back(f);
+  response.value = separation::response(truth, response.frequency_hz);
+  for (auto& value : response.value) value += 2. * std::complex(normal(random), normal(random));
+  const Verdict verdict = judge(identify_response(response, {.order = 2}), response);
+  EXPECT_TRUE(verdict.determined.empty());
+  ASSERT_EQ(verdict.undetermined.size(), 1u);
+  EXPECT_THAT(verdict.undetermined[0].reason, HasSubstr("not resolved"));
+  EXPECT_FALSE(verdict.usable);
+}
+
+// A straight line between the samples of a sum of lines is another motion: a small error that
+// follows the input.
+TEST(Verdict, DoesNotAccuseAFitThatIsExact) {
+  const Bvrm truth = test::sensor(1);
+  const signals::Record record = noisy_record(test::white_noise(6000, 3., 10), truth, 2e-4, 11);
+  const Identification found = identify_record(record);
+  const auto [fit, held_out] = hold_out_last_third(record);
+  const ModelEvidence evidence = examine(found, fit, held_out);
+  EXPECT_THAT(evidence.residual.words, HasSubstr("too small to tell"));
+  EXPECT_EQ(evidence.hold.words, "");
+}
+
+}  // namespace
+}  // namespace vibrissa::separation
