@@ -7,6 +7,7 @@
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
 #include "apps/command_line/results.h"
+#include "apps/jobs/model_advice.h"
 #include "apps/jobs/stream_separation.h"
 #include "diagnosis/model/updated_model_json.h"
 #include "diagnosis/prediction/record_simulation.h"
@@ -54,8 +55,10 @@ std::unique_ptr<separation::BvrmSeparator> bvrm_separator(const SeparateOptions&
   return std::make_unique<separation::BvrmSeparator>(bvrm.model, sampling_rate_hz, hold);
 }
 
+/// aligned: the record for filters that only know the past.
 std::vector<views::SeparatedSignal> separate_all(const SeparateOptions& options,
                                                  const signals::Record& record,
+                                                 const signals::Record& aligned,
                                                  const std::vector<double>& truth) {
   const auto measured = record.channel(signals::channel::base_moment);
   std::vector<views::SeparatedSignal> signals{views::score(
@@ -72,7 +75,7 @@ std::vector<views::SeparatedSignal> separate_all(const SeparateOptions& options,
   }
   for (const auto& name : options.methods) {
     const auto separator = separation::stream_method(name).make(options.fdaf);
-    signals.push_back(views::score(name, separation::separate_record(*separator, record), record,
+    signals.push_back(views::score(name, separation::separate_record(*separator, aligned), record,
                                    truth, options.settling_s));
   }
   return signals;
@@ -172,7 +175,11 @@ void separate(const SeparateOptions& options) {
   if (options.truth_column) {
     truth = options.record.read_column(options.record_file, *options.truth_column);
   }
-  const auto signals = separate_all(options, record, truth);
+  const auto advice = options.model_file ? std::nullopt : model_advice(record);
+  const auto signals =
+      separate_all(options, record, advice ? without_lead(record, *advice) : record, truth);
+  const std::string advised =
+      advice ? advice_words(*advice, signals, record.sampling_rate_hz()) : "";
   if (options.dtw_path_file) {
     const auto table = views::warping_table(signals, record, truth, options.settling_s);
     signals::write_file(*options.dtw_path_file, [&](std::ostream& out) { out << table.to_csv(); });
@@ -184,7 +191,9 @@ void separate(const SeparateOptions& options) {
     signals::write_record(*output_file, output);
   }
   if (options.common.json) {
-    print_json(views::separation_json(signals));
+    nlohmann::json document = views::separation_json(signals);
+    if (!advised.empty()) document["advice"] = advised;
+    print_json(document);
     return;
   }
   if (output_file && !options.common.quiet) std::cout << written_record_text(*output_file, record);
@@ -194,6 +203,7 @@ void separate(const SeparateOptions& options) {
   if (!options.common.quiet)
     std::cout << (is_blind ? views::blind_metric_notes : views::metric_notes)(options.settling_s)
               << "\n";
+  if (!advised.empty()) std::cout << "Advice: " << advised << ".\n";
 }
 
 void add_filter_options(CLI::App& command, SeparateOptions& options) {
