@@ -198,9 +198,13 @@ TEST(Identify, FindsResonanceAndDampingWithoutAnyInputChannel) {
 
 TEST(Identify, OffersTheOutputAloneWhereTheInputIsMissing) {
   const Folder folder;
-  const auto result =
-      vibrissa("identify '" +
-               folder.write("r.csv", "time_s,base_moment_N_m\n0,1\n0.002,2\n0.004,1\n") + "'");
+  const auto both = measured(500);
+  signals::Record moment_alone(rate_hz, both.n_samples());
+  const auto m = both.channel(signals::channel::base_moment);
+  moment_alone.set_channel(signals::channel::base_moment, {m.begin(), m.end()});
+  const std::string record = folder.file("r.csv");
+  signals::write_record(record, moment_alone);
+  const auto result = vibrissa("identify '" + record + "'");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.errors, HasSubstr("--output-only"));
 }
