@@ -93,7 +93,7 @@ SelectedOrder best_order(const FrequencyResponse& known, const FrequencyResponse
     const std::optional<FittedBvrm> fit = orders.next();
     if (!fit || best.held_out_error < exact) break;
     const double error = relative_error(held_out, fit->model);
-    if (!(error < share * best.held_out_error)) continue;
+    if (fit->end == FitEnd::poor_excitation || !(error < share * best.held_out_error)) continue;
     best.held_out_error = error;
     gained = order;
     const double criterion = information_criterion(*fit, known.value.size(), direct_term);

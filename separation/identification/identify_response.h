@@ -31,10 +31,11 @@ struct IdentifiedResponse {
 /// signals, with identify_frequency(). The weights come from the standard deviation or, when it is
 /// unknown, from the coherence. The order is selected among the orders up to max_order that predict
 /// the held-out lines clearly better than every lower order: the one with the smallest n ln(mean
-/// |e|^2) + n_parameters ln n, with n real residuals. A stable sensor cannot follow the conjugate
-/// of its response: when the conjugate leaves less than half the error on the held-out lines (of
-/// orders up to 6), the response has the other sign convention. Throws what identify_frequency()
-/// throws. Proven by tests/separation/identification/identify_response_test.cc.
+/// |e|^2) + n_parameters ln n, with n real residuals; a fit that is not determined is no candidate.
+/// A stable sensor cannot follow the conjugate of its response: when the conjugate leaves less than
+/// half the error on the held-out lines (of orders up to 6), the response has the other sign
+/// convention. Throws what identify_frequency() throws. Proven by
+/// tests/separation/identification/identify_response_test.cc.
 IdentifiedResponse identify_response(const signals::FrequencyResponse& response,
                                      const IdentifyResponseOptions& options = {});
 
