@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include "signals/base/error.h"
 #include "signals/files/row_range.h"
@@ -42,7 +44,51 @@ std::string written_record_text(const std::string& file, const signals::Record& 
   return text.str();
 }
 
+namespace {
+
+void add_layout_options(CLI::App& command, RecordOptions& options) {
+  command
+      .add_option(
+          "--gaps", options.gaps,
+          "Where samples are lost: pieces, the longest piece between losses is used; refuse")
+      ->check(CLI::IsMember({"pieces", "refuse"}))
+      ->capture_default_str();
+  command
+      .add_option("--separator", options.separator,
+                  "What separates the columns of a text table (default: recognised)")
+      ->check(CLI::IsMember({"comma", "semicolon", "tab", "blank", "none"}));
+  command
+      .add_option("--decimal", options.decimal,
+                  "Decimal mark of a text table (default: recognised)")
+      ->check(CLI::IsMember({"point", "comma"}));
+  command.add_option("--header-lines", options.header_lines,
+                     "Number of lines before the first row of a text table (default: recognised)");
+}
+
+signals::formats::TextOptions text_options(const RecordOptions& options) {
+  static const std::map<std::string, char> separators{
+      {"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"blank", ' '}, {"none", '\0'}};
+  signals::formats::TextOptions text;
+  if (options.separator) text.separator = separators.at(*options.separator);
+  if (options.decimal) text.decimal = *options.decimal == "comma" ? ',' : '.';
+  text.header_lines = options.header_lines;
+  return text;
+}
+
+}  // namespace
+
+void say_how_read(const std::string& file, const std::string& words) {
+  std::cerr << file << ": read as: " << words << std::endl;
+}
+
+bool RecordOptions::is_quiet() const {
+  const CLI::Option* const quiet =
+      command_ == nullptr ? nullptr : command_->get_option_no_throw("--quiet");
+  return quiet != nullptr && quiet->count() > 0;
+}
+
 void RecordOptions::add_to(CLI::App& command) {
+  command_ = &command;
   command.add_option(
       "--column", columns,
       "Says which column of the file is which channel: CHANNEL=COLUMN. Channels: time, "
@@ -56,12 +102,15 @@ void RecordOptions::add_to(CLI::App& command) {
                      "FIRST:LAST: rows that are used; row 1 is the first behind the column names");
   command.add_option("--remove-mean", remove_mean,
                      "Channel whose mean is subtracted, e.g. base_acceleration; repeatable");
+  add_layout_options(command, *this);
 }
 
 signals::ReadOptions RecordOptions::read_options() const {
   signals::ReadOptions options;
   options.sampling_rate_hz = rate_hz;
   options.remove_mean = remove_mean;
+  options.text = text_options(*this);
+  options.gaps = gaps == "pieces" ? signals::Gaps::pieces : signals::Gaps::refuse;
   if (rows) {
     const signals::RowRange range = signals::parse_rows(*rows, "--rows");
     options.first_row = range.first;
@@ -71,11 +120,25 @@ signals::ReadOptions RecordOptions::read_options() const {
   return options;
 }
 
-signals::Record RecordOptions::read(const std::string& file) const {
-  signals::Record record = signals::read_record(file, read_options());
-  for (const std::string& remark : signals::implausible_magnitudes(record))
+signals::Recording RecordOptions::read_pieces(const std::string& file) const {
+  signals::Recording recording = signals::read_recording(file, read_options());
+  if (!is_quiet()) say_how_read(file, recording.words);
+  for (const std::string& remark :
+       signals::implausible_magnitudes(recording.pieces[recording.longest()]))
     std::cerr << "warning: " << file << ": " << remark << std::endl;
-  return record;
+  return recording;
+}
+
+signals::Record RecordOptions::read(const std::string& file) const {
+  signals::Recording recording = read_pieces(file);
+  const std::size_t longest = recording.longest();
+  signals::Record& record = recording.pieces[longest];
+  if (recording.pieces.size() > 1)
+    std::cerr << "warning: " << file << ": samples are lost, so only the longest piece is used, "
+              << longest + 1 << " of " << recording.pieces.size() << ": " << record.n_samples()
+              << " samples from " << record.time_s(0) << " s on; 'vibrissa convert' writes all"
+              << std::endl;
+  return std::move(record);
 }
 
 std::vector<double> RecordOptions::read_column(const std::string& file,

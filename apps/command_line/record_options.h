@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -11,22 +12,37 @@
 
 namespace vibrissa::apps {
 
-/// How a command takes a record file: --column, --rate, --rows, --remove-mean.
+/// How a command takes a record file: --column, --rate, --rows, --remove-mean, --gaps, and the
+/// layout of a text table.
 struct RecordOptions {
   std::vector<std::string> columns;
   std::optional<double> rate_hz;
   std::optional<std::string> rows;
   std::vector<std::string> remove_mean;
+  std::string gaps = "pieces";
+  std::optional<std::string> separator, decimal;
+  std::optional<std::size_t> header_lines;
 
   void add_to(CLI::App& command);
-  /// Throws UserError as read_record does, and for rows that are not FIRST:LAST.
-  /// Warns on standard error of magnitudes that look like another unit's.
+  /// The longest piece. Says on standard error how the file was read, which piece this is, and
+  /// which magnitudes look like another unit's. Throws UserError as read_recording does, and for
+  /// rows that are not FIRST:LAST.
   signals::Record read(const std::string& file) const;
+  /// All pieces; says the same.
+  signals::Recording read_pieces(const std::string& file) const;
   /// What read_record is told. Throws UserError as read does.
   signals::ReadOptions read_options() const;
   /// One further column of the same rows, in its own unit.
   std::vector<double> read_column(const std::string& file, const std::string& column) const;
+
+ private:
+  bool is_quiet() const;
+
+  const CLI::App* command_ = nullptr;
 };
+
+/// "FILE: read as: WORDS" on standard error.
+void say_how_read(const std::string& file, const std::string& words);
 
 /// {"record", "samples", "sampling_rate_hz", "channels"}: what a command says of a record it wrote.
 nlohmann::json written_record_json(const std::string& file, const signals::Record& record);

@@ -36,16 +36,35 @@ void convert_response(const ConvertOptions& options) {
     std::cout << "wrote " << options.to << ": " << response.frequency_hz.size() << " frequencies\n";
 }
 
-void convert(const ConvertOptions& options) {
-  const signals::Record record = options.record.read(options.from);
-  if (options.mat_version == "7.3" && signals::formats::extension_of(options.to) == ".mat")
-    signals::formats::write_mat(options.to, record, signals::formats::MatVersion::v7_3);
+void write(const ConvertOptions& options, const std::string& file, const signals::Record& record) {
+  if (options.mat_version == "7.3" && signals::formats::extension_of(file) == ".mat")
+    signals::formats::write_mat(file, record, signals::formats::MatVersion::v7_3);
   else
-    signals::write_record(options.to, record);
-  if (options.common.json)
-    print_json(written_record_json(options.to, record));
-  else if (!options.common.quiet)
-    std::cout << written_record_text(options.to, record);
+    signals::write_record(file, record);
+}
+
+// "out_2.csv" for the second piece of "out.csv".
+std::string file_of_piece(const std::string& file, const std::size_t piece) {
+  std::filesystem::path path(file);
+  path.replace_filename(path.stem().string() + "_" + std::to_string(piece + 1) +
+                        path.extension().string());
+  return path.string();
+}
+
+void convert(const ConvertOptions& options) {
+  const signals::Recording recording = options.record.read_pieces(options.from);
+  nlohmann::json written = nlohmann::json::array();
+  const bool is_one = recording.pieces.size() == 1;
+  for (std::size_t i = 0; i < recording.pieces.size(); ++i) {
+    const signals::Record& record = recording.pieces[i];
+    const std::string file = is_one ? options.to : file_of_piece(options.to, i);
+    refuse_overwriting({options.from}, {file});
+    write(options, file, record);
+    written.push_back(written_record_json(file, record));
+    if (!options.common.json && !options.common.quiet)
+      std::cout << written_record_text(file, record);
+  }
+  if (options.common.json) print_json(is_one ? written.front() : written);
 }
 
 }  // namespace
@@ -53,11 +72,13 @@ void convert(const ConvertOptions& options) {
 void add_convert_command(CLI::App& app) {
   const auto options = std::make_shared<ConvertOptions>();
   auto* command = app.add_subcommand(
-      "convert", "Converts a record from one file format to another, units to SI");
+      "convert",
+      "Converts a record from one file format to another, units to SI; where samples are lost, "
+      "each piece becomes a file (OUT_1, OUT_2, ...)");
   command
       ->add_option("from", options->from,
                    "Record: .csv, .mat (MATLAB 4, 5, 7.3), .h5, .hdf5, .npy, .uff, .unv, .uf58 "
-                   "(Universal File, type 58), .wav")
+                   "(Universal File, type 58), .wav, else text")
       ->required();
   command->add_option("to", options->to, "File written: .csv, .mat, .h5, .hdf5, .npy, .uff, .unv")
       ->required();

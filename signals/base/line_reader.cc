@@ -39,6 +39,9 @@ FileBytes::FileBytes(const std::filesystem::path& file)
   ::close(std::exchange(descriptor_, -1));
 }
 
+FileBytes::FileBytes(const std::filesystem::path& file, std::string bytes)
+    : name_(file.string()), held_(std::move(bytes)) {}
+
 FileBytes::~FileBytes() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }

@@ -12,6 +12,8 @@ namespace vibrissa::signals {
 class FileBytes {
  public:
   explicit FileBytes(const std::filesystem::path& file);
+  /// Bytes that are in memory already; the file only names them.
+  FileBytes(const std::filesystem::path& file, std::string bytes);
   ~FileBytes();
   FileBytes(FileBytes&& other) noexcept;
   FileBytes(const FileBytes&) = delete;
@@ -26,7 +28,7 @@ class FileBytes {
 };
 
 /// Reads the lines of the bytes [from, to). The buffer has the length of a block, or of the longest
-/// line. Proven by tests/signals/formats/csv_file_test.cc.
+/// line. Proven by tests/signals/formats/text_file_test.cc.
 class LineReader {
  public:
   LineReader(const FileBytes& bytes, std::size_t from, std::size_t to);

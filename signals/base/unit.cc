@@ -2,6 +2,7 @@
 
 #include <udunits2.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -9,6 +10,7 @@
 
 #include "signals/base/decimal_point.h"
 #include "signals/base/error.h"
+#include "signals/base/lower_case.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -38,7 +40,9 @@ const Words& usual_words() {
   static const Words words{{"Nm", "(N.m)"},     {"mNm", "(mN.m)"},     {"uNm", "(uN.m)"},
                            {"Nmm", "(N.mm)"},   {"mNmm", "(mN.mm)"},   {"uNmm", "(uN.mm)"},
                            {"mps", "(m/s)"},    {"mmps", "(mm/s)"},    {"radps", "(rad/s)"},
-                           {"mph", "(mile/h)"}, {"dps", "(degree/s)"}, {"deg", "degree"}};
+                           {"mph", "(mile/h)"}, {"dps", "(degree/s)"}, {"deg", "degree"},
+                           {"sec", "s"},        {"secs", "s"},         {"msec", "ms"},
+                           {"usec", "us"},      {"kmh", "(km/h)"},     {"kph", "(km/h)"}};
   return words;
 }
 
@@ -48,6 +52,7 @@ const Words& gravity_words() {
     all["g"] = all["gn"] = "(9.80665 m.s-2)";
     all["mg"] = "(9.80665e-3 m.s-2)";
     all["ug"] = "(9.80665e-6 m.s-2)";
+    all["G"] = all["g"];
     return all;
   }();
   return words;
@@ -75,7 +80,17 @@ std::string replaced(const std::string& text, const Words& words) {
 }
 
 Unit parse(const std::string& text) {
-  return Unit(ut_parse(unit_system(), text.c_str(), UT_UTF8));
+  Unit unit(ut_parse(unit_system(), text.c_str(), UT_UTF8));
+  // "Volts" and "Newtons".
+  if (!unit && text.size() > 3)
+    unit.reset(ut_parse(unit_system(), lower_case(text).c_str(), UT_UTF8));
+  return unit;
+}
+
+// UDUNITS has global state.
+std::mutex& alone() {
+  static std::mutex mutex;
+  return mutex;
 }
 
 std::unique_ptr<cv_converter, Free> converter(const Unit& from, const Unit& to) {
@@ -85,10 +100,18 @@ std::unique_ptr<cv_converter, Free> converter(const Unit& from, const Unit& to) 
 
 }  // namespace
 
+bool is_unit(const std::string& text) {
+  constexpr std::size_t longest = 30;
+  const bool has_letter =
+      std::any_of(text.begin(), text.end(), [](const char c) { return is_letter(c) || c == '%'; });
+  if (!has_letter || text.size() > longest) return false;
+  const std::lock_guard lock(alone());
+  const DecimalPoint in_its_tables;
+  return parse(replaced(text, gravity_words())) != nullptr;
+}
+
 UnitConversion convert_unit(const std::string& from, const std::string& to) {
-  // UDUNITS has global state.
-  static std::mutex alone;
-  const std::lock_guard lock(alone);
+  const std::lock_guard lock(alone());
   const DecimalPoint in_its_tables;
   const Unit target = parse(replaced(to, usual_words()));
   const Unit plain = parse(replaced(from, usual_words()));

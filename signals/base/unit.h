@@ -25,4 +25,7 @@ class UnitError : public UserError {
 /// quantity. Proven by tests/signals/base/unit_test.cc.
 UnitConversion convert_unit(const std::string& from, const std::string& to);
 
+/// Whether the text is a unit: "m/s^2", "mN mm", "Volts"; a number alone is none.
+bool is_unit(const std::string& text);
+
 }  // namespace vibrissa::signals

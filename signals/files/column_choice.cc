@@ -38,7 +38,8 @@ ColumnChoice parse_column_choice(const std::string& text) {
   if (channel.empty()) refuse(text, unknown_name("channel", name, known_channels()));
   const ScaledName column = scaled_column(text.substr(equals + 1), unit_of_channel(channel), text);
   if (column.name.empty()) refuse(text, "the name of the column is missing after '='");
-  return {channel, column.name, column.scale, column.offset, column.name_with_unit};
+  return {channel,       column.name,           column.scale,
+          column.offset, column.name_with_unit, column.has_unit};
 }
 
 }  // namespace vibrissa::signals

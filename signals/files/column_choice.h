@@ -13,6 +13,7 @@ struct ColumnChoice {
   /// The name with its unit in brackets, because the name in the file may contain the unit; empty:
   /// no unit.
   std::string column_with_unit{};
+  bool has_unit = false;  // the scale converts a unit that the choice states
 };
 
 /// Parses CHANNEL=COLUMN[unit]*FACTOR[unit]..., where units and factors may be absent:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 
 #include "signals/base/error.h"
 #include "signals/base/json_input.h"
@@ -142,19 +143,13 @@ void refuse_misplaced(const json& document, const std::string& name) {
   }
 }
 
-DatasetRecord read_entry(const fs::path& folder, const json& document, const json& entry,
-                         const std::string& where, const ReadOptions& given) {
-  if (!entry.is_object()) refuse_dataset(where, "must be an object");
-  for (const auto& item : entry.items())
-    if (!holds(record_keys, item.key()))
-      refuse_dataset(where, unknown_name("entry", item.key(), record_keys));
-  const std::string file = text_of(entry, "file", where, "");
-  if (file.empty())
-    refuse_dataset(where, "the entry 'file' is missing or empty; name the file of the record");
+/// A record with what its entry says of it.
+DatasetRecord described_record(const json& document, const json& entry, const std::string& where,
+                               const std::string& name, Record record) {
   const std::string readout = text_of(document, "readout", where, "moment");
-  DatasetRecord result{
-      .name = fs::path(file).stem().string(),
-      .record = read_record(folder / file, options_of(document, entry, where, given)),
+  return {
+      .name = name,
+      .record = std::move(record),
       .excitation = excitation_of(text_of(entry, "excitation", where, ""), where + "/excitation"),
       .period_samples = period_of(entry, where),
       .split = split_of(text_of(entry, "split", where, "fit"), where + "/split"),
@@ -162,11 +157,36 @@ DatasetRecord read_entry(const fs::path& folder, const json& document, const jso
       .setup = setup_of(document, entry, where),
       .clock_start_s = clock_start_of(entry, where),
       .readout_is_given = document.contains("readout") || entry.contains("readout")};
-  if (result.period_samples > result.record.n_samples())
-    refuse_dataset(
-        where + "/period_samples",
-        "is longer than the record of " + std::to_string(result.record.n_samples()) + " samples");
-  return result;
+}
+
+/// One record, or each piece that has a whole period.
+void read_entry(const fs::path& folder, const json& document, const json& entry,
+                const std::string& where, const ReadOptions& given, Dataset& dataset) {
+  if (!entry.is_object()) refuse_dataset(where, "must be an object");
+  for (const auto& item : entry.items())
+    if (!holds(record_keys, item.key()))
+      refuse_dataset(where, unknown_name("entry", item.key(), record_keys));
+  const std::string file = text_of(entry, "file", where, "");
+  if (file.empty())
+    refuse_dataset(where, "the entry 'file' is missing or empty; name the file of the record");
+  Recording recording = read_recording(folder / file, options_of(document, entry, where, given));
+  dataset.readings.push_back((folder / file).string() + ": read as: " + recording.words);
+  const bool is_one = recording.pieces.size() == 1;
+  const double start_s = recording.pieces.front().time_s(0);
+  const std::size_t longest = recording.pieces[recording.longest()].n_samples();
+  for (std::size_t i = 0; i < recording.pieces.size(); ++i) {
+    const std::string name =
+        fs::path(file).stem().string() + (is_one ? "" : "_" + std::to_string(i + 1));
+    const double after_s = recording.pieces[i].time_s(0) - start_s;
+    DatasetRecord record =
+        described_record(document, entry, where, name, std::move(recording.pieces[i]));
+    if (record.period_samples > longest)
+      refuse_dataset(where + "/period_samples",
+                     "is longer than the record of " + std::to_string(longest) + " samples");
+    if (record.period_samples > record.record.n_samples()) continue;
+    record.clock_start_s += after_s;
+    dataset.records.push_back(std::move(record));
+  }
 }
 
 Dataset read_described(const fs::path& folder, const fs::path& file, const ReadOptions& given) {
@@ -180,8 +200,8 @@ Dataset read_described(const fs::path& folder, const fs::path& file, const ReadO
   refuse_misplaced(document, name);
   Dataset dataset;
   for (std::size_t i = 0; i < document["records"].size(); ++i)
-    dataset.records.push_back(read_entry(folder, document, document["records"][i],
-                                         name + ": /records/" + std::to_string(i), given));
+    read_entry(folder, document, document["records"][i], name + ": /records/" + std::to_string(i),
+               given, dataset);
   return dataset;
 }
 
@@ -230,22 +250,36 @@ std::vector<fs::path> record_files(const fs::path& folder) {
   return files;
 }
 
+void add_guessed(const std::string& name, const Record& record, const double clock_start_s,
+                 Dataset& dataset) {
+  const Excitation excitation{.base = moves(record, channel::base_acceleration),
+                              .wind = moves(record, channel::wind_speed)};
+  const std::size_t n_fit = record.n_samples() * 2 / 3;
+  dataset.records.push_back({.name = name,
+                             .record = record.slice(0, n_fit),
+                             .excitation = excitation,
+                             .split = Split::fit,
+                             .clock_start_s = clock_start_s});
+  dataset.records.push_back(
+      {.name = name + "_last_third",
+       .record = record.slice(n_fit, record.n_samples() - n_fit),
+       .excitation = excitation,
+       .split = Split::held_out,
+       .clock_start_s = clock_start_s + record.time_s(n_fit) - record.time_s(0)});
+  dataset.guesses.push_back(name + ": excitation " + to_string(excitation) +
+                            ", not periodic, last third held out");
+}
+
 Dataset guess(const std::vector<fs::path>& files, const ReadOptions& options) {
   Dataset dataset;
   for (const fs::path& file : files) {
-    const Record record = read_record(file, options);
-    const Excitation excitation{.base = moves(record, channel::base_acceleration),
-                                .wind = moves(record, channel::wind_speed)};
-    const std::size_t n_fit = record.n_samples() * 2 / 3;
-    const std::string name = file.stem().string();
-    dataset.records.push_back({name, record.slice(0, n_fit), excitation, 0, Split::fit});
-    dataset.records.push_back({.name = name + "_last_third",
-                               .record = record.slice(n_fit, record.n_samples() - n_fit),
-                               .excitation = excitation,
-                               .split = Split::held_out,
-                               .clock_start_s = record.time_s(n_fit) - record.time_s(0)});
-    dataset.guesses.push_back(name + ": excitation " + to_string(excitation) +
-                              ", not periodic, last third held out");
+    const Recording recording = read_recording(file, options);
+    dataset.readings.push_back(file.string() + ": read as: " + recording.words);
+    const bool is_one = recording.pieces.size() == 1;
+    const double start_s = recording.pieces.front().time_s(0);
+    for (std::size_t i = 0; i < recording.pieces.size(); ++i)
+      add_guessed(file.stem().string() + (is_one ? "" : "_" + std::to_string(i + 1)),
+                  recording.pieces[i], recording.pieces[i].time_s(0) - start_s, dataset);
   }
   return dataset;
 }

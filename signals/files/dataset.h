@@ -45,6 +45,8 @@ struct Dataset {
   std::vector<DatasetRecord> records;
   /// Assumptions about what the folder does not state; empty when it states everything.
   std::vector<std::string> guesses;
+  /// How each file was read: "bench.csv: read as: ..."
+  std::vector<std::string> readings = {};
 };
 
 /// Reads FOLDER/dataset.json ("vibrissa-dataset-1") and its records. Without dataset.json it reads
@@ -52,9 +54,10 @@ struct Dataset {
 /// channels that vary (a white acceleration below 0.1 m/s2 rms is noise), and the last third of
 /// each record is held out. dataset.json may contain, for all records or for one, "columns":
 /// {"base_acceleration": "ax[g]"} and "remove_mean": ["base_acceleration"]; otherwise the given
-/// options apply. Throws UserError with file and entry for: a missing source, no records, a wrong
-/// schema or entry (lists the known words), a rate that contradicts time_s, a period longer than
-/// its record, a record without a base moment, and all errors of read_record. Proven by
+/// options apply. Where samples are lost and options.gaps allows it, each piece is a record. Throws
+/// UserError with file and entry for: a missing source, no records, a wrong schema or entry (lists
+/// the known words), a rate that contradicts time_s, a period longer than its record, a record
+/// without a base moment, and all errors of read_record. Proven by
 /// tests/signals/files/dataset_test.cc.
 Dataset read_dataset(const std::filesystem::path& source, const ReadOptions& options = {});
 

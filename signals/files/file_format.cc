@@ -4,10 +4,11 @@
 
 #include "signals/base/lower_case.h"
 #include "signals/formats/csv_record.h"
-#include "signals/formats/csv_table.h"
+#include "signals/formats/file_kind.h"
 #include "signals/formats/hdf5_file.h"
 #include "signals/formats/mat_file.h"
 #include "signals/formats/npy_file.h"
+#include "signals/formats/text/text_table.h"
 #include "signals/formats/uff58/uff58_record.h"
 #include "signals/formats/wav_file.h"
 
@@ -24,8 +25,14 @@ std::unique_ptr<RecordTable> read_wav_table(const std::filesystem::path& file) {
                                         TimeAxis{0., content.sampling_rate_hz});
 }
 
-std::unique_ptr<RecordTable> open_csv(const std::filesystem::path& file) {
-  return std::make_unique<CsvTable>(file);
+std::unique_ptr<RecordTable> open_text_table(const std::filesystem::path& file,
+                                             const TextOptions& options) {
+  return std::make_unique<TextTable>(file, options);
+}
+
+// A reader of a format without choices.
+auto plain(std::unique_ptr<RecordTable> (*const open)(const std::filesystem::path&)) {
+  return [open](const std::filesystem::path& file, const TextOptions&) { return open(file); };
 }
 
 void write_mat_5(const std::filesystem::path& file, const Record& record) {
@@ -40,12 +47,12 @@ void write_responses(const std::filesystem::path& file, const Record& record) {
 
 const std::vector<FileFormat>& file_formats() {
   static const std::vector<FileFormat> formats = {
-      {{".csv"}, open_csv, write_csv},
-      {{".mat"}, read_mat, write_mat_5},
-      {{".h5", ".hdf5"}, read_hdf5, write_hdf5},
-      {{".npy"}, read_npy, write_npy},
-      {{".uff", ".unv", ".uf58"}, read_uff58_table, write_responses},
-      {{".wav"}, read_wav_table, {}}};
+      {{".csv"}, open_text_table, write_csv},
+      {{".mat"}, plain(read_mat), write_mat_5},
+      {{".h5", ".hdf5"}, plain(read_hdf5), write_hdf5},
+      {{".npy"}, plain(read_npy), write_npy},
+      {{".uff", ".unv", ".uf58"}, plain(read_uff58_table), write_responses},
+      {{".wav"}, plain(read_wav_table), {}}};
   return formats;
 }
 
@@ -65,8 +72,11 @@ const FileFormat& format_of(const std::filesystem::path& file) {
   return found == formats.end() ? formats.front() : *found;
 }
 
-std::unique_ptr<RecordTable> open_table(const std::filesystem::path& file) {
-  return format_of(file).open(file);
+std::unique_ptr<RecordTable> open_table(const std::filesystem::path& file,
+                                        const TextOptions& options) {
+  const FileFormat& format = format_of(file);
+  refuse_other_kinds(file, format.extensions.front());
+  return format.open(file, options);
 }
 
 }  // namespace vibrissa::signals::formats

@@ -1,6 +1,11 @@
 #include "signals/files/record_io.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "signals/base/error.h"
+#include "signals/base/number_text.h"
 #include "signals/files/file_format.h"
 #include "signals/files/record_rows.h"
 #include "signals/files/record_sources.h"
@@ -18,16 +23,48 @@ void remove_means(const ReadOptions& options, Record& record) {
   }
 }
 
+std::string sizes_of(const Recording& recording, const Clock& clock) {
+  std::size_t n_samples = 0;
+  for (const Record& piece : recording.pieces) n_samples += piece.n_samples();
+  std::string text = std::to_string(n_samples) + " samples, " +
+                     to_text(std::round(1e3 * double(n_samples) / clock.sampling_rate_hz) / 1e3) +
+                     " s";
+  if (recording.pieces.size() > 1)
+    text += " in " + std::to_string(recording.pieces.size()) + " pieces";
+  if (const std::size_t short_ones = clock.pieces.size() - recording.pieces.size(); short_ones > 0)
+    text += ", without " + std::to_string(short_ones) + (short_ones == 1 ? " piece" : " pieces") +
+            " of fewer than " + std::to_string(least_samples);
+  return text;
+}
+
 }  // namespace
 
-Record read_record(const std::filesystem::path& file, const ReadOptions& options) {
+std::size_t Recording::longest() const {
+  const auto shorter = [](const Record& a, const Record& b) {
+    return a.n_samples() < b.n_samples();
+  };
+  return std::size_t(std::max_element(pieces.begin(), pieces.end(), shorter) - pieces.begin());
+}
+
+Recording read_recording(const std::filesystem::path& file, const ReadOptions& options) {
   check(options);
-  const auto table = formats::open_table(file);
+  const auto table = formats::open_table(file, options.text);
+  for (const ColumnChoice& choice : options.columns) table->take_rows_of(choice.column);
   const Sources sources = find_sources(*table, options);
   const std::size_t n_rows = number_of_rows(*table, options);
-  Record record = read_rows(*table, file.string(), sources, options, n_rows);
-  remove_means(options, record);
-  return record;
+  std::optional<Clock> clock;
+  Recording recording;
+  recording.pieces = read_rows(*table, file.string(), sources, options, n_rows, clock);
+  for (Record& piece : recording.pieces) remove_means(options, piece);
+  const std::string layout = table->layout_text();
+  recording.words = (layout.empty() ? "" : layout + "; ") + clock->words + "; " +
+                    sizes_of(recording, *clock) + "; " + to_string(sources, *table);
+  return recording;
+}
+
+Record read_record(const std::filesystem::path& file, const ReadOptions& options) {
+  Recording recording = read_recording(file, options);
+  return std::move(recording.pieces[recording.longest()]);
 }
 
 void write_record(const std::filesystem::path& file, const Record& record) {

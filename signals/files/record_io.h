@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "signals/files/column_choice.h"
+#include "signals/formats/text/table_layout.h"
 #include "signals/record/record.h"
 
 namespace vibrissa::signals {
+
+/// What happens where samples are lost: an error, or each piece between losses is a record.
+enum class Gaps { refuse, pieces };
 
 /// How a record file is read. Rows are data rows, counted from 1 after the header line.
 struct ReadOptions {
@@ -18,17 +22,34 @@ struct ReadOptions {
   std::size_t first_row = 1;
   std::optional<std::size_t> n_rows = {};
   std::vector<std::string> remove_mean = {};  // channels whose mean is removed
+  formats::TextOptions text = {};             // of a text table
+  Gaps gaps = Gaps::refuse;
 };
 
-/// Reads a record: CSV, or according to the ending of its name MATLAB, HDF5, NumPy, Universal File
-/// type 58, WAV (formats/file_format.h). Without a choice of columns it reads all columns that are
-/// known channels or end in a unit (hall_mT), with their own names, and ignores the others, such as
-/// text. A rate that is given in addition to a time column must agree with it to 0.1 % and is used
-/// then; without time the first row of the file is at 0 s. Only the chosen rows are checked. Proven
-/// by tests/signals/files/record_io_test.cc, csv_file_test.cc and time_axis_test.cc. Throws
-/// UserError with file, line and column for: a missing file or column, text that is not a number,
-/// NaN or infinity, a gap in time, time that decreases, a repeated column name, rows of unequal
-/// length, fewer than 64 samples, a rate that contradicts time_s, a missing channel in remove_mean.
+/// The records of a file and how it was read.
+struct Recording {
+  std::vector<Record> pieces;  // in the order of the file; one where nothing is lost
+  /// For the user: "semicolons, decimal commas, names in line 1; 500 Hz from 't'; 10000 samples,
+  /// 20 s; base_acceleration_m_s2 = ax [g] * 9.80665".
+  std::string words;
+  std::size_t longest() const;  // index of the piece with the most samples
+};
+
+/// Reads the records of a file of any format (formats/file_format.h). Without a choice of columns
+/// it reads all columns that are known channels or end in a unit (hall_mT), with their own names,
+/// and ignores the others, such as text. Units that the file states are converted. The clock is a
+/// column of times (record/clock.h), or the rate that the file states. A rate that is given in
+/// addition to a time column must agree with it to 0.1 % and is used then; without time the first
+/// row of the file is at 0 s. Only the chosen rows are checked. Proven by
+/// tests/signals/files/record_io_test.cc, tests/signals/formats/text_file_test.cc,
+/// tests/signals/record/time_axis_test.cc and clock_test.cc. Throws UserError with file, line and
+/// column for: a missing file or column, text that is not a number, NaN or infinity, lost samples
+/// (unless they make pieces), uneven sampling, rows of unequal length, fewer than 64 samples, a
+/// rate that contradicts the time, a unit that does not measure what the channel does, a missing
+/// channel in remove_mean.
+Recording read_recording(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// The longest record of read_recording.
 Record read_record(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Writes the record in the format of the file's ending: .mat (MATLAB 5), .h5 or .hdf5, .npy, .uff,

@@ -12,6 +12,7 @@
 namespace vibrissa::signals {
 namespace {
 
+using formats::ColumnValues;
 using formats::RecordTable;
 
 void convert(const RecordTable& file, const Source& source, const std::size_t first_row,
@@ -34,38 +35,117 @@ std::string time_unit_hint(const double ratio) {
   return near(1e6) ? "; the column seems to be in us" : "";
 }
 
-// Time axis of a time column; a rate that is also given must agree and is then used.
-TimeAxis axis_of_column(const RecordTable& file, const std::string& path, const Source& time,
-                        const std::vector<double>& times_s, const TimeDigits& digits,
-                        const ReadOptions& options) {
-  const RecordTable::RowNames names = file.row_names();
-  TimeAxis axis = find_time_axis({.times_s = times_s,
-                                  .digits = digits,
-                                  .unit_s = time.scale,
-                                  .file = path,
-                                  .first_line = options.first_row + names.offset,
-                                  .column = file.columns()[time.column],
-                                  .row_word = names.word});
-  const auto stated = file.clock();
-  const std::optional<double> known = options.sampling_rate_hz ? options.sampling_rate_hz
-                                      : stated ? std::optional(stated->sampling_rate_hz)
-                                               : std::nullopt;
-  if (!known) return axis;
-  if (std::abs(*known - axis.sampling_rate_hz) > 1e-3 * axis.sampling_rate_hz)
-    throw UserError(path + ": the given sampling rate " + to_text(*known) +
-                    " Hz contradicts column '" + file.columns()[time.column] + "', which gives " +
-                    to_text(axis.sampling_rate_hz) +
-                    " Hz; correct the rate (--rate, or sampling_rate_hz in dataset.json or in the "
-                    "file) or the column" +
-                    time_unit_hint(*known / axis.sampling_rate_hz));
-  axis.sampling_rate_hz = *known;
-  return axis;
+// Whole numbers may count ms, us or ticks.
+void check_time_unit(const RecordTable& file, const Source& time, const std::size_t first_row,
+                     const std::vector<double>& times) {
+  const bool are_whole =
+      std::all_of(times.begin(), times.end(), [](const double t) { return t == std::floor(t); });
+  const std::string first = file.text(first_row, time.column);
+  if (!are_whole || first.find_first_of(":T") != std::string::npos) return;
+  const std::string& name = file.columns()[time.column];
+  throw UserError(file.place(0) + "the unit of the time column '" + name +
+                  "' is not known, because its numbers are whole; give it, as in --column 'time=" +
+                  name + "[ms]' or 'time=" + name + "[s]'");
 }
 
-TimeAxis axis_without_column(const RecordTable& file, const ReadOptions& options) {
+// First rows of the recordings of the file within the rows, from 0.
+std::vector<std::size_t> blocks_within(const RecordTable& file, const std::size_t first_row,
+                                       const std::size_t n_rows) {
+  std::vector<std::size_t> starts;
+  for (const std::size_t row : file.block_starts())
+    if (row > first_row && row < first_row + n_rows) starts.push_back(row - first_row);
+  return starts;
+}
+
+// A rate that is given, or that the file states exactly, must agree with the stamps and is used.
+void settle_rate(const RecordTable& file, const std::string& path, const std::string& column,
+                 const ReadOptions& options, Clock& clock) {
+  const auto stated = file.clock();
+  std::optional<double> known = options.sampling_rate_hz;
+  if (!known && stated) known = stated->sampling_rate_hz;
+  if (!known) return;
+  const bool is_nominal = !options.sampling_rate_hz && file.clock_is_nominal();
+  const double allowed = is_nominal ? 0.2 : 1e-3;
+  if (std::abs(*known - clock.sampling_rate_hz) > allowed * clock.sampling_rate_hz)
+    throw UserError(path + ": the " + (is_nominal ? "stated" : "given") + " sampling rate " +
+                    to_text(*known) + " Hz contradicts column '" + column + "', which gives " +
+                    to_text(clock.sampling_rate_hz) +
+                    " Hz; correct the rate (--rate, or sampling_rate_hz in dataset.json or in the "
+                    "file) or the column" +
+                    time_unit_hint(*known / clock.sampling_rate_hz));
+  if (!is_nominal) clock.sampling_rate_hz = *known;
+}
+
+// Times since 1970 need more digits than a double has: they begin anew at the first row.
+void begin_at_zero(std::vector<double>& times_s) {
+  constexpr double long_ago_s = 1e8;
+  const double start = times_s.front();
+  if (std::abs(start) < long_ago_s) return;
+  for (double& time : times_s) time -= start;
+}
+
+Clock clock_of_column(const RecordTable& file, const std::string& path, const Sources& sources,
+                      std::vector<double>& times_s, const TimeDigits& digits,
+                      const ReadOptions& options) {
+  const Source& time = *sources.time;
+  if (sources.time_unit_is_unknown) check_time_unit(file, time, options.first_row, times_s);
+  begin_at_zero(times_s);
+  const PrintedTimes printed{
+      .times_s = times_s,
+      .digits = digits,
+      .unit_s = time.scale,
+      .file = path,
+      .first_line = file.row_number(options.first_row),
+      .column = file.columns()[time.column],
+      .row_word = file.row_word(),
+      .line_of = [&](const std::size_t i) { return file.row_number(options.first_row + i); }};
+  Clock clock = find_clock(printed, blocks_within(file, options.first_row, times_s.size()));
+  settle_rate(file, path, printed.column, options, clock);
+  if (options.gaps == Gaps::pieces || clock.pieces.size() == 1) return clock;
+  find_time_axis(printed);  // names a gap of an exact grid
+  refuse_lost_samples(printed, clock);
+  return clock;
+}
+
+// Without stamps every block begins at the stated start.
+Clock clock_without_column(const RecordTable& file, const std::string& path,
+                           const ReadOptions& options, const std::size_t n_rows) {
   const TimeAxis stated = file.clock().value_or(TimeAxis{0., 0.});
-  const double rate = options.sampling_rate_hz.value_or(stated.sampling_rate_hz);
-  return {stated.start_s + static_cast<double>(options.first_row - 1) / rate, rate};
+  Clock clock;
+  clock.sampling_rate_hz = options.sampling_rate_hz.value_or(stated.sampling_rate_hz);
+  clock.words = to_text(clock.sampling_rate_hz) + " Hz";
+  std::vector<std::size_t> starts = blocks_within(file, options.first_row, n_rows);
+  if (!starts.empty() && options.gaps == Gaps::refuse)
+    throw UserError(path + ": contains " + std::to_string(starts.size() + 1) +
+                    " recordings, the second from " + file.row_word() + " " +
+                    std::to_string(file.row_number(options.first_row + starts.front())) +
+                    " on; choose one by --rows");
+  starts.insert(starts.begin(), 0);
+  starts.push_back(n_rows);
+  for (std::size_t p = 0; p + 1 < starts.size(); ++p)
+    clock.pieces.push_back({starts[p], starts[p + 1] - starts[p], stated.start_s});
+  clock.pieces.front().start_s += double(options.first_row - 1) / clock.sampling_rate_hz;
+  if (clock.pieces.size() > 1)
+    clock.words += "; " + std::to_string(clock.pieces.size()) + " recordings in the file";
+  return clock;
+}
+
+std::vector<Record> records_of(const Sources& sources, const Clock& clock,
+                               std::vector<std::vector<double>>& values) {
+  std::vector<Record> records;
+  for (const ClockPiece& piece : clock.pieces) {
+    if (piece.count < least_samples) continue;
+    records.emplace_back(clock.sampling_rate_hz, piece.count, piece.start_s);
+    const bool is_all = clock.pieces.size() == 1;
+    for (std::size_t c = 0; c < sources.channels.size(); ++c) {
+      const auto begin = values[c].begin() + std::ptrdiff_t(piece.first);
+      records.back().set_channel(
+          sources.channels[c].channel,
+          is_all ? std::move(values[c])
+                 : std::vector<double>(begin, begin + std::ptrdiff_t(piece.count)));
+    }
+  }
+  return records;
 }
 
 }  // namespace
@@ -92,23 +172,36 @@ std::size_t number_of_rows(const RecordTable& file, const ReadOptions& options) 
   return count;
 }
 
-Record read_rows(const RecordTable& file, const std::string& path, const Sources& sources,
+Clock read_clock(const RecordTable& file, const std::string& path, const Sources& sources,
                  const ReadOptions& options, const std::size_t n_rows) {
+  if (!sources.time) return clock_without_column(file, path, options, n_rows);
+  const std::size_t column = sources.time->column;
+  auto [values, digits] = file.read({{&column, 1}, options.first_row, n_rows, column});
+  convert(file, *sources.time, options.first_row, values.front());
+  return clock_of_column(file, path, sources, values.front(), digits, options);
+}
+
+std::vector<Record> read_rows(const RecordTable& file, const std::string& path,
+                              const Sources& sources, const ReadOptions& options,
+                              const std::size_t n_rows, std::optional<Clock>& clock) {
   std::vector<Source> wanted = sources.channels;
-  if (sources.time) wanted.push_back(*sources.time);
+  const bool reads_time = sources.time && !clock;
+  if (reads_time) wanted.push_back(*sources.time);
   std::vector<std::size_t> columns;
   for (const Source& source : wanted) columns.push_back(source.column);
-  const auto time_column = sources.time ? std::optional(sources.time->column) : std::nullopt;
+  const auto time_column = reads_time ? std::optional(sources.time->column) : std::nullopt;
   auto [values, digits] = file.read({columns, options.first_row, n_rows, time_column});
   for (std::size_t c = 0; c < values.size(); ++c)
     convert(file, wanted[c], options.first_row, values[c]);
-  const TimeAxis axis =
-      sources.time ? axis_of_column(file, path, *sources.time, values.back(), digits, options)
-                   : axis_without_column(file, options);
-  Record record(axis.sampling_rate_hz, n_rows, axis.start_s);
-  for (std::size_t c = 0; c < sources.channels.size(); ++c)
-    record.set_channel(sources.channels[c].channel, std::move(values[c]));
-  return record;
+  if (!clock)
+    clock = reads_time ? clock_of_column(file, path, sources, values.back(), digits, options)
+                       : clock_without_column(file, path, options, n_rows);
+  std::vector<Record> records = records_of(sources, *clock, values);
+  if (records.empty())
+    throw UserError(path + ": " + clock->words + "; none of the " +
+                    std::to_string(clock->pieces.size()) + " pieces between them has " +
+                    std::to_string(least_samples) + " samples, which a record needs");
+  return records;
 }
 
 }  // namespace vibrissa::signals

@@ -5,64 +5,37 @@
 #include <cmath>
 
 #include "signals/base/error.h"
+#include "signals/base/number_text.h"
+#include "signals/base/unit.h"
 #include "signals/record/channel_name.h"
+#include "signals/record/column_unit.h"
 
 namespace vibrissa::signals {
 namespace {
 
-std::optional<std::size_t> find_column(const formats::RecordTable& file, const std::string& name) {
-  const auto& names = file.columns();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return {};
-  return static_cast<std::size_t>(found - names.begin());
+using formats::RecordTable;
+
+/// A column of the file: its name, and the unit that the file states beside or in the name.
+struct FileColumn {
+  std::string name, bare_name, unit;
+  bool has_unit_of_its_own = false;  // beside the name
+};
+
+std::vector<FileColumn> file_columns(const RecordTable& file) {
+  std::vector<FileColumn> columns;
+  const std::vector<std::string> units = file.units();
+  for (std::size_t i = 0; i < file.columns().size(); ++i) {
+    const std::string& name = file.columns()[i];
+    NamedUnit parts = split_unit(name);
+    columns.push_back(
+        {name, parts.name, units[i].empty() ? parts.unit : units[i], !units[i].empty()});
+  }
+  return columns;
 }
 
 std::string without_spaces(std::string text) {
   std::erase(text, ' ');
   return text;
-}
-
-// Finds a column by its name or, when a header contains units, by name and unit.
-std::size_t column_of(const formats::RecordTable& file, const ColumnChoice& choice) {
-  if (const auto column = find_column(file, choice.column)) return *column;
-  const std::string with_unit = without_spaces(choice.column_with_unit);
-  for (std::size_t i = 0; !with_unit.empty() && i < file.columns().size(); ++i)
-    if (without_spaces(file.columns()[i]) == with_unit) return i;
-  throw UserError(file.place(0) + unknown_name("column", choice.column, file.columns()));
-}
-
-Sources chosen_sources(const formats::RecordTable& file, const std::vector<ColumnChoice>& choices) {
-  Sources sources;
-  for (const ColumnChoice& choice : choices) {
-    assert(!choice.channel.empty() && std::isfinite(choice.scale) && choice.scale != 0.);
-    const Source source = {choice.channel, column_of(file, choice), choice.scale, choice.offset};
-    const auto same = [&](const Source& other) { return other.channel == source.channel; };
-    if (sources.time && source.channel == time_channel)
-      throw UserError("two columns are chosen for time; keep one");
-    if (std::any_of(sources.channels.begin(), sources.channels.end(), same))
-      throw UserError("two columns are chosen for channel '" + source.channel + "'; keep one");
-    if (source.channel == time_channel)
-      sources.time = source;
-    else
-      sources.channels.push_back(source);
-  }
-  return sources;
-}
-
-/// Adds the channels that were not chosen, from columns that were not chosen; when nothing was
-/// chosen, also other measured columns.
-void add_channels_by_name(const formats::RecordTable& file, Sources& sources) {
-  const std::vector<Source> chosen = sources.channels;
-  for (std::size_t i = 0; i < file.columns().size(); ++i) {
-    const std::string& name = file.columns()[i];
-    const bool is_time = name == time_channel || (sources.time && sources.time->column == i);
-    const bool is_channel =
-        full_channel_name(name) == name || (chosen.empty() && ends_with_unit(name));
-    const bool is_chosen = std::any_of(chosen.begin(), chosen.end(), [&](const Source& source) {
-      return source.column == i || source.channel == name;
-    });
-    if (!is_time && is_channel && !is_chosen) sources.channels.push_back({name, i});
-  }
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -71,13 +44,183 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+/// Finds channels among the columns of one file.
+class SourceFinder {
+ public:
+  explicit SourceFinder(const RecordTable& file) : file_(file), columns_(file_columns(file)) {}
+
+  Sources chosen(const std::vector<ColumnChoice>& choices) const;
+  void add_channels_by_name(Sources& sources) const;
+  void add_time_by_name(Sources& sources, bool needs_time) const;
+
+ private:
+  std::size_t column_of(const ColumnChoice& choice) const;
+  Source source_of(const ColumnChoice& choice) const;
+  Source by_name(const std::string& channel, std::size_t column) const;
+  UnitConversion conversion(std::size_t column, const std::string& channel) const;
+  Source time_source(std::size_t column, Sources& sources) const;
+
+  const RecordTable& file_;
+  std::vector<FileColumn> columns_;
+};
+
+// By the name in the file, by name and unit, or by the name without its unit.
+std::size_t SourceFinder::column_of(const ColumnChoice& choice) const {
+  const auto place = [&](const auto& is_it) {
+    return std::size_t(std::find_if(columns_.begin(), columns_.end(), is_it) - columns_.begin());
+  };
+  const std::size_t n = columns_.size();
+  std::size_t i = place([&](const FileColumn& column) { return column.name == choice.column; });
+  const std::string with_unit = without_spaces(choice.column_with_unit);
+  if (i == n && !with_unit.empty())
+    i = place([&](const auto& column) { return without_spaces(column.name) == with_unit; });
+  const auto has_bare_name = [&](const auto& column) { return column.bare_name == choice.column; };
+  if (i == n && std::count_if(columns_.begin(), columns_.end(), has_bare_name) == 1)
+    i = place(has_bare_name);
+  if (i == n)
+    throw UserError(file_.place(0) + unknown_name("column", choice.column, file_.columns()));
+  return i;
+}
+
+UnitConversion SourceFinder::conversion(const std::size_t column,
+                                        const std::string& channel) const {
+  const FileColumn& from = columns_[column];
+  const std::string to = unit_of_channel(channel);
+  try {
+    return convert_unit(from.unit, to);
+  } catch (const UnitError&) {
+    const std::string name = full_channel_name(channel);
+    throw UserError(file_.place(0) + "column '" + from.name + "' is in " + from.unit +
+                    ", but channel " + channel + " is in " + to +
+                    "; give the calibration, as in --column '" +
+                    channel.substr(0, channel.size() - unit_at_the_end(channel).size() - 1) + "=" +
+                    from.bare_name + "[" + from.unit + "]*0.18[" + to + "/(" + from.unit +
+                    ")]', or the unit that is right");
+  }
+}
+
+// A factor other than a sign, or a unit of the choice, says how the column is converted; otherwise
+// the unit of the file does.
+Source SourceFinder::source_of(const ColumnChoice& choice) const {
+  Source source{choice.channel, column_of(choice), choice.scale, choice.offset,
+                split_unit(choice.column_with_unit).unit};
+  const FileColumn& column = columns_[source.column];
+  std::string unit = column.unit;
+  if (unit.empty() && choice.channel == time_channel) unit = unit_of_time_name(column.name);
+  const bool is_known = full_channel_name(choice.channel) == choice.channel;
+  if (choice.has_unit || unit.empty() || std::abs(choice.scale) != 1. || !is_known) return source;
+  // A column of dates has no unit.
+  if (choice.channel == time_channel && column.unit.empty())
+    source.scale *= convert_unit(unit, "s").scale;
+  else {
+    const UnitConversion found = conversion(source.column, choice.channel);
+    source.offset = choice.scale * found.offset;
+    source.scale = choice.scale * found.scale;
+  }
+  source.unit = unit;
+  return source;
+}
+
+Sources SourceFinder::chosen(const std::vector<ColumnChoice>& choices) const {
+  Sources sources;
+  for (const ColumnChoice& choice : choices) {
+    assert(!choice.channel.empty() && std::isfinite(choice.scale) && choice.scale != 0.);
+    const auto same = [&](const Source& other) { return other.channel == choice.channel; };
+    if (sources.time && choice.channel == time_channel)
+      throw UserError("two columns are chosen for time; keep one");
+    if (std::any_of(sources.channels.begin(), sources.channels.end(), same))
+      throw UserError("two columns are chosen for channel '" + choice.channel + "'; keep one");
+    if (choice.channel == time_channel)
+      sources.time = source_of(choice);
+    else
+      sources.channels.push_back(source_of(choice));
+  }
+  return sources;
+}
+
+// The name of a channel states its unit; a unit beside the name must be the same.
+Source SourceFinder::by_name(const std::string& channel, const std::size_t column) const {
+  const FileColumn& from = columns_[column];
+  if (full_channel_name(channel) != channel || from.unit.empty()) return {channel, column};
+  const UnitConversion found = conversion(column, channel);
+  const bool is_same = std::abs(found.scale - 1.) < 1e-12 && found.offset == 0.;
+  if (from.name == channel && !is_same)
+    throw UserError(file_.place(0) + "column '" + from.name + "' has a name in " +
+                    unit_of_channel(channel) + ", but the file states " + from.unit +
+                    "; say which is right, as in --column '" + channel + "=" + from.name + "[" +
+                    from.unit + "]'");
+  if (is_same) return {channel, column};
+  return {channel, column, found.scale, found.offset, from.unit};
+}
+
+/// Adds the channels that were not chosen, from columns that were not chosen; when nothing was
+/// chosen, also other measured columns.
+void SourceFinder::add_channels_by_name(Sources& sources) const {
+  const std::vector<Source> chosen = sources.channels;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const FileColumn& column = columns_[i];
+    const bool has_channel_name = full_channel_name(column.name) == column.name;
+    const std::string by_bare_name = column.unit.empty() ? "" : full_channel_name(column.bare_name);
+    const std::string channel =
+        has_channel_name || by_bare_name.empty() ? column.name : by_bare_name;
+    const bool is_time = channel == time_channel || (sources.time && sources.time->column == i);
+    const bool is_channel =
+        has_channel_name || !by_bare_name.empty() ||
+        (chosen.empty() && ends_with_unit(column.name) && !is_time_name(column.name));
+    const auto is_taken = [&](const Source& source) {
+      return source.column == i || source.channel == channel;
+    };
+    const bool is_chosen = std::any_of(chosen.begin(), chosen.end(), is_taken) ||
+                           std::any_of(sources.channels.begin(), sources.channels.end(), is_taken);
+    if (!is_time && is_channel && !is_chosen) sources.channels.push_back(by_name(channel, i));
+  }
+}
+
+Source SourceFinder::time_source(const std::size_t column, Sources& sources) const {
+  const FileColumn& from = columns_[column];
+  const std::string unit = from.unit.empty() ? unit_of_time_name(from.name) : from.unit;
+  sources.time_unit_is_unknown = unit.empty();
+  if (unit.empty()) return {time_channel, column};
+  return {time_channel, column, convert_unit(unit, "s").scale, 0., unit};
+}
+
+// time_s, or without another clock the column with the name of a time; one that tells its unit
+// first.
+void SourceFinder::add_time_by_name(Sources& sources, const bool needs_time) const {
+  if (sources.time) return;
+  const auto is_free = [&](const std::size_t i) {
+    return std::none_of(sources.channels.begin(), sources.channels.end(),
+                        [&](const Source& source) { return source.column == i; });
+  };
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    if (columns_[i].name == time_channel) sources.time = by_name(time_channel, i);
+  if (sources.time || !needs_time) return;
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const FileColumn& column = columns_[i];
+    if (!is_time_name(column.name) || !is_free(i)) continue;
+    const bool tells_unit = !column.unit.empty() || !unit_of_time_name(column.name).empty();
+    if (!column.unit.empty()) {
+      try {
+        convert_unit(column.unit, "s");
+      } catch (const UnitError&) {
+        continue;
+      }
+    }
+    if (!found || tells_unit) found = i;
+    if (tells_unit) break;
+  }
+  if (found) sources.time = time_source(*found, sources);
+}
+
 }  // namespace
 
 Sources find_sources(const formats::RecordTable& file, const ReadOptions& options) {
-  Sources sources = chosen_sources(file, options.columns);
-  add_channels_by_name(file, sources);
-  if (const auto time = find_column(file, time_channel); time && !sources.time)
-    sources.time = {time_channel, *time};
+  const SourceFinder finder(file);
+  Sources sources = finder.chosen(options.columns);
+  finder.add_channels_by_name(sources);
+  const bool has_exact_clock = file.clock() && !file.clock_is_nominal();
+  finder.add_time_by_name(sources, !options.sampling_rate_hz && !has_exact_clock);
   if (sources.channels.empty())
     throw UserError(
         file.place(0) +
@@ -91,6 +234,20 @@ Sources find_sources(const formats::RecordTable& file, const ReadOptions& option
         "or name the time column, as in --column 'time=t[ms]'. Columns: " +
         listed(file.columns()));
   return sources;
+}
+
+std::string to_string(const Sources& sources, const formats::RecordTable& file) {
+  std::string text;
+  for (const Source& source : sources.channels) {
+    const std::string& column = file.columns()[source.column];
+    text.append(text.empty() ? "" : ", ").append(source.channel);
+    if (column != source.channel) text.append(" = ").append(column);
+    if (!source.unit.empty() && column.find(source.unit) == std::string::npos)
+      text.append(" [").append(source.unit).append("]");
+    if (source.scale != 1.) text.append(" * ").append(to_text(source.scale));
+    if (source.offset != 0.) text.append(" + ").append(to_text(source.offset));
+  }
+  return text;
 }
 
 }  // namespace vibrissa::signals

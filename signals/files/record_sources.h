@@ -15,15 +15,21 @@ struct Source {
   std::size_t column;
   double scale = 1.;
   double offset = 0.;
+  std::string unit = {};  // that the file states and the scale converts
 };
 
 struct Sources {
   std::vector<Source> channels;
   std::optional<Source> time;  // without it the clock is stated in the file or in the options
+  bool time_unit_is_unknown = false;  // then times with fractions are in seconds
 };
 
-/// Finds which columns of a file become which channels. Throws UserError as read_record does for
-/// columns that do not exist, are chosen twice, or are missing.
+/// Finds which columns of a file become which channels, and converts the units that the file
+/// states. Throws UserError as read_record does for columns that do not exist, are chosen twice, or
+/// are missing, and for units that do not measure what the channel does.
 Sources find_sources(const formats::RecordTable& file, const ReadOptions& options);
+
+/// "base_acceleration_m_s2 = ax [g] * 9.80665, base_moment_N_m = M".
+std::string to_string(const Sources& sources, const formats::RecordTable& file);
 
 }  // namespace vibrissa::signals

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
@@ -16,7 +17,7 @@ constexpr std::size_t block_samples = std::size_t{1} << 14;
 }  // namespace
 
 RecordStream::RecordStream(const std::filesystem::path& file, const ReadOptions& options)
-    : file_(file), options_(options), table_(formats::open_table(file)) {
+    : file_(file), options_(options), table_(formats::open_table(file, options.text)) {
   if (!options.remove_mean.empty())
     throw UserError(
         "--remove-mean needs the whole record, but a stream reads one block after the other; leave "
@@ -24,32 +25,50 @@ RecordStream::RecordStream(const std::filesystem::path& file, const ReadOptions&
   check(options);
   sources_ = find_sources(*table_, options_);
   n_rows_ = number_of_rows(*table_, options_);
-  axis_ = axis_of_all();
+  find_axis();
 }
 
 Record RecordStream::read(const std::size_t first, const std::size_t count) const {
   ReadOptions part = options_;
   part.first_row = options_.first_row + first;
-  return read_rows(*table_, file_.string(), sources_, part, count);
+  std::optional<Clock> clock;
+  if (is_from_all_stamps_) {
+    clock.emplace();
+    clock->sampling_rate_hz = axis_.sampling_rate_hz;
+    clock->pieces = {{0, count, axis_.start_s + double(first) / axis_.sampling_rate_hz}};
+  }
+  return std::move(read_rows(*table_, file_.string(), sources_, part, count, clock).front());
 }
 
-// The rate of the first block, unless the time of the last sample contradicts it.
-TimeAxis RecordStream::axis_of_all() const {
+// The rate of the first block, unless the time of the last sample contradicts it. Stamps that
+// jitter need a regression over all.
+void RecordStream::find_axis() {
+  ReadOptions options = options_;
+  options.gaps = Gaps::refuse;
   const std::size_t few = std::min(block_samples, n_rows_);
-  const Record first = read(0, few);
-  const TimeAxis told{first.time_s(0), first.sampling_rate_hz()};
-  if (!sources_.time || few == n_rows_) return told;
+  const Clock first = read_clock(*table_, file_.string(), sources_, options, few);
+  axis_ = {first.pieces.front().start_s, first.sampling_rate_hz};
+  if (!sources_.time || few == n_rows_) {
+    is_from_all_stamps_ = first.rate_error_hz > 0.;
+    return;
+  }
+  if (first.rate_error_hz > 0.) {
+    const Clock all = read_clock(*table_, file_.string(), sources_, options, n_rows_);
+    axis_ = {all.pieces.front().start_s, all.sampling_rate_hz};
+    is_from_all_stamps_ = true;
+    return;
+  }
   const std::size_t n_last = std::min<std::size_t>(n_rows_, 64);
   const Record last = read(n_rows_ - n_last, n_last);
-  const double span_s = last.time_s(n_last - 1) - first.time_s(0);
-  const double whole_hz = static_cast<double>(n_rows_ - 1) / span_s;
-  const double off_samples = std::abs(span_s * told.sampling_rate_hz - double(n_rows_ - 1));
+  const double span_s = last.time_s(n_last - 1) - axis_.start_s;
+  const double off_samples = std::abs(span_s * axis_.sampling_rate_hz - double(n_rows_ - 1));
   constexpr double allowed_samples = 0.1;
-  return {told.start_s, off_samples < allowed_samples ? told.sampling_rate_hz : whole_hz};
+  if (off_samples >= allowed_samples)
+    axis_.sampling_rate_hz = static_cast<double>(n_rows_ - 1) / span_s;
 }
 
 void RecordStream::check_joins(const Record& block, const std::size_t first) const {
-  if (!sources_.time) return;
+  if (!sources_.time || is_from_all_stamps_) return;
   const double expected_s = axis_.start_s + static_cast<double>(first) / axis_.sampling_rate_hz;
   constexpr double allowed_samples = 0.45;
   if (std::abs(block.time_s(0) - expected_s) * axis_.sampling_rate_hz <= allowed_samples) return;

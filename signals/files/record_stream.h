@@ -11,8 +11,9 @@
 
 namespace vibrissa::signals {
 
-/// Reads a record file block by block. Of a CSV file only one block is in memory; of other formats
-/// the whole file is. Each block is checked as in read_record, and must begin where the previous
+/// Reads a record file block by block. Of a text file only one block is in memory, and
+/// once the time stamps where they jitter; of other formats the whole file is. Lost samples are
+/// refused. Each block is checked as in read_record, and must begin where the previous
 /// block ended. Proven by tests/apps/stream_test.cc.
 class RecordStream {
  public:
@@ -30,7 +31,7 @@ class RecordStream {
 
  private:
   Record read(std::size_t first, std::size_t count) const;
-  TimeAxis axis_of_all() const;
+  void find_axis();
   void check_joins(const Record& block, std::size_t first) const;
 
   std::filesystem::path file_;
@@ -39,6 +40,7 @@ class RecordStream {
   Sources sources_;
   std::size_t n_rows_ = 0, n_read_ = 0;
   TimeAxis axis_{0., 0.};
+  bool is_from_all_stamps_ = false;  // they jitter, so a block alone does not tell the rate
 };
 
 }  // namespace vibrissa::signals

@@ -25,7 +25,8 @@ std::vector<Uff58Function> uff58_of(const FrequencyResponse& response, const std
 /// Which values of a file are the response, and their unit.
 struct ResponseChoice {
   /// NAME[unit]*FACTOR[unit]..., in the form of parse_scaled_name; each part is optional: "H[mN
-  /// mm/g]", "[uT/g]*0.18[N m/T]", "3" for the third function of a Universal File.
+  /// mm/g]", "[uT/g]*0.18[N m/T]", "3" for the third function of a Universal File; or conj(...) for
+  /// a response with the convention exp(-j w t).
   std::string as{};
 };
 
@@ -34,10 +35,11 @@ struct ResponseChoice {
 /// there are several; coherence and standard deviation as write_response() stores them. Other
 /// formats: columns frequency_hz (or frequency, freq, f) and NAME with real and imaginary part as
 /// NAME_real and NAME_imaginary (a complex array of a .mat is both) or, for one response, real and
-/// imaginary, or magnitude... and phase_deg (or phase_rad); and optionally standard_deviation...
-/// and coherence. NAME is response, frf, H, or the given name. Lines at 0 Hz, or at the frequency
-/// of the previous line, are ignored. Throws UserError for missing columns or functions (lists the
-/// available ones), decreasing frequencies, units that are not a moment per acceleration, and what
+/// imaginary, or magnitude... (in dB where its name or a negative value says so) and phase in deg
+/// or rad; and optionally standard_deviation... and coherence. NAME is response, frf, H, or the
+/// given name. Lines at 0 Hz, or at the frequency of the previous line, are ignored. Throws
+/// UserError for missing columns or functions (lists the available ones), decreasing frequencies, a
+/// phase that rises through the resonances, units that are not a moment per acceleration, and what
 /// opening the file throws. Proven by tests/signals/formats/response_reader_test.cc and
 /// tests/apps/exchange.py.
 FrequencyResponse read_response(const std::filesystem::path& file,

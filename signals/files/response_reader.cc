@@ -2,9 +2,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -12,10 +14,12 @@
 #include "signals/base/lower_case.h"
 #include "signals/base/number_text.h"
 #include "signals/base/scaled_name.h"
+#include "signals/base/trimmed.h"
 #include "signals/base/unit.h"
 #include "signals/files/file_format.h"
 #include "signals/files/response_file.h"
 #include "signals/formats/uff58/uff58_exact.h"
+#include "signals/record/column_unit.h"
 
 namespace vibrissa::signals::formats {
 namespace {
@@ -60,6 +64,7 @@ class Columns {
     if (at == names.end()) return {};
     return static_cast<std::size_t>(at - names.begin());
   }
+  std::size_t size() const { return table_.columns().size(); }
   const std::string& name(const std::size_t column) const { return table_.columns()[column]; }
   Values values(const std::size_t column) const {
     const std::array<std::size_t, 1> wanted{column};
@@ -73,9 +78,44 @@ class Columns {
   const RecordTable& table_;
 };
 
+// The name in lower case without its unit, and the unit: "phase", "deg" of "Phase [deg]" and
+// "phase_deg".
+NamedUnit plain_name(const std::string& column) {
+  std::string name = lower_case(column);
+  const std::size_t open = name.find_first_of("[(");
+  if (open != std::string::npos && (name.ends_with(']') || name.ends_with(')')))
+    return {std::string(trimmed(name.substr(0, open))),
+            std::string(trimmed(name.substr(open + 1, name.size() - open - 2)))};
+  for (const std::string unit : {"deg", "rad", "db", "hz"})
+    if (name.ends_with("_" + unit)) return {name.substr(0, name.size() - unit.size() - 1), unit};
+  return {name, ""};
+}
+
+// Columns whose plain name begins so, and their units.
+std::vector<std::pair<std::size_t, std::string>> columns_called(
+    const Columns& columns, const std::initializer_list<std::string_view> names) {
+  std::vector<std::pair<std::size_t, std::string>> found;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const NamedUnit parts = plain_name(columns.name(i));
+    for (const std::string_view name : names)
+      if (parts.name.starts_with(name)) {
+        found.emplace_back(i, parts.unit);
+        break;
+      }
+  }
+  return found;
+}
+
 Values frequencies(const Columns& columns) {
   for (const char* const name : {"frequency_hz", "frequency", "freq", "f"})
     if (const auto column = columns.find(name)) return columns.values(*column);
+  const auto similar = columns_called(columns, {"freq"});
+  if (similar.size() == 1) {
+    Values values = columns.values(similar.front().first);
+    const double factor = similar.front().second == "khz" ? 1e3 : 1.;
+    for (double& value : values) value *= factor;
+    return values;
+  }
   columns.refuse("no frequency column (frequency_hz, frequency, freq or f)");
 }
 
@@ -91,23 +131,44 @@ std::optional<Complex> by_parts(const Columns& columns, const std::string& real,
   return value;
 }
 
-bool is_in_decibels(const std::string& column) {
-  return lower_case(column).ends_with("db");
+// A magnitude is never negative, but its logarithm is.
+bool is_in_decibels(const std::string& unit, const Values& magnitude) {
+  return unit == "db" ||
+         std::any_of(magnitude.begin(), magnitude.end(), [](const double r) { return r < 0.; });
 }
 
 std::optional<Complex> by_magnitude(const Columns& columns) {
-  const auto magnitude = columns.find_start("magnitude");
-  const auto degrees = columns.find("phase_deg"), radians = columns.find("phase_rad");
-  if (!magnitude || (!degrees && !radians)) return {};
-  const double unit = degrees ? std::numbers::pi / 180. : 1.;
-  Values r = columns.values(*magnitude);
-  const Values phase = columns.values(degrees ? *degrees : *radians);
-  if (is_in_decibels(columns.name(*magnitude)))
+  const auto magnitudes = columns_called(columns, {"magnitude", "amplitude", "gain"});
+  const auto phases = columns_called(columns, {"phase"});
+  if (magnitudes.empty() || phases.empty()) return {};
+  const auto& [magnitude, unit] = magnitudes.front();
+  const auto& [phase_column, phase_unit] = phases.front();
+  const bool is_in_radians = phase_unit.starts_with("rad");
+  if (!is_in_radians && !phase_unit.starts_with("deg") && phase_unit != "\u00b0")
+    columns.refuse("the unit of column '" + columns.name(phase_column) +
+                   "' is not known; name it phase_deg or phase_rad");
+  Values r = columns.values(magnitude);
+  const Values phase = columns.values(phase_column);
+  if (is_in_decibels(unit, r))
     for (double& value : r) value = std::pow(10., value / 20.);
   Complex value;
   for (std::size_t i = 0; i < r.size(); ++i)
-    value.push_back(std::polar(1., unit * phase[i]) * r[i]);
+    value.push_back(std::polar(1., (is_in_radians ? 1. : std::numbers::pi / 180.) * phase[i]) *
+                    r[i]);
   return value;
+}
+
+// Names of the complex columns of the file.
+std::vector<std::string> complex_names(const Columns& columns) {
+  std::vector<std::string> names;
+  constexpr std::string_view real = "_real";
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string& name = columns.name(i);
+    if (!name.ends_with(real)) continue;
+    const std::string before = name.substr(0, name.size() - real.size());
+    if (columns.find(before + "_imaginary")) names.push_back(before);
+  }
+  return names;
 }
 
 Complex responses(const Columns& columns, const std::string& name) {
@@ -118,11 +179,27 @@ Complex responses(const Columns& columns, const std::string& name) {
   if (name.empty()) {
     if (auto value = by_parts(columns, "real", "imaginary")) return *value;
     if (auto value = by_magnitude(columns)) return *value;
+    const std::vector<std::string> known = complex_names(columns);
+    if (known.size() == 1) return *by_parts(columns, known[0] + "_real", known[0] + "_imaginary");
     columns.refuse(
         "no response columns (response_real and response_imaginary, real and imaginary, or "
-        "magnitude or magnitude_dB and phase_deg)");
+        "magnitude or magnitude_dB and phase_deg)" +
+        (known.empty() ? ""
+                       : "; name one of the complex columns by --response-as: " + listed(known)));
   }
   columns.refuse("no columns '" + name + "_real' and '" + name + "_imaginary'");
+}
+
+Values coherence_of(const Columns& columns) {
+  if (const auto column = columns.find("coherence")) return columns.values(*column);
+  std::vector<std::size_t> similar;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (lower_case(columns.name(i)).find("coh") != std::string::npos) similar.push_back(i);
+  if (similar.size() != 1) return {};
+  const Values values = columns.values(similar.front());
+  const bool is_coherence =
+      std::all_of(values.begin(), values.end(), [](const double c) { return c >= 0. && c <= 1.; });
+  return is_coherence ? values : Values();
 }
 
 FrequencyResponse from_table(const std::filesystem::path& file, const ScaledName& choice) {
@@ -130,7 +207,7 @@ FrequencyResponse from_table(const std::filesystem::path& file, const ScaledName
   const Columns columns(*table);
   FrequencyResponse response{frequencies(columns), responses(columns, choice.name), {}, {}};
   for (auto& value : response.value) value *= choice.scale;
-  if (const auto column = columns.find("coherence")) response.coherence = columns.values(*column);
+  response.coherence = coherence_of(columns);
   if (const auto column = columns.find_start("standard_deviation")) {
     response.standard_deviation = columns.values(*column);
     for (double& sd : response.standard_deviation) sd *= std::abs(choice.scale);
@@ -270,10 +347,28 @@ FrequencyResponse rising_lines(const FrequencyResponse& response) {
   return lines;
 }
 
+// The phase of a causal response falls through its resonances, which have most of the power. It
+// rises in a response to exp(-j w t).
+bool has_rising_phase(const FrequencyResponse& response) {
+  double turn = 0., power = 0.;
+  for (std::size_t i = 1; i < response.value.size(); ++i) {
+    const std::complex<double> step = std::conj(response.value[i - 1]) * response.value[i];
+    turn += step.imag();
+    power += std::abs(step);
+  }
+  constexpr double least_turn = 0.02;
+  return turn > least_turn * power;
+}
+
 }  // namespace
 
 FrequencyResponse read_response(const std::filesystem::path& file, const ResponseChoice& choice) {
-  const ScaledName name = scaled_name(choice);
+  constexpr std::string_view start = "conj(";
+  const bool is_conjugated = choice.as.starts_with(start) && choice.as.ends_with(')');
+  const std::string as = is_conjugated
+                             ? choice.as.substr(start.size(), choice.as.size() - start.size() - 1)
+                             : choice.as;
+  const ScaledName name = scaled_name({as});
   const FrequencyResponse response = format_of(file).has(universal_extension)
                                          ? from_universal_file(file, name)
                                          : from_table(file, name);
@@ -283,6 +378,14 @@ FrequencyResponse read_response(const std::filesystem::path& file, const Respons
     throw UserError(
         file.string() +
         ": contains no line of a frequency response above 0 Hz; at least one line is needed");
+  if (is_conjugated)
+    for (auto& value : lines.value) value = std::conj(value);
+  if (has_rising_phase(lines))
+    throw UserError(file.string() +
+                    ": the phase rises through the resonances, so the response follows the sign "
+                    "convention exp(-j w t), or its phase has the other sign; the convention here "
+                    "is exp(+j w t): conjugate it by --response-as 'conj(" +
+                    as + ")'");
   return lines;
 }
 

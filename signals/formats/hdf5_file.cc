@@ -24,8 +24,10 @@ std::vector<NumericColumn> all_columns(const Hdf5Reader& file, const std::string
     if (array.size() == 0) continue;
     for (NumericColumn& column :
          columns_of({array.path, array.shape, file.numbers(array.path), array.single_precision,
-                     /*first_index_first=*/false}))
+                     /*first_index_first=*/false})) {
+      column.unit = array.unit;
       columns.push_back(std::move(column));
+    }
   }
   return columns;
 }

@@ -112,14 +112,28 @@ void Hdf5Writer::add(const std::string& path, const std::string& text) {
   write(file_->handle, path, type, space, text.c_str());
 }
 
-void Hdf5Writer::describe(const std::string& attribute, const std::string& text) {
+namespace {
+
+void attach(const hid_t object, const std::string& attribute, const std::string& text) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a shape");
   const Handle type = text_type();
   require(H5Tset_size(type, text.size() + 1), "make a type of text");
-  const Handle made(
-      H5Acreate2(file_->handle, attribute.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-      "make '" + attribute + "'");
+  const Handle made(H5Acreate2(object, attribute.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose, "make '" + attribute + "'");
   require(H5Awrite(made, type, text.c_str()), "write '" + attribute + "'");
+}
+
+}  // namespace
+
+void Hdf5Writer::describe(const std::string& attribute, const std::string& text) {
+  attach(file_->handle, attribute, text);
+}
+
+void Hdf5Writer::describe(const std::string& path, const std::string& attribute,
+                          const std::string& text) {
+  const Handle set(H5Dopen2(file_->handle, path.c_str(), H5P_DEFAULT), H5Dclose,
+                   "find '" + path + "'");
+  attach(set, attribute, text);
 }
 
 std::string Hdf5Writer::image() {
@@ -224,6 +238,34 @@ void check_stored(const hid_t set, const std::size_t number_size, const std::siz
                              " numbers, but has only " + std::to_string(stored) + " bytes");
 }
 
+// The text of an attribute of fixed or variable length; empty where it is none.
+std::string text_attribute(const hid_t set, const char* const name) {
+  constexpr std::size_t longest = 200;
+  if (H5Aexists(set, name) <= 0) return {};
+  const Handle attribute(H5Aopen(set, name, H5P_DEFAULT), H5Aclose, "read an attribute");
+  const Handle type(H5Aget_type(attribute), H5Tclose, "read the type of an attribute");
+  const Handle space(H5Aget_space(attribute), H5Sclose, "read the shape of an attribute");
+  if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return {};
+  if (H5Tis_variable_str(type) > 0) {
+    char* text = nullptr;
+    require(H5Aread(attribute, type, static_cast<void*>(&text)), "read an attribute");
+    const std::string copy = text == nullptr ? "" : text;
+    H5free_memory(text);
+    return copy.substr(0, longest);
+  }
+  const std::size_t size = H5Tget_size(type);
+  if (size > longest) return {};
+  std::string text(size, '\0');
+  require(H5Aread(attribute, type, text.data()), "read an attribute");
+  return text.substr(0, std::min(text.find('\0'), text.size()));
+}
+
+std::string unit_attribute(const hid_t set) {
+  for (const char* const name : {"units", "unit", "Units", "Unit"})
+    if (std::string unit = text_attribute(set, name); !unit.empty()) return unit;
+  return {};
+}
+
 }  // namespace
 
 std::size_t Hdf5Reader::Array::size() const {
@@ -245,7 +287,8 @@ std::vector<Hdf5Reader::Array> Hdf5Reader::arrays() const {
     const Handle type(H5Dget_type(set), H5Tclose, "read the type of '" + path + "'");
     const H5T_class_t kind = H5Tget_class(type);
     if (kind != H5T_FLOAT && kind != H5T_INTEGER) continue;
-    found.push_back({path, shape_of(set, path), kind == H5T_FLOAT && H5Tget_size(type) <= 4});
+    found.push_back({path, shape_of(set, path), kind == H5T_FLOAT && H5Tget_size(type) <= 4,
+                     unit_attribute(set)});
     check_stored(set, H5Tget_size(type), found.back().size(), path);
   }
   return found;

@@ -18,6 +18,8 @@ class Hdf5Writer {
   void add(const std::string& path, const std::string& text);
   /// Adds a text that describes the whole file.
   void describe(const std::string& attribute, const std::string& text);
+  /// Adds a text that describes an array.
+  void describe(const std::string& path, const std::string& attribute, const std::string& text);
   /// Bytes of the whole file. A block of 512 other bytes may precede them: HDF5 also searches for
   /// the start there.
   std::string image();
@@ -44,6 +46,7 @@ class Hdf5Reader {
     std::string path;
     std::vector<std::size_t> shape;  // empty: one number
     bool single_precision = false;
+    std::string unit = {};     // of its attribute unit or units; empty: none
     std::size_t size() const;  // saturates
   };
   /// All arrays of real numbers, in alphabetical order of their paths.

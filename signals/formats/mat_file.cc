@@ -85,18 +85,28 @@ std::vector<NamedArray> arrays_of(const matvar_t& variable, const std::string& n
 }
 
 void add_columns(const matvar_t& variable, const std::string& name,
-                 std::vector<NumericColumn>& columns) {
-  if (variable.class_type == MAT_C_STRUCT && n_values(variable) == 1) {
-    // The function of matio takes no const pointer.
-    auto& fields = const_cast<matvar_t&>(variable);
-    const unsigned n_fields = Mat_VarGetNumberOfFields(&fields);
-    char* const* const names = Mat_VarGetStructFieldnames(&variable);
+                 std::vector<NumericColumn>& columns);
+
+// "bench.ax"; of an array of structs "bench(2).ax".
+void add_fields(const matvar_t& variable, const std::string& name,
+                std::vector<NumericColumn>& columns) {
+  // The function of matio takes no const pointer.
+  auto& fields = const_cast<matvar_t&>(variable);
+  const unsigned n_fields = Mat_VarGetNumberOfFields(&fields);
+  char* const* const names = Mat_VarGetStructFieldnames(&variable);
+  const std::size_t n = n_values(variable);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::string element = n == 1 ? name : name + "(" + std::to_string(k + 1) + ")";
     for (unsigned i = 0; i < n_fields; ++i) {
-      const matvar_t* const field = Mat_VarGetStructFieldByIndex(&fields, i, 0);
-      if (field != nullptr) add_columns(*field, name + "." + names[i], columns);
+      const matvar_t* const field = Mat_VarGetStructFieldByIndex(&fields, i, k);
+      if (field != nullptr) add_columns(*field, element + "." + names[i], columns);
     }
-    return;
   }
+}
+
+void add_columns(const matvar_t& variable, const std::string& name,
+                 std::vector<NumericColumn>& columns) {
+  if (variable.class_type == MAT_C_STRUCT) return add_fields(variable, name, columns);
   if (!is_array(variable) || variable.data == nullptr || n_values(variable) == 0) return;
   for (NamedArray& array : arrays_of(variable, name))
     for (NumericColumn& column : columns_of(std::move(array))) columns.push_back(std::move(column));
@@ -104,15 +114,17 @@ void add_columns(const matvar_t& variable, const std::string& name,
 
 // Declared number of values of a variable with all its fields.
 std::size_t claimed(const matvar_t& variable) {
-  std::size_t n = n_values(variable);
-  if (variable.class_type != MAT_C_STRUCT || n != 1) return n;
+  const std::size_t n = n_values(variable);
+  if (variable.class_type != MAT_C_STRUCT || n > most_numbers) return n;
   auto& fields = const_cast<matvar_t&>(variable);
   const unsigned n_fields = Mat_VarGetNumberOfFields(&fields);
-  for (unsigned i = 0; i < n_fields; ++i)
-    if (const auto* const field = Mat_VarGetStructFieldByIndex(&fields, i, 0))
-      if (__builtin_add_overflow(n, claimed(*field), &n))
-        return std::numeric_limits<std::size_t>::max();
-  return n;
+  std::size_t sum = n;
+  for (std::size_t k = 0; k < n; ++k)
+    for (unsigned i = 0; i < n_fields; ++i)
+      if (const auto* const field = Mat_VarGetStructFieldByIndex(&fields, i, k))
+        if (__builtin_add_overflow(sum, claimed(*field), &sum))
+          return std::numeric_limits<std::size_t>::max();
+  return sum;
 }
 
 void check_claims(mat_t* const file, const std::size_t n_bytes, const std::string& name) {

@@ -5,30 +5,60 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "signals/base/error.h"
+#include "signals/base/lower_case.h"
 #include "signals/base/number_text.h"
 
 namespace vibrissa::signals::formats {
 namespace {
 
-bool is_rate(const std::string& name) {
-  static const std::set<std::string_view> names{"sampling_rate_hz", "sample_rate", "fs", "Fs"};
-  return names.count(name) != 0;
+std::string last_part(const std::string& name) {
+  return lower_case(name.substr(name.find_last_of("./") + 1));
 }
 
-std::optional<TimeAxis> stated_clock(const std::vector<NumericColumn>& arrays) {
+bool is_among(const std::string& name, const std::initializer_list<std::string_view> all) {
+  return std::find(all.begin(), all.end(), name) != all.end();
+}
+
+// The rate that a scalar of this name gives.
+std::optional<double> rate_of(const NumericColumn& scalar) {
+  const std::string name = last_part(scalar.name);
+  const double value = scalar.values.front();
+  std::optional<double> rate;
+  if (is_among(name, {"sampling_rate_hz", "sample_rate", "fs", "samplerate", "sampling_rate",
+                      "samplingrate", "sample_rate_hz", "fs_hz", "samplingfrequency",
+                      "sampling_frequency", "abtastrate"}))
+    rate = value;
+  if (is_among(name, {"dt", "ts", "dt_s", "ts_s", "sampling_interval", "sampling_period",
+                      "sampletime", "sample_time"}))
+    rate = 1. / value;
+  return rate && std::isfinite(*rate) && *rate > 0. ? rate : std::nullopt;
+}
+
+std::optional<TimeAxis> stated_clock(const std::string& file,
+                                     const std::vector<NumericColumn>& arrays) {
   std::optional<double> rate, start;
+  std::string name;
   for (const NumericColumn& array : arrays) {
     if (array.values.size() != 1) continue;
-    if (is_rate(array.name)) rate = array.values.front();
     if (array.name == "start_s") start = array.values.front();
+    const auto found = rate_of(array);
+    constexpr double same = 1e-6;
+    if (found && rate && std::abs(*found / *rate - 1.) > same)
+      throw UserError(file + ": '" + name + "' and '" + array.name + "' give different rates, " +
+                      to_text(*rate) + " and " + to_text(*found) + " Hz; keep one");
+    if (!found || rate) continue;
+    rate = found;
+    name = array.name;
   }
-  if (!rate || !(std::isfinite(*rate) && *rate > 0.)) return std::nullopt;
+  if (!rate) return std::nullopt;
   return TimeAxis{start.value_or(0.), *rate};
 }
 
@@ -50,18 +80,48 @@ std::size_t usual_length(const std::vector<NumericColumn>& arrays) {
 
 NumericTable::NumericTable(std::string file, std::vector<NumericColumn> arrays,
                            std::optional<TimeAxis> clock)
-    : file_(std::move(file)), clock_(clock ? clock : stated_clock(arrays)) {
+    : file_(std::move(file)), clock_(clock ? clock : stated_clock(file_, arrays)) {
   const std::size_t length = usual_length(arrays);
   if (length == 0)
     throw UserError(file_ + ": contains no column of real numbers; a record needs such columns");
   std::set<std::string> known;
   for (NumericColumn& array : arrays) {
-    if (array.values.size() != length) continue;
+    if (array.values.size() <= 1) continue;
     if (!known.insert(array.name).second)
       throw UserError(file_ + ": two columns have the name '" + array.name + "'; rename one");
-    names_.push_back(array.name);
-    columns_.push_back(std::move(array));
+    others_.push_back(std::move(array));
   }
+  take_length(length);
+}
+
+void NumericTable::take_length(const std::size_t length) {
+  std::vector<NumericColumn> all = std::move(columns_);
+  std::move(others_.begin(), others_.end(), std::back_inserter(all));
+  columns_.clear();
+  others_.clear();
+  names_.clear();
+  for (NumericColumn& array : all) {
+    const bool is_column = array.values.size() == length;
+    if (is_column) names_.push_back(array.name);
+    (is_column ? columns_ : others_).push_back(std::move(array));
+  }
+}
+
+void NumericTable::take_rows_of(const std::string& column) {
+  for (const NumericColumn& other : others_)
+    if (other.name == column) return take_length(other.values.size());
+}
+
+std::string NumericTable::layout_text() const {
+  if (others_.empty()) return {};
+  return std::to_string(columns_.size()) + " arrays of " + std::to_string(n_rows()) + " numbers; " +
+         std::to_string(others_.size()) + " of other lengths are not used";
+}
+
+std::vector<std::string> NumericTable::units() const {
+  std::vector<std::string> units;
+  for (const NumericColumn& column : columns_) units.push_back(column.unit);
+  return units;
 }
 
 std::string NumericTable::place(const std::size_t row) const {

@@ -12,6 +12,7 @@ struct NumericColumn {
   std::string name;
   std::vector<double> values;
   bool single_precision = false;  // the file stores values in single precision (24 bits)
+  std::string unit = {};          // that the file states
 };
 
 /// Largest number of values that a file may contain or declare: 1 GiB of doubles. The declared size
@@ -22,22 +23,28 @@ inline constexpr std::size_t most_numbers = std::size_t{1} << 27;
 class NumericTable : public RecordTable {
  public:
   /// The columns are the arrays of the most frequent length (the longer one when two lengths are
-  /// equally frequent); other arrays are ignored. A scalar with the name sampling_rate_hz, fs, Fs
-  /// or sample_rate gives the sampling rate, start_s the start. Throws UserError when there is no
-  /// column, or a name is repeated.
+  /// equally frequent), or of the length of the column that take_rows_of() names. A scalar with the
+  /// name sampling_rate_hz, fs, sample_rate or similar gives the sampling rate, dt or Ts its
+  /// period, start_s the start; in a struct, too. Throws UserError when there is no column, a name
+  /// is repeated, or two scalars give different rates.
   NumericTable(std::string file, std::vector<NumericColumn> arrays,
                std::optional<TimeAxis> clock = {});
 
   const std::vector<std::string>& columns() const override { return names_; }
+  std::vector<std::string> units() const override;
   std::size_t n_rows() const override { return columns_.front().values.size(); }
+  void take_rows_of(const std::string& column) override;
+  std::string layout_text() const override;
   std::string place(std::size_t row) const override;
   std::optional<TimeAxis> clock() const override { return clock_; }
   ColumnValues read(const ColumnRange& range) const override;
   std::string text(std::size_t row, std::size_t column) const override;
 
  private:
+  void take_length(std::size_t length);
+
   std::string file_;
-  std::vector<NumericColumn> columns_;
+  std::vector<NumericColumn> columns_, others_;
   std::vector<std::string> names_;
   std::optional<TimeAxis> clock_;
 };

@@ -29,18 +29,27 @@ class RecordTable {
   virtual ~RecordTable() = default;
 
   virtual const std::vector<std::string>& columns() const = 0;
+  /// The unit that the file states for each column beside its name; empty where it states none.
+  virtual std::vector<std::string> units() const {
+    return std::vector<std::string>(columns().size());
+  }
   virtual std::size_t n_rows() const = 0;
   /// Start of a message about a row, counted from 1, or (row 0) about the names of the columns:
   /// "<file>:<line>: " or "<file>: row 7: ".
   virtual std::string place(std::size_t row) const = 0;
-  /// How messages name a row of the file: row r is "<word> <r + offset>".
-  struct RowNames {
-    std::string word = "row";
-    std::size_t offset = 0;
-  };
-  virtual RowNames row_names() const { return {}; }
+  /// How messages name a row of the file: "<word> <number>".
+  virtual std::string row_word() const { return "row"; }
+  virtual std::size_t row_number(std::size_t row) const { return row; }
   /// The sampling rate and start that the file states in addition to its columns.
   virtual std::optional<TimeAxis> clock() const { return std::nullopt; }
+  /// Whether that rate is only nominal, such as in a comment, so that time stamps are better.
+  virtual bool clock_is_nominal() const { return false; }
+  /// First rows of the recordings in the file.
+  virtual std::vector<std::size_t> block_starts() const { return {1}; }
+  /// Takes the rows of this column where columns of several lengths are in the file.
+  virtual void take_rows_of(const std::string& column) { static_cast<void>(column); }
+  /// How the file is read, for the user: "semicolons, decimal commas, names in line 1".
+  virtual std::string layout_text() const { return {}; }
   /// Throws UserError with the place of a text that is not a number.
   virtual ColumnValues read(const ColumnRange& range) const = 0;
   /// One value with the spelling of the file, for messages.

@@ -21,6 +21,24 @@ constexpr auto known_ends =
                                                                   {"_C", "degC"},
                                                                   {"_s", "s"}});
 
+// Endings of the names of measured columns, and their units for UDUNITS where these differ.
+constexpr auto unit_endings = std::to_array<std::pair<std::string_view, std::string_view>>(
+    {{"s", ""},           {"ms", ""},           {"us", ""},         {"Hz", ""},
+     {"m", ""},           {"mm", ""},           {"um", ""},         {"m_s", "m/s"},
+     {"mps", "m/s"},      {"mm_s", "mm/s"},     {"km_h", "km/h"},   {"kmh", "km/h"},
+     {"m_s2", "m/s2"},    {"mps2", "m/s2"},     {"ms2", "m/s2"},    {"mm_s2", "mm/s2"},
+     {"g", ""},           {"mg", ""},           {"rad", ""},        {"mrad", ""},
+     {"deg", "degree"},   {"rad_s", "rad/s"},   {"radps", "rad/s"}, {"deg_s", "degree/s"},
+     {"dps", "degree/s"}, {"rad_s2", "rad/s2"}, {"N", ""},          {"mN", ""},
+     {"uN", ""},          {"N_m", "N.m"},       {"mN_m", "mN.m"},   {"uN_m", "uN.m"},
+     {"Nm", "N.m"},       {"mNm", "mN.m"},      {"Nmm", "N.mm"},    {"mNmm", "mN.mm"},
+     {"mN_mm", "mN.mm"},  {"uNm", "uN.m"},      {"Pa", ""},         {"hPa", ""},
+     {"kPa", ""},         {"bar", ""},          {"A", ""},          {"mA", ""},
+     {"V", ""},           {"mV", ""},           {"uV", ""},         {"T", ""},
+     {"mT", ""},          {"uT", ""},           {"C", "degC"},      {"degC", ""},
+     {"K", ""},           {"kg", ""},           {"kg_m3", "kg/m3"}, {"W", ""},
+     {"percent", "%"}});
+
 }  // namespace
 
 const std::vector<std::string>& known_channels() {
@@ -59,17 +77,23 @@ std::string unit_of_channel(const std::string& channel) {
 }
 
 bool ends_with_unit(const std::string& name) {
-  static constexpr auto units = std::to_array<std::string_view>(
-      {"s",     "ms",    "us",    "Hz",    "m",      "mm",     "um",  "m_s",  "mps",
-       "mm_s",  "m_s2",  "mps2",  "mm_s2", "g",      "mg",     "rad", "mrad", "deg",
-       "rad_s", "radps", "deg_s", "dps",   "rad_s2", "N",      "mN",  "uN",   "N_m",
-       "mN_m",  "uN_m",  "Nm",    "mNm",   "Nmm",    "uNm",    "Pa",  "hPa",  "kPa",
-       "bar",   "A",     "mA",    "V",     "mV",     "uV",     "T",   "mT",   "uT",
-       "C",     "K",     "kg",    "kg_m3", "W",      "percent"});
-  return std::any_of(units.begin(), units.end(), [&](const std::string_view unit) {
-    return name.size() > unit.size() + 1 && name.ends_with(unit) &&
-           name[name.size() - unit.size() - 1] == '_';
-  });
+  return !unit_at_the_end(name).empty();
+}
+
+std::string unit_at_the_end(const std::string& name) {
+  std::string_view longest;
+  for (const auto& [ending, unit] : unit_endings)
+    if (name.size() > ending.size() + 1 && name.ends_with(ending) &&
+        name[name.size() - ending.size() - 1] == '_' && ending.size() > longest.size())
+      longest = ending;
+  return std::string(longest);
+}
+
+std::string unit_of_ending(const std::string& ending) {
+  const auto found = std::find_if(unit_endings.begin(), unit_endings.end(),
+                                  [&](const auto& known) { return known.first == ending; });
+  assert(found != unit_endings.end());
+  return std::string(found->second.empty() ? found->first : found->second);
 }
 
 }  // namespace vibrissa::signals

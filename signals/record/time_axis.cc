@@ -5,6 +5,7 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -12,6 +13,12 @@
 #include "signals/base/number_text.h"
 
 namespace vibrissa::signals {
+
+double rounding_of(const PrintedTimes& times, const std::size_t sample) {
+  if (times.fixed_rounding_s) return *times.fixed_rounding_s;
+  return std::abs(times.unit_s) * times.digits.rounding(times.times_s[sample] / times.unit_s);
+}
+
 namespace {
 
 constexpr double jitter_periods = 1e-3;
@@ -19,13 +26,9 @@ constexpr double jitter_periods = 1e-3;
 // allowed.
 constexpr double largest_tolerance_periods = 0.45;
 
-double rounding_s(const PrintedTimes& times, const std::size_t i) {
-  return std::abs(times.unit_s) * times.digits.rounding(times.times_s[i] / times.unit_s);
-}
-
 std::string moment(const PrintedTimes& times, const std::size_t i) {
-  return times.row_word + " " + std::to_string(times.first_line + i) + " (" +
-         to_text(times.times_s[i]) + " s)";
+  const std::size_t line = times.line_of ? times.line_of(i) : times.first_line + i;
+  return times.row_word + " " + std::to_string(line) + " (" + to_text(times.times_s[i]) + " s)";
 }
 
 std::string between(const PrintedTimes& times, const std::size_t i) {
@@ -60,14 +63,15 @@ double median_step(const std::span<const double> times_s) {
 // if the distance exceeds jitter and rounding; else zero.
 std::size_t worst_off_grid(const PrintedTimes& times, const double period) {
   const auto t = times.times_s;
-  const double end_rounding = std::max(rounding_s(times, 0), rounding_s(times, t.size() - 1));
+  const double end_rounding = std::max(rounding_of(times, 0), rounding_of(times, t.size() - 1));
   std::size_t worst = 0;
   double worst_distance = jitter_periods * period;
   for (std::size_t i = 1; i < t.size(); ++i) {
     const double distance = std::abs(t[i] - t[0] - static_cast<double>(i) * period);
     if (distance <= worst_distance) continue;
-    const double tolerance = std::min(jitter_periods * period + rounding_s(times, i) + end_rounding,
-                                      largest_tolerance_periods * period);
+    const double tolerance =
+        std::min(jitter_periods * period + rounding_of(times, i) + end_rounding,
+                 largest_tolerance_periods * period);
     if (distance <= tolerance) continue;
     worst = i;
     worst_distance = distance;
@@ -92,7 +96,7 @@ std::string difference_text(const double difference_s) {
 
 // When a period is about one unit of the last digit, rounding looks like a lost sample.
 std::string digits_advice(const PrintedTimes& times, const std::size_t i, const double error_s) {
-  const double last_digit_s = 2. * rounding_s(times, i);
+  const double last_digit_s = 2. * rounding_of(times, i);
   const double most_by_rounding_s = 1.01 * last_digit_s;
   if (std::abs(error_s) > most_by_rounding_s) return {};
   return "; its last digit is " + difference_text(last_digit_s) +
@@ -135,7 +139,7 @@ void refuse_crowding(const PrintedTimes& times, const double usual_step) {
                   " % of a period away from the uniform grid between the first and the last time" +
                   digits_advice(times, worst, offset) +
                   "; if the sampling is uniform and only the time stamps are not, remove the time "
-                  "column and give --rate; otherwise resample the recording");
+                  "column and give --rate; otherwise resample the recording, as --resample does");
 }
 
 double simplest_rate(const double period, const double relative_uncertainty) {
@@ -180,23 +184,45 @@ double TimeDigits::rounding(const double time) const {
   return 0.5 * std::pow(10., last_place);
 }
 
-TimeAxis find_time_axis(const PrintedTimes& times) {
+void refuse_uneven_times(const PrintedTimes& times) {
+  check_runs_forward(times);
+  const auto t = times.times_s;
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    shortest = std::min(shortest, t[i] - t[i - 1]);
+    longest = std::max(longest, t[i] - t[i - 1]);
+  }
+  throw UserError(times.file + ": time is not uniform: the steps of column '" + times.column +
+                  "' are between " + difference_text(shortest) + " and " +
+                  difference_text(longest) +
+                  " s, and no even clock with jitter or lost samples explains them; where the "
+                  "sampling is even and only the stamps are not, give --rate in Hz and a --column "
+                  "for each channel but none for time; otherwise give --resample RATE");
+}
+
+std::optional<TimeAxis> uniform_axis(const PrintedTimes& times) {
   const auto t = times.times_s;
   assert(t.size() >= 2 && times.unit_s != 0.);
-  check_runs_forward(times);
+  if (std::adjacent_find(t.begin(), t.end(), std::greater_equal<>()) != t.end()) return {};
   const double duration = t.back() - t.front();
   const double period = duration / static_cast<double>(t.size() - 1);
-  if (const std::size_t worst = worst_off_grid(times, period); worst != 0) {
-    const double usual_step = median_step(t);
-    refuse_gap(times, usual_step);
-    refuse_crowding(times, usual_step);
-    refuse_uneven(times, worst, period);
-  }
-  const double rounding = rounding_s(times, 0) + rounding_s(times, t.size() - 1);
+  if (worst_off_grid(times, period) != 0) return {};
+  const double rounding = rounding_of(times, 0) + rounding_of(times, t.size() - 1);
   const double unit_in_last_place =
       std::numeric_limits<double>::epsilon() * std::max(std::abs(t.front()), std::abs(t.back()));
   const double uncertainty = (rounding + 2. * unit_in_last_place) / duration;
-  return {t.front(), simplest_rate(period, uncertainty)};
+  return TimeAxis{t.front(), simplest_rate(period, uncertainty)};
+}
+
+TimeAxis find_time_axis(const PrintedTimes& times) {
+  if (const auto axis = uniform_axis(times)) return *axis;
+  check_runs_forward(times);
+  const auto t = times.times_s;
+  const double period = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+  const double usual_step = median_step(t);
+  refuse_gap(times, usual_step);
+  refuse_crowding(times, usual_step);
+  refuse_uneven(times, worst_off_grid(times, period), period);
 }
 
 }  // namespace vibrissa::signals

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +31,10 @@ struct PrintedTimes {
   std::size_t first_line = 2;
   std::string column = "time_s";
   std::string row_word = "line";
+  /// Half a unit of the last digit, where the digits do not tell it: behind a counter that wraps.
+  std::optional<double> fixed_rounding_s = {};
+  /// Line (or row) of a sample where lines without samples are between them.
+  std::function<std::size_t(std::size_t sample)> line_of = {};
 };
 
 struct TimeAxis {
@@ -42,5 +48,14 @@ struct TimeAxis {
 /// line when time decreases or repeats, for a gap, for an interval that is too short, and for a
 /// grid that is not uniform. Proven by tests/signals/record/time_axis_test.cc.
 TimeAxis find_time_axis(const PrintedTimes& times);
+
+/// Throws UserError for times that no even clock explains; the message says which steps there are.
+[[noreturn]] void refuse_uneven_times(const PrintedTimes& times);
+
+/// The same as find_time_axis; nothing where find_time_axis throws.
+std::optional<TimeAxis> uniform_axis(const PrintedTimes& times);
+
+/// Half a unit of the last digit of a time, in seconds.
+double rounding_of(const PrintedTimes& times, std::size_t sample);
 
 }  // namespace vibrissa::signals

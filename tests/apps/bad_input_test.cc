@@ -213,11 +213,35 @@ TEST_F(BadRecord, NotANumberIsReportedWithItsPlace) {
          AllOf(HasSubstr("bad.csv:42"), HasSubstr("nan")));
 }
 
-TEST_F(BadRecord, GapInTimeIsReportedWithItsPlace) {
+std::string text_with_gap() {
   std::string text = record_text(
       [](int i, std::string row) { return i >= 100 && i < 107 ? std::string("DROP") : row; });
   for (std::size_t at; (at = text.find("DROP\n")) != std::string::npos;) text.erase(at, 5);
-  refuse(text, "", AllOf(HasSubstr("gap"), HasSubstr("101")));
+  return text;
+}
+
+TEST_F(BadRecord, GapInTimeIsReportedWithItsPlace) {
+  const std::string file = folder.write("gap.csv", text_with_gap());
+  const auto message = AllOf(HasSubstr("gap"), HasSubstr("101"));
+  expect_refusal(vibrissa("identify '" + file + "' --gaps refuse"), message);
+  expect_refusal(vibrissa("run '" + case_file("whisker_sensor.prm") +
+                          "' --set Wind/Kind=none --set 'Separation/Settling time=0' --duration "
+                          "0.5 --base-acceleration '" +
+                          file + "' -o '" + folder.file("run") + "'" + quick),
+                 message);
+}
+
+TEST_F(BadRecord, PiecesBetweenLostSamplesAreSaidAndConverted) {
+  const std::string file = folder.write("gap.csv", text_with_gap());
+  const ProgramResult result =
+      vibrissa("convert '" + file + "' '" + folder.file("piece.csv") + "'");
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.errors, AllOf(HasSubstr("read as: commas, decimal points, names in line 1"),
+                                   HasSubstr("7 samples are lost at 1 place"),
+                                   HasSubstr("393 samples, 0.786 s in 2 pieces")));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("piece_1.csv")));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("piece_2.csv")));
+  EXPECT_EQ(vibrissa("convert '" + file + "' '" + folder.file("q.csv") + "' --quiet").errors, "");
 }
 
 TEST_F(BadRecord, WrongColumnNameListsTheColumnsOfTheFile) {

@@ -7,6 +7,7 @@
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
 #include "signals/base/trimmed.h"
+#include "signals/base/utf_8.h"
 #include "signals/formats/number_bytes.h"
 #include "signals/formats/numeric_table.h"
 #include "signals/formats/uff58_file.h"
@@ -47,6 +48,38 @@ class Lines {
   std::size_t at_ = 0, line_ = 0;
 };
 
+// Fortran writes 1.0D-03 and, where the exponent needs three digits, 1.0-103.
+std::optional<double> fortran_number(std::string field) {
+  if (field.empty()) return 0.;
+  std::replace_if(
+      field.begin(), field.end(), [](const char c) { return c == 'D' || c == 'd'; }, 'E');
+  const auto sign = field.find_last_of("+-");
+  if (sign != std::string::npos && sign > 0 && field[sign - 1] != 'E' && field[sign - 1] != 'e') {
+    const std::string exponent = field.substr(sign);
+    field.resize(sign);
+    field.append(1, 'E').append(exponent);
+  }
+  return to_number(field);
+}
+
+std::optional<int> whole_number(const std::string_view field) {
+  if (field.empty()) return 0;
+  const std::optional<double> value = to_number(field);
+  constexpr double most = 2147483647.;
+  if (!value || *value != std::floor(*value) || std::abs(*value) > most) return {};
+  return static_cast<int>(*value);
+}
+
+std::vector<std::string_view> words_of(const std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(" \t", end);
+  }
+  return words;
+}
+
 /// Fixed-width fields of a line.
 class Fields {
  public:
@@ -59,26 +92,14 @@ class Fields {
   }
   int whole(const std::size_t width) {
     const std::string_view field = text(width);
-    if (field.empty()) return 0;
-    const std::optional<double> value = to_number(field);
-    constexpr double most = 2147483647.;
-    if (!value || *value != std::floor(*value) || std::abs(*value) > most)
-      lines_.refuse("'" + std::string(field) + "' is not a whole number");
-    return static_cast<int>(*value);
+    const std::optional<int> value = whole_number(field);
+    if (!value) lines_.refuse("'" + as_utf_8(field) + "' is not a whole number");
+    return *value;
   }
-  // Fortran writes 1.0D-03 and, where the exponent needs three digits, 1.0-103.
   double real(const std::size_t width) {
-    std::string field(text(width));
-    std::replace_if(
-        field.begin(), field.end(), [](const char c) { return c == 'D' || c == 'd'; }, 'E');
-    const auto sign = field.find_last_of("+-");
-    if (sign != std::string::npos && sign > 0 && field[sign - 1] != 'E' && field[sign - 1] != 'e') {
-      const std::string exponent = field.substr(sign);
-      field.resize(sign);
-      field.append(1, 'E').append(exponent);
-    }
-    const std::optional<double> value = field.empty() ? 0. : to_number(field);
-    if (!value) lines_.refuse("'" + field.substr(0, 40) + "' is not a number");
+    const std::string field(text(width));
+    const std::optional<double> value = fortran_number(field);
+    if (!value) lines_.refuse("'" + as_utf_8(field.substr(0, 40)) + "' is not a number");
     return *value;
   }
   void skip(const std::size_t width) { at_ += width; }
@@ -98,9 +119,9 @@ Uff58Axis read_axis(Lines& lines) {
   axis.force_exponent = fields.whole(5);
   axis.temperature_exponent = fields.whole(5);
   fields.skip(1);
-  axis.label = fields.text(20);
+  axis.label = as_utf_8(fields.text(20));
   fields.skip(1);
-  axis.unit = fields.text(20);
+  axis.unit = as_utf_8(fields.text(20));
   return axis;
 }
 
@@ -117,9 +138,20 @@ struct Layout {
   bool is_single() const { return type == real_single || type == complex_single; }
 };
 
-Layout read_head(Lines& lines, Uff58Function& function) {
-  for (std::string& line : function.id_lines) line = trimmed(lines.next());
-  Fields sixth(lines.next(), lines);
+// The function and its degrees of freedom. Some programs keep the order but not the widths.
+void read_degrees_of_freedom(Lines& lines, Uff58Function& function) {
+  const std::string_view line = lines.next();
+  const auto words = words_of(line);
+  const auto whole = [&](const std::size_t i) { return whole_number(words[i]); };
+  if (words.size() == 10 && whole(0) && whole(5) && whole(6) && whole(8) && whole(9)) {
+    function.function_type = *whole(0);
+    function.response_node = *whole(5);
+    function.response_direction = *whole(6);
+    function.reference_node = *whole(8);
+    function.reference_direction = *whole(9);
+    return;
+  }
+  Fields sixth(line, lines);
   function.function_type = sixth.whole(5);
   sixth.skip(10 + 5 + 10 + 1 + 10);
   function.response_node = sixth.whole(10);
@@ -127,6 +159,11 @@ Layout read_head(Lines& lines, Uff58Function& function) {
   sixth.skip(1 + 10);
   function.reference_node = sixth.whole(10);
   function.reference_direction = sixth.whole(4);
+}
+
+Layout read_head(Lines& lines, Uff58Function& function) {
+  for (std::string& line : function.id_lines) line = as_utf_8(trimmed(lines.next()));
+  read_degrees_of_freedom(lines, function);
   Fields seventh(lines.next(), lines);
   Layout layout;
   layout.type = seventh.whole(10);
@@ -151,18 +188,40 @@ Layout read_head(Lines& lines, Uff58Function& function) {
   return layout;
 }
 
-// Values are E13.5 in single precision and E20.12 in double; an abscissa is always E13.5.
+// The numbers of a line that blanks separate; nothing where one is no number or they fill less than
+// whole points, because fixed fields touch each other there.
+std::optional<std::vector<double>> separated_numbers(const std::string_view line,
+                                                     const std::size_t a_point) {
+  std::vector<double> numbers;
+  for (const std::string_view word : words_of(line)) {
+    const auto number = fortran_number(std::string(word));
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  if (numbers.empty() || numbers.size() % a_point != 0) return {};
+  return numbers;
+}
+
+// Values are E13.5 in single precision and E20.12 in double; an abscissa is E13.5, but some
+// programs write it wider. The declared number of points is believed: what is behind them fills the
+// line.
 std::vector<double> read_text_values(Lines& lines, const Layout& layout) {
-  const std::size_t count = layout.n_points * layout.numbers_a_point();
+  const std::size_t a_point = layout.numbers_a_point(), count = layout.n_points * a_point;
   constexpr std::size_t narrow = 13;
   const std::size_t width = layout.is_single() ? narrow : 20;
   std::vector<double> values;
   values.reserve(std::min<std::size_t>(count, 1 << 20));
   while (values.size() < count) {
-    Fields fields(lines.next(), lines);
+    const std::string_view line = lines.next();
+    if (const auto numbers = separated_numbers(line, a_point)) {
+      const std::size_t n = std::min(numbers->size(), count - values.size());
+      values.insert(values.end(), numbers->begin(), numbers->begin() + std::ptrdiff_t(n));
+      continue;
+    }
+    Fields fields(line, lines);
     if (!fields.has_more()) lines.refuse("a line of values is empty");
     while (values.size() < count && fields.has_more()) {
-      const bool is_abscissa = !layout.is_even && values.size() % layout.numbers_a_point() == 0;
+      const bool is_abscissa = !layout.is_even && values.size() % a_point == 0;
       values.push_back(fields.real(is_abscissa ? narrow : width));
     }
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -10,6 +12,7 @@
 #include "signals/formats/record_columns.h"
 #include "signals/formats/uff58/uff58_exact.h"
 #include "signals/formats/uff58_file.h"
+#include "signals/record/channel_name.h"
 
 namespace vibrissa::signals::formats {
 namespace {
@@ -49,47 +52,96 @@ std::string degree_of_freedom(const Uff58Function& function) {
          directions[static_cast<std::size_t>(std::abs(direction))];
 }
 
+bool tell_apart(const std::vector<std::string>& names) {
+  const std::set<std::string> different(names.begin(), names.end());
+  return different.size() == names.size() && different.count("") == 0 &&
+         different.count("NONE") == 0;
+}
+
+// The first line of the functions, the label of their values, or their degree of freedom.
 std::vector<std::string> names_of(const std::vector<Uff58Function>& functions) {
-  std::vector<std::string> names;
-  std::set<std::string> different;
+  std::vector<std::string> titles, labels, freedoms;
   for (const Uff58Function& function : functions) {
-    names.push_back(function.id_lines[0]);
-    different.insert(function.id_lines[0]);
+    titles.push_back(function.id_lines[0]);
+    labels.push_back(function.ordinate_axis.label);
+    freedoms.push_back(degree_of_freedom(function));
   }
-  const bool tell_apart =
-      different.size() == names.size() && different.count("") == 0 && different.count("NONE") == 0;
-  for (std::size_t i = 0; !tell_apart && i < names.size(); ++i)
-    names[i] = degree_of_freedom(functions[i]);
-  return names;
+  if (tell_apart(titles) && titles.size() > 1) return titles;
+  if (tell_apart(labels) && labels.size() > 1) return labels;
+  return tell_apart(titles) ? titles : freedoms;
+}
+
+constexpr int time_axis = 17;
+
+bool is_over_time(const Uff58Function& function) {
+  if (function.is_complex || function.values.size() < 2) return false;
+  if (!function.abscissa.empty()) return function.abscissa_axis.quantity == time_axis;
+  return function.abscissa_step > 0. &&
+         (function.function_type == time_response || function.abscissa_axis.quantity == time_axis);
+}
+
+std::string kind_of(const Uff58Function& function) {
+  static const std::map<int, std::string> kinds{{0, "general function"},
+                                                {1, "time response"},
+                                                {2, "auto spectrum"},
+                                                {3, "cross spectrum"},
+                                                {4, "frequency response function"},
+                                                {5, "transmissibility"},
+                                                {6, "coherence"},
+                                                {7, "autocorrelation"},
+                                                {8, "cross correlation"},
+                                                {9, "power spectral density"},
+                                                {10, "energy spectral density"},
+                                                {11, "probability density"},
+                                                {12, "spectrum"}};
+  const auto found = kinds.find(function.function_type);
+  return "type " + std::to_string(function.function_type) +
+         (found == kinds.end() ? "" : ", " + found->second);
+}
+
+[[noreturn]] void refuse_functions(const std::string& file,
+                                   const std::vector<Uff58Function>& functions) {
+  std::set<std::string> kinds;
+  bool has_response = false;
+  for (const Uff58Function& function : functions) {
+    kinds.insert(kind_of(function) + (function.values.size() < 2 ? " of one point" : ""));
+    has_response = has_response || function.function_type == frequency_response;
+  }
+  std::string text;
+  for (const std::string& kind : kinds) text += (text.empty() ? "" : "; ") + kind;
+  throw UserError(file + ": contains no uniformly sampled time response" +
+                  (has_response ? "; to read its frequency responses, use identify or convert "
+                                  "with --frequency-response"
+                                : "") +
+                  ". Its functions: " + text);
+}
+
+std::string unit_of(const Uff58Axis& axis) {
+  return axis.unit == "NONE" ? "" : axis.unit;
 }
 
 }  // namespace
 
 std::unique_ptr<RecordTable> read_uff58_table(const std::filesystem::path& file) {
-  std::vector<Uff58Function> functions = read_uff58(file);
-  const bool has_response = std::any_of(
-      functions.begin(), functions.end(),
-      [](const auto& function) { return function.function_type == frequency_response; });
-  std::erase_if(functions, [](const Uff58Function& function) {
-    return function.function_type != time_response || function.is_complex ||
-           !function.abscissa.empty() || !(function.abscissa_step > 0.);
-  });
-  if (functions.empty())
-    throw UserError(file.string() + ": contains no uniformly sampled time response" +
-                    (has_response ? "; to read its frequency responses, use identify or convert "
-                                    "with --frequency-response"
-                                  : ""));
+  const std::vector<Uff58Function> all = read_uff58(file);
+  std::vector<Uff58Function> functions;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(functions), is_over_time);
+  if (functions.empty()) refuse_functions(file.string(), all);
   const Uff58Function first = functions.front();
   std::erase_if(functions, [&](const Uff58Function& function) {
     return function.values.size() != first.values.size() ||
-           function.abscissa_step != first.abscissa_step;
+           function.abscissa_step != first.abscissa_step || function.abscissa != first.abscissa;
   });
   const std::vector<std::string> names = names_of(functions);
   std::vector<NumericColumn> columns;
+  if (!first.abscissa.empty()) columns.push_back({time_channel, first.abscissa, false, "s"});
   for (std::size_t i = 0; i < functions.size(); ++i) {
-    columns.push_back({names[i], {}, functions[i].single_precision});
+    columns.push_back(
+        {names[i], {}, functions[i].single_precision, unit_of(functions[i].ordinate_axis)});
     for (const auto& value : functions[i].values) columns.back().values.push_back(value.real());
   }
+  if (!first.abscissa.empty())
+    return std::make_unique<NumericTable>(file.string(), std::move(columns));
   const auto exact = clock_in(first.id_lines[3]);
   return std::make_unique<NumericTable>(
       file.string(), std::move(columns),

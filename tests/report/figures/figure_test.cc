@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "signals/base/error.h"
-#include "signals/formats/csv_file.h"
+#include "signals/formats/text/text_file.h"
 #include "tests/signals/temporary_folder.h"
 
 namespace vibrissa::report {
@@ -81,7 +81,7 @@ TEST(Figure, CsvHoldsEveryPointWithNamesAndUnits) {
 TEST(Figure, CsvIsReadByOurOwnReader) {
   const TemporaryFolder folder;
   const auto plain = with([](Figure& figure) { figure.panels[0].curves[2].label = "a, b"; });
-  const signals::CsvFile csv(folder.file("a.csv", to_csv(plain)));
+  const signals::formats::TextFile csv(folder.file("a.csv", to_csv(plain)));
   EXPECT_EQ(csv.n_rows(), 8u);
   EXPECT_EQ(csv.columns().size(), 8u);
 }

@@ -156,8 +156,9 @@ TEST_F(ReadRecord, ListsTheColumnsWhenOneIsMissing) {
   EXPECT_THAT(reading(csv(plain_header, plain), {.columns = {{"base_moment_N_m", "hall"}}}),
               ThrowsMessage<UserError>(EndsWith("r.csv:1: unknown column 'hall'. Known: time_s, "
                                                 "base_acceleration_m_s2, base_moment_N_m")));
-  EXPECT_THAT(reading(csv("x_mps2,z_mps2", plain), {.columns = {{"base_moment_N_m", "z_mps"}}}),
-              ThrowsMessage<UserError>(HasSubstr("did you mean 'z_mps2'?")));
+  EXPECT_THAT(
+      reading(csv("time_s,x_mps2,z_mps2", plain), {.columns = {{"base_moment_N_m", "z_mps"}}}),
+      ThrowsMessage<UserError>(HasSubstr("did you mean 'z_mps2'?")));
 }
 
 TEST_F(ReadRecord, RefusesAFileWithoutAnyChannel) {

@@ -1,0 +1,237 @@
+#include "signals/record/stamp_regression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "signals/record/lost_samples.h"
+
+namespace vibrissa::signals {
+namespace {
+
+constexpr std::size_t least_events = 16;
+constexpr double most_lost = 0.05;
+
+// Samples with one stamp are one event, at the mean of their numbers.
+struct Events {
+  std::vector<double> times_s, samples;
+  std::vector<std::size_t> first;  // first row of each event
+  std::size_t packet = 1;          // number of samples of most events
+};
+
+Events events_of(const std::span<const double> times_s) {
+  Events events;
+  std::vector<std::size_t> sizes;
+  for (std::size_t i = 0, next; i < times_s.size(); i = next) {
+    for (next = i + 1; next < times_s.size() && times_s[next] == times_s[i];) ++next;
+    events.times_s.push_back(times_s[i]);
+    events.samples.push_back(0.5 * static_cast<double>(i + next - 1));
+    events.first.push_back(i);
+    sizes.push_back(next - i);
+  }
+  std::vector<std::size_t> sorted = sizes;
+  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
+                   sorted.end());
+  const std::size_t usual = sorted[sorted.size() / 2];
+  const auto n_usual = std::count(sizes.begin(), sizes.end(), usual);
+  constexpr double nearly_all = 0.9;
+  if (double(n_usual) > nearly_all * double(sizes.size())) events.packet = usual;
+  return events;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Median slope over a lag that is long beside a packet and short beside the usual way between
+// losses.
+double first_period(const Events& events) {
+  const std::size_t n = events.times_s.size();
+  const std::size_t lag = std::clamp<std::size_t>(n / 8, 2, 24);
+  std::vector<double> slopes;
+  for (std::size_t i = 0; i + lag < n; ++i)
+    slopes.push_back((events.times_s[i + lag] - events.times_s[i]) /
+                     (events.samples[i + lag] - events.samples[i]));
+  return median(std::move(slopes));
+}
+
+double local_jitter(const Events& events, const double period_s) {
+  std::vector<double> changes;
+  for (std::size_t i = 1; i < events.times_s.size(); ++i)
+    changes.push_back(std::abs(events.times_s[i] - events.times_s[i - 1] -
+                               period_s * (events.samples[i] - events.samples[i - 1])));
+  constexpr double deviation_over_median = 1.4826, of_a_difference = 1.4142;
+  return median(std::move(changes)) * deviation_over_median / of_a_difference;
+}
+
+// Whether a step backward is longer than jitter explains.
+bool runs_backward(const std::span<const double> times_s, const double jitter_s,
+                   const double rounding_s) {
+  constexpr double most_deviations = 7.;
+  const double allowed = most_deviations * std::max(jitter_s, rounding_s);
+  for (std::size_t i = 1; i < times_s.size(); ++i)
+    if (times_s[i] < times_s[i - 1] - allowed) return true;
+  return false;
+}
+
+// One line for each run of events between which the number of lost samples is certain; the lines
+// have one slope.
+struct Lines {
+  std::vector<std::size_t> run;  // of each event
+  std::vector<double> samples;   // of each event, with those that are lost
+  std::vector<double> start_s;   // of each run: time of its sample 0
+  double period_s = 0., period_error_s = 0., deviation_s = 0.;
+  std::vector<double> residuals_s;
+};
+
+constexpr std::size_t most_certain = 20;  // a longer loss is not counted exactly
+
+// Standard deviation of the sum of correlated residuals over that of independent ones, squared.
+double correlation_factor(const std::vector<double>& residuals) {
+  const std::size_t n_blocks = 30, length = residuals.size() / n_blocks;
+  if (length < 2) return 1.;
+  double power = 0., of_means = 0.;
+  for (std::size_t b = 0; b < n_blocks; ++b) {
+    double sum = 0.;
+    for (std::size_t i = b * length; i < (b + 1) * length; ++i) {
+      sum += residuals[i];
+      power += residuals[i] * residuals[i];
+    }
+    of_means += sum * sum / double(length);
+  }
+  return power > 0. ? std::max(1., of_means / power * double(length)) : 1.;
+}
+
+Lines fitted_lines(const Events& events, const std::vector<std::size_t>& lost,
+                   const double rounding_s) {
+  const std::size_t n = events.times_s.size();
+  Lines lines;
+  double n_lost = 0.;
+  std::size_t run = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    n_lost += double(lost[i]);
+    if (lost[i] > most_certain) ++run;
+    lines.run.push_back(run);
+    lines.samples.push_back(events.samples[i] + n_lost);
+  }
+  std::vector<double> count(run + 1), mean_x(run + 1), mean_t(run + 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    count[lines.run[i]] += 1.;
+    mean_x[lines.run[i]] += lines.samples[i];
+    mean_t[lines.run[i]] += events.times_s[i] - events.times_s[0];
+  }
+  for (std::size_t r = 0; r <= run; ++r) mean_x[r] /= count[r], mean_t[r] /= count[r];
+  double xx = 0., xt = 0.;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = lines.samples[i] - mean_x[lines.run[i]];
+    xx += x * x;
+    xt += x * (events.times_s[i] - events.times_s[0] - mean_t[lines.run[i]]);
+  }
+  lines.period_s = xt / xx;
+  for (std::size_t r = 0; r <= run; ++r)
+    lines.start_s.push_back(events.times_s[0] + mean_t[r] - lines.period_s * mean_x[r]);
+  double power = 0.;
+  for (std::size_t i = 0; i < n; ++i) {
+    lines.residuals_s.push_back(events.times_s[i] - lines.start_s[lines.run[i]] -
+                                lines.period_s * lines.samples[i]);
+    power += lines.residuals_s.back() * lines.residuals_s.back();
+  }
+  lines.deviation_s = std::sqrt(power / double(n));
+  const double spread = std::max(lines.deviation_s, rounding_s / std::sqrt(3.));
+  lines.period_error_s = spread * std::sqrt(correlation_factor(lines.residuals_s) / xx);
+  return lines;
+}
+
+// Whether the stamps leave every grid: their difference to it grows with the lag, as the sum of
+// uneven steps does. Slow drift of a clock does not count.
+bool wander(const Lines& lines) {
+  const auto& r = lines.residuals_s;
+  constexpr std::size_t long_lag = 32;
+  if (r.size() < 4 * long_lag) return lines.deviation_s > lines.period_s;
+  const auto power_at = [&](const std::size_t lag) {
+    // Second differences remove drift of the period.
+    double sum = 0.;
+    for (std::size_t i = 0; i + 2 * lag < r.size(); ++i)
+      sum += std::pow(r[i] - 2. * r[i + lag] + r[i + 2 * lag], 2);
+    return sum / double(r.size() - 2 * lag);
+  };
+  constexpr double grows = 4., matters_periods = 0.5;
+  const double at_long = power_at(long_lag);
+  return at_long > grows * power_at(1) && at_long > std::pow(matters_periods * lines.period_s, 2);
+}
+
+// Whether nearly all steps have one of three lengths, most of them the shortest.
+bool come_in_bursts(const std::span<const double> times_s, const double rounding_s) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times_s.size(); ++i) steps.push_back(times_s[i] - times_s[i - 1]);
+  std::sort(steps.begin(), steps.end());
+  constexpr std::size_t most_lengths = 3;
+  constexpr double nearly_all = 0.98;
+  std::size_t n_lengths = 0, n_short = 0;
+  const auto n_counted = std::size_t(nearly_all * double(steps.size()));
+  for (std::size_t i = 0, next; i < n_counted; i = next) {
+    for (next = i + 1; next < steps.size() && steps[next] - steps[i] <= 4. * rounding_s;) ++next;
+    if (n_lengths++ == 0) n_short = next;
+  }
+  return n_lengths > 1 && n_lengths <= most_lengths && 2 * n_short > steps.size();
+}
+
+void set_pieces(const Events& events, const std::vector<std::size_t>& lost, const Lines& lines,
+                const std::size_t n_rows, Clock& clock) {
+  std::vector<std::size_t> firsts;
+  for (std::size_t i = 0; i < lost.size(); ++i) {
+    if (i > 0 && lost[i] == 0) continue;
+    firsts.push_back(events.first[i]);
+    const double ahead = events.samples[i] - double(events.first[i]);
+    clock.pieces.push_back(
+        {events.first[i], 0,
+         lines.start_s[lines.run[i]] + lines.period_s * (lines.samples[i] - ahead)});
+    clock.n_lost += lost[i];
+  }
+  firsts.push_back(n_rows);
+  for (std::size_t p = 0; p < clock.pieces.size(); ++p)
+    clock.pieces[p].count = firsts[p + 1] - firsts[p];
+}
+
+}  // namespace
+
+std::optional<Clock> regress_stamps(const std::span<const double> times_s,
+                                    const double rounding_s) {
+  const Events events = events_of(times_s);
+  if (events.times_s.size() < least_events) return {};
+  double period_s = first_period(events);
+  if (!(period_s > 0.)) return {};
+  if (runs_backward(times_s, local_jitter(events, period_s), rounding_s)) return {};
+  std::vector<std::size_t> lost;
+  Lines lines;
+  constexpr int n_rounds = 3;
+  for (int round = 0; round < n_rounds; ++round) {
+    constexpr double least_jitter_periods = 0.03;
+    const double jitter_s =
+        std::max({local_jitter(events, period_s), rounding_s, least_jitter_periods * period_s});
+    lost = lost_before_each({events.times_s, events.samples, period_s, jitter_s, events.packet});
+    lines = fitted_lines(events, lost, rounding_s);
+    if (!(lines.period_s > 0.)) return {};
+    period_s = lines.period_s;
+  }
+  const auto n_losses = std::count_if(lost.begin(), lost.end(), [](auto n) { return n > 0; });
+  const bool is_burst =
+      double(n_losses) > most_lost * double(lost.size()) && come_in_bursts(times_s, rounding_s);
+  if (is_burst) {
+    std::fill(lost.begin(), lost.end(), 0);
+    lines = fitted_lines(events, lost, rounding_s);
+  } else if (wander(lines) || double(n_losses) > most_lost * double(lost.size())) {
+    return {};
+  }
+  Clock clock{.sampling_rate_hz = 1. / lines.period_s,
+              .rate_error_hz = lines.period_error_s / (lines.period_s * lines.period_s),
+              .jitter_s = lines.deviation_s,
+              .is_from_bursts = is_burst};
+  set_pieces(events, lost, lines, times_s.size(), clock);
+  return clock;
+}
+
+}  // namespace vibrissa::signals
