@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "signals/base/error.h"
+#include "signals/files/joined_recording.h"
 #include "signals/files/row_range.h"
+#include "signals/record/channel_name.h"
 #include "signals/record/plausibility.h"
 
 namespace vibrissa::apps {
@@ -61,6 +63,12 @@ void add_layout_options(CLI::App& command, RecordOptions& options) {
       .add_option("--decimal", options.decimal,
                   "Decimal mark of a text table (default: recognised)")
       ->check(CLI::IsMember({"point", "comma"}));
+  command.add_option("--join", options.join,
+                     "Further file of another device with the same time; its channels are joined "
+                     "at the sampling times of the slower device");
+  command.add_option("--resample", options.resample_hz,
+                     "For uneven sampling: even rate [Hz] at which a band-limited signal is "
+                     "estimated; its error is said");
   command.add_option("--header-lines", options.header_lines,
                      "Number of lines before the first row of a text table (default: recognised)");
 }
@@ -106,10 +114,19 @@ void RecordOptions::add_to(CLI::App& command) {
 }
 
 signals::ReadOptions RecordOptions::read_options() const {
+  if (join)
+    throw signals::UserError(
+        "--join: this command reads records one by one; join the files first by 'vibrissa "
+        "convert'");
+  return options_of_each();
+}
+
+signals::ReadOptions RecordOptions::options_of_each() const {
   signals::ReadOptions options;
   options.sampling_rate_hz = rate_hz;
   options.remove_mean = remove_mean;
   options.text = text_options(*this);
+  options.resample_hz = resample_hz;
   options.gaps = gaps == "pieces" ? signals::Gaps::pieces : signals::Gaps::refuse;
   if (rows) {
     const signals::RowRange range = signals::parse_rows(*rows, "--rows");
@@ -120,8 +137,27 @@ signals::ReadOptions RecordOptions::read_options() const {
   return options;
 }
 
+// Each file gives the chosen columns that it has; every choice must be in one of them.
+signals::Recording RecordOptions::read_joined(const std::string& file) const {
+  signals::ReadOptions options = options_of_each();
+  options.skips_missing_columns = true;
+  const signals::Recording one = signals::read_recording(file, options);
+  const signals::Recording other = signals::read_recording(*join, options);
+  for (const signals::ColumnChoice& choice : options.columns)
+    if (choice.channel != signals::time_channel && !one.pieces.front().has(choice.channel) &&
+        !other.pieces.front().has(choice.channel))
+      throw signals::UserError("column '" + choice.column + "' is neither in " + file + " nor in " +
+                               *join);
+  if (!is_quiet()) {
+    say_how_read(file, one.words);
+    say_how_read(*join, other.words);
+  }
+  return signals::joined(one, other);
+}
+
 signals::Recording RecordOptions::read_pieces(const std::string& file) const {
-  signals::Recording recording = signals::read_recording(file, read_options());
+  signals::Recording recording =
+      join ? read_joined(file) : signals::read_recording(file, options_of_each());
   if (!is_quiet()) say_how_read(file, recording.words);
   for (const std::string& remark :
        signals::implausible_magnitudes(recording.pieces[recording.longest()]))
@@ -134,8 +170,8 @@ signals::Record RecordOptions::read(const std::string& file) const {
   const std::size_t longest = recording.longest();
   signals::Record& record = recording.pieces[longest];
   if (recording.pieces.size() > 1)
-    std::cerr << "warning: " << file << ": samples are lost, so only the longest piece is used, "
-              << longest + 1 << " of " << recording.pieces.size() << ": " << record.n_samples()
+    std::cerr << "warning: " << file << ": the longest of " << recording.pieces.size()
+              << " pieces is used, piece " << longest + 1 << ": " << record.n_samples()
               << " samples from " << record.time_s(0) << " s on; 'vibrissa convert' writes all"
               << std::endl;
   return std::move(record);
@@ -143,7 +179,7 @@ signals::Record RecordOptions::read(const std::string& file) const {
 
 std::vector<double> RecordOptions::read_column(const std::string& file,
                                                const std::string& column) const {
-  signals::ReadOptions options = read_options();
+  signals::ReadOptions options = options_of_each();
   options.columns = {{.channel = column, .column = column}};
   options.remove_mean.clear();
   const signals::Record record = signals::read_record(file, options);

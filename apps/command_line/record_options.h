@@ -22,6 +22,8 @@ struct RecordOptions {
   std::string gaps = "pieces";
   std::optional<std::string> separator, decimal;
   std::optional<std::size_t> header_lines;
+  std::optional<double> resample_hz;
+  std::optional<std::string> join;
 
   void add_to(CLI::App& command);
   /// The longest piece. Says on standard error how the file was read, which piece this is, and
@@ -30,13 +32,15 @@ struct RecordOptions {
   signals::Record read(const std::string& file) const;
   /// All pieces; says the same.
   signals::Recording read_pieces(const std::string& file) const;
-  /// What read_record is told. Throws UserError as read does.
+  /// What read_record is told. Throws UserError as read does, and for --join, which needs read().
   signals::ReadOptions read_options() const;
   /// One further column of the same rows, in its own unit.
   std::vector<double> read_column(const std::string& file, const std::string& column) const;
 
  private:
   bool is_quiet() const;
+  signals::ReadOptions options_of_each() const;
+  signals::Recording read_joined(const std::string& file) const;
 
   const CLI::App* command_ = nullptr;
 };

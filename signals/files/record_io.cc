@@ -56,6 +56,7 @@ Recording read_recording(const std::filesystem::path& file, const ReadOptions& o
   Recording recording;
   recording.pieces = read_rows(*table, file.string(), sources, options, n_rows, clock);
   for (Record& piece : recording.pieces) remove_means(options, piece);
+  recording.epoch_s = clock->epoch_s;
   const std::string layout = table->layout_text();
   recording.words = (layout.empty() ? "" : layout + "; ") + clock->words + "; " +
                     sizes_of(recording, *clock) + "; " + to_string(sources, *table);

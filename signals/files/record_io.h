@@ -24,6 +24,8 @@ struct ReadOptions {
   std::vector<std::string> remove_mean = {};  // channels whose mean is removed
   formats::TextOptions text = {};             // of a text table
   Gaps gaps = Gaps::refuse;
+  std::optional<double> resample_hz = {};  // uneven samples are estimated at this even rate
+  bool skips_missing_columns = false;      // of the choice; another file may have them
 };
 
 /// The records of a file and how it was read.
@@ -32,6 +34,8 @@ struct Recording {
   /// For the user: "semicolons, decimal commas, names in line 1; 500 Hz from 't'; 10000 samples,
   /// 20 s; base_acceleration_m_s2 = ax [g] * 9.80665".
   std::string words;
+  /// Time since 1970 of time 0, where the file has dates [s]; 0: it has none.
+  double epoch_s = 0.;
   std::size_t longest() const;  // index of the piece with the most samples
 };
 

@@ -7,6 +7,7 @@
 
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
+#include "signals/files/resampled_rows.h"
 #include "signals/record/time_axis.h"
 
 namespace vibrissa::signals {
@@ -76,12 +77,14 @@ void settle_rate(const RecordTable& file, const std::string& path, const std::st
   if (!is_nominal) clock.sampling_rate_hz = *known;
 }
 
-// Times since 1970 need more digits than a double has: they begin anew at the first row.
-void begin_at_zero(std::vector<double>& times_s) {
+// Times since 1970 need more digits than a double has: they begin anew at the first row. Returns
+// what was subtracted.
+double begin_at_zero(std::vector<double>& times_s) {
   constexpr double long_ago_s = 1e8;
   const double start = times_s.front();
-  if (std::abs(start) < long_ago_s) return;
+  if (std::abs(start) < long_ago_s) return 0.;
   for (double& time : times_s) time -= start;
+  return start;
 }
 
 Clock clock_of_column(const RecordTable& file, const std::string& path, const Sources& sources,
@@ -89,7 +92,7 @@ Clock clock_of_column(const RecordTable& file, const std::string& path, const So
                       const ReadOptions& options) {
   const Source& time = *sources.time;
   if (sources.time_unit_is_unknown) check_time_unit(file, time, options.first_row, times_s);
-  begin_at_zero(times_s);
+  const double epoch_s = begin_at_zero(times_s);
   const PrintedTimes printed{
       .times_s = times_s,
       .digits = digits,
@@ -100,6 +103,7 @@ Clock clock_of_column(const RecordTable& file, const std::string& path, const So
       .row_word = file.row_word(),
       .line_of = [&](const std::size_t i) { return file.row_number(options.first_row + i); }};
   Clock clock = find_clock(printed, blocks_within(file, options.first_row, times_s.size()));
+  clock.epoch_s = epoch_s;
   settle_rate(file, path, printed.column, options, clock);
   if (options.gaps == Gaps::pieces || clock.pieces.size() == 1) return clock;
   find_time_axis(printed);  // names a gap of an exact grid
@@ -154,6 +158,8 @@ void check(const ReadOptions& options) {
   if (const auto rate = options.sampling_rate_hz; rate && !(std::isfinite(*rate) && *rate > 0.))
     throw UserError("--rate " + to_text(*rate) +
                     ": the sampling rate must be a positive number of Hz");
+  if (const auto rate = options.resample_hz; rate && !(std::isfinite(*rate) && *rate > 0.))
+    throw UserError("--resample " + to_text(*rate) + ": the rate must be a positive number of Hz");
 }
 
 std::size_t number_of_rows(const RecordTable& file, const ReadOptions& options) {
@@ -193,6 +199,15 @@ std::vector<Record> read_rows(const RecordTable& file, const std::string& path,
   auto [values, digits] = file.read({columns, options.first_row, n_rows, time_column});
   for (std::size_t c = 0; c < values.size(); ++c)
     convert(file, wanted[c], options.first_row, values[c]);
+  if (options.resample_hz && reads_time) {
+    if (sources.time_unit_is_unknown)
+      check_time_unit(file, *sources.time, options.first_row, values.back());
+    const double epoch_s = begin_at_zero(values.back());
+    std::vector<Record> even =
+        resampled_records(path, sources, values, *options.resample_hz, clock);
+    clock->epoch_s = epoch_s;
+    return even;
+  }
   if (!clock)
     clock = reads_time ? clock_of_column(file, path, sources, values.back(), digits, options)
                        : clock_without_column(file, path, options, n_rows);

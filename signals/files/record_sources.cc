@@ -49,7 +49,8 @@ class SourceFinder {
  public:
   explicit SourceFinder(const RecordTable& file) : file_(file), columns_(file_columns(file)) {}
 
-  Sources chosen(const std::vector<ColumnChoice>& choices) const;
+  Sources chosen(const std::vector<ColumnChoice>& choices, bool skips_missing) const;
+  std::size_t find_column(const ColumnChoice& choice) const;
   void add_channels_by_name(Sources& sources) const;
   void add_time_by_name(Sources& sources, bool needs_time) const;
 
@@ -64,8 +65,9 @@ class SourceFinder {
   std::vector<FileColumn> columns_;
 };
 
-// By the name in the file, by name and unit, or by the name without its unit.
-std::size_t SourceFinder::column_of(const ColumnChoice& choice) const {
+// By the name in the file, by name and unit, or by the name without its unit; the number of columns
+// where there is none.
+std::size_t SourceFinder::find_column(const ColumnChoice& choice) const {
   const auto place = [&](const auto& is_it) {
     return std::size_t(std::find_if(columns_.begin(), columns_.end(), is_it) - columns_.begin());
   };
@@ -77,7 +79,12 @@ std::size_t SourceFinder::column_of(const ColumnChoice& choice) const {
   const auto has_bare_name = [&](const auto& column) { return column.bare_name == choice.column; };
   if (i == n && std::count_if(columns_.begin(), columns_.end(), has_bare_name) == 1)
     i = place(has_bare_name);
-  if (i == n)
+  return i;
+}
+
+std::size_t SourceFinder::column_of(const ColumnChoice& choice) const {
+  const std::size_t i = find_column(choice);
+  if (i == columns_.size())
     throw UserError(file_.place(0) + unknown_name("column", choice.column, file_.columns()));
   return i;
 }
@@ -121,9 +128,11 @@ Source SourceFinder::source_of(const ColumnChoice& choice) const {
   return source;
 }
 
-Sources SourceFinder::chosen(const std::vector<ColumnChoice>& choices) const {
+Sources SourceFinder::chosen(const std::vector<ColumnChoice>& choices,
+                             const bool skips_missing) const {
   Sources sources;
   for (const ColumnChoice& choice : choices) {
+    if (skips_missing && find_column(choice) == columns_.size()) continue;
     assert(!choice.channel.empty() && std::isfinite(choice.scale) && choice.scale != 0.);
     const auto same = [&](const Source& other) { return other.channel == choice.channel; };
     if (sources.time && choice.channel == time_channel)
@@ -217,7 +226,7 @@ void SourceFinder::add_time_by_name(Sources& sources, const bool needs_time) con
 
 Sources find_sources(const formats::RecordTable& file, const ReadOptions& options) {
   const SourceFinder finder(file);
-  Sources sources = finder.chosen(options.columns);
+  Sources sources = finder.chosen(options.columns, options.skips_missing_columns);
   finder.add_channels_by_name(sources);
   const bool has_exact_clock = file.clock() && !file.clock_is_nominal();
   finder.add_time_by_name(sources, !options.sampling_rate_hz && !has_exact_clock);

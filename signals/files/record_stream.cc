@@ -22,6 +22,8 @@ RecordStream::RecordStream(const std::filesystem::path& file, const ReadOptions&
     throw UserError(
         "--remove-mean needs the whole record, but a stream reads one block after the other; leave "
         "the option out");
+  if (options.resample_hz)
+    throw UserError("--resample needs the whole record; leave out the option of the stream");
   check(options);
   sources_ = find_sources(*table_, options_);
   n_rows_ = number_of_rows(*table_, options_);

@@ -21,6 +21,7 @@ struct Clock {
   double rate_error_hz = 0.;  // standard deviation; 0: the stamps are an exact grid
   double jitter_s = 0.;       // standard deviation of the stamps about the grid
   std::size_t n_lost = 0;
+  double epoch_s = 0.;                  // that was subtracted from times since 1970
   bool is_from_bursts = false;          // the mean rate of bursts read from a buffer
   std::vector<ClockPiece> pieces = {};  // in the order of the file; one where nothing is lost
   std::string words = {};  // "499.98 +- 0.01 Hz by regression over 1000 stamps, jitter 0.6 ms"

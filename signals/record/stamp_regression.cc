@@ -145,6 +145,17 @@ Lines fitted_lines(const Events& events, const std::vector<std::size_t>& lost,
   return lines;
 }
 
+// Steps of bursts are uneven, so only their sum tells the period: the line from the first to the
+// last event.
+Lines mean_line(const Events& events, Lines lines) {
+  const double span_s = events.times_s.back() - events.times_s.front();
+  const double n = events.samples.back() - events.samples.front();
+  lines.period_s = span_s / n;
+  lines.period_error_s = std::sqrt(2.) * lines.deviation_s / n;
+  lines.start_s.front() = events.times_s.front() - lines.period_s * events.samples.front();
+  return lines;
+}
+
 // Whether the stamps leave every grid: their difference to it grows with the lag, as the sum of
 // uneven steps does. Slow drift of a clock does not count.
 bool wander(const Lines& lines) {
@@ -222,7 +233,7 @@ std::optional<Clock> regress_stamps(const std::span<const double> times_s,
       double(n_losses) > most_lost * double(lost.size()) && come_in_bursts(times_s, rounding_s);
   if (is_burst) {
     std::fill(lost.begin(), lost.end(), 0);
-    lines = fitted_lines(events, lost, rounding_s);
+    lines = mean_line(events, fitted_lines(events, lost, rounding_s));
   } else if (wander(lines) || double(n_losses) > most_lost * double(lost.size())) {
     return {};
   }

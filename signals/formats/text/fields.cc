@@ -123,7 +123,7 @@ void split_fields(const std::string_view whole, const char separator,
   }
 }
 
-std::vector<std::string_view> fields_of(const std::string_view line, const char separator) {
+std::vector<std::string_view> split_line(const std::string_view line, const char separator) {
   std::vector<std::string_view> fields;
   split_fields(line, separator, fields);
   return fields;

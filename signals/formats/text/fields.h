@@ -17,7 +17,7 @@ struct Spelling {
 /// Splits a line; blanks around fields and quotes are removed. Only a field that starts with a
 /// quote may contain the separator. Proven by tests/signals/formats/text_file_test.cc.
 void split_fields(std::string_view line, char separator, std::vector<std::string_view>& fields);
-std::vector<std::string_view> fields_of(std::string_view line, char separator);
+std::vector<std::string_view> split_line(std::string_view line, char separator);
 
 /// The number in a field. A decimal comma needs a digit on both sides.
 std::optional<double> number_in(std::string_view field, char decimal);

@@ -29,7 +29,7 @@ struct LabviewHeader {
 LabviewHeader labview_header(const std::vector<HeadLine>& head, const char separator) {
   LabviewHeader header;
   for (std::size_t i = 0; i < head.size(); ++i) {
-    const auto fields = fields_of(head[i].text, separator);
+    const auto fields = split_line(head[i].text, separator);
     const std::string key(fields.front());
     if (key == "X_Value") {
       header.names = &head[i];
@@ -126,7 +126,7 @@ TableLayout labview_layout(const std::string& file, const std::vector<HeadLine>&
     throw UserError(file +
                     ": the LabVIEW header has no line that begins with X_Value, so the "
                     "columns have no names; give --header-lines");
-  const auto names = fields_of(header.names->text, separator);
+  const auto names = split_line(header.names->text, separator);
   std::size_t n_columns = names.size();
   while (n_columns > 1 && names[n_columns - 1].empty()) --n_columns;
   const bool step_has_comma = header.entry("X0").find(',') != std::string::npos && separator != ',';

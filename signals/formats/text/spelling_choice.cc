@@ -55,7 +55,7 @@ using Rows = std::vector<std::vector<std::string_view>>;
 
 Rows rows_of(const std::vector<const HeadLine*>& lines, const char separator) {
   Rows rows;
-  for (const HeadLine* const line : lines) rows.push_back(fields_of(line->text, separator));
+  for (const HeadLine* const line : lines) rows.push_back(split_line(line->text, separator));
   return rows;
 }
 
@@ -102,8 +102,8 @@ Reading read_as(const Spelling& spelling, const std::vector<const HeadLine*>& li
 bool give_the_same(const Reading& a, const Reading& b, const std::vector<const HeadLine*>& lines) {
   if (a.n_fields != b.n_fields || a.is_numeric != b.is_numeric) return false;
   return std::all_of(lines.begin(), lines.end(), [&](const HeadLine* const line) {
-    const auto left = fields_of(line->text, a.spelling.separator);
-    const auto right = fields_of(line->text, b.spelling.separator);
+    const auto left = split_line(line->text, a.spelling.separator);
+    const auto right = split_line(line->text, b.spelling.separator);
     return std::equal(left.begin(), left.end(), right.begin(), right.end(),
                       [&](const auto x, const auto y) {
                         return number_in(x, a.spelling.decimal) == number_in(y, b.spelling.decimal);
@@ -123,7 +123,7 @@ std::string described(const Reading& reading, const std::string& line) {
       {',', "commas"}, {';', "semicolons"}, {'\t', "tabs"}, {' ', "blanks"}, {'\0', "line ends"}};
   std::string text = words.at(reading.spelling.separator) + " and decimal " +
                      (reading.spelling.decimal == ',' ? "commas" : "points") + " give";
-  for (const auto field : fields_of(line, reading.spelling.separator))
+  for (const auto field : split_line(line, reading.spelling.separator))
     text.append(" '").append(field).append("'");
   return text;
 }
@@ -176,7 +176,7 @@ std::vector<Reading> best_readings(std::vector<Reading> readings,
 
 bool has_quoted_comma(const std::vector<const HeadLine*>& lines) {
   return std::any_of(lines.begin(), lines.end(), [](const HeadLine* const line) {
-    const auto fields = fields_of(line->text, ',');
+    const auto fields = split_line(line->text, ',');
     return std::any_of(fields.begin(), fields.end(),
                        [](const auto field) { return field.find(',') != std::string_view::npos; });
   });
@@ -205,7 +205,7 @@ Reading without_numbers(const std::vector<HeadLine>& head, const TextOptions& op
   if (first == head.end()) return reading;
   for (const char separator : {',', ';', '\t'}) {
     reading.spelling.separator = options.separator.value_or(separator);
-    reading.n_fields = fields_of(first->text, reading.spelling.separator).size();
+    reading.n_fields = split_line(first->text, reading.spelling.separator).size();
     if (reading.n_fields > 1) return reading;
   }
   reading.spelling.separator = options.separator.value_or(',');
@@ -215,7 +215,7 @@ Reading without_numbers(const std::vector<HeadLine>& head, const TextOptions& op
 }  // namespace
 
 bool is_row(const Reading& reading, const std::string& line) {
-  const auto fields = fields_of(line, reading.spelling.separator);
+  const auto fields = split_line(line, reading.spelling.separator);
   if (fields.size() != reading.n_fields) return false;
   bool has_value = false;
   for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -227,7 +227,7 @@ bool is_row(const Reading& reading, const std::string& line) {
 }
 
 bool may_be_names(const Reading& reading, const std::string& line) {
-  auto fields = fields_of(line, reading.spelling.separator);
+  auto fields = split_line(line, reading.spelling.separator);
   if (is_blank(line) || line.find_first_not_of(" \t,;") == std::string::npos) return false;
   while (fields.size() > reading.n_fields && fields.back().empty()) fields.pop_back();
   if (fields.size() > reading.n_fields) return false;

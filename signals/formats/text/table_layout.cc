@@ -21,7 +21,7 @@ std::string table_line(const HeadLine& line) {
 }
 
 bool holds_a_channel(const Reading& reading, const std::string& line) {
-  const auto fields = fields_of(line, reading.spelling.separator);
+  const auto fields = split_line(line, reading.spelling.separator);
   return std::any_of(fields.begin(), fields.end(), [](const auto field) {
     return !field.empty() && full_channel_name(std::string(field)) == field;
   });
@@ -42,7 +42,7 @@ bool holds_entries(const HeadLine& line) {
 }
 
 bool is_units_line(const HeadLine& line, const Reading& reading) {
-  return units_in(fields_of(table_line(line), reading.spelling.separator)).has_value();
+  return units_in(split_line(table_line(line), reading.spelling.separator)).has_value();
 }
 
 // Index of the line with the names before line `end`: one with the name of a channel, or the last
@@ -70,7 +70,7 @@ void check_names_fit(const std::string& file, const std::vector<HeadLine>& head,
                      const std::size_t end, const Reading& reading) {
   for (std::size_t i = end; i-- > 0;) {
     if (is_blank(head[i].text) || is_comment(head[i].text)) continue;
-    const std::size_t n = fields_of(head[i].text, reading.spelling.separator).size();
+    const std::size_t n = split_line(head[i].text, reading.spelling.separator).size();
     if (n < 2 || reading.n_fields == 0) return;
     const std::string line = std::to_string(head[i].number);
     throw UserError(
@@ -88,7 +88,7 @@ bool separates_only(const std::string& line) {
 void take_names(const std::vector<HeadLine>& head, const std::size_t names, const std::size_t row,
                 const Reading& reading, TableLayout& layout) {
   const std::string line = table_line(head[names]);
-  const auto fields = fields_of(line, reading.spelling.separator);
+  const auto fields = split_line(line, reading.spelling.separator);
   std::size_t n_columns = fields.size();
   while (n_columns > reading.n_fields && fields[n_columns - 1].empty()) --n_columns;
   layout.names = column_names(fields, std::max(n_columns, reading.n_fields));
@@ -104,7 +104,7 @@ void take_names(const std::vector<HeadLine>& head, const std::size_t names, cons
   const std::size_t units = next < row ? next : names + 1;
   if (units < row && may_be_names(reading, table_line(head[units]))) {
     const std::string text = table_line(head[units]);
-    if (auto stated = units_in(fields_of(text, reading.spelling.separator))) {
+    if (auto stated = units_in(split_line(text, reading.spelling.separator))) {
       stated->resize(layout.names.size());
       layout.units = *stated;
       layout.line_of_units = head[units].number;
@@ -129,7 +129,7 @@ void take_rate(const std::vector<HeadLine>& head, const std::size_t row, TableLa
 
 std::optional<double> value_of_all(const HeadLine& line, const Reading& reading) {
   std::optional<double> value;
-  for (const auto field : fields_of(line.text, reading.spelling.separator)) {
+  for (const auto field : split_line(line.text, reading.spelling.separator)) {
     const auto number = number_in(field, reading.spelling.decimal);
     if (!number || (value && *value != *number)) return {};
     value = number;
@@ -177,7 +177,7 @@ void set_no_rows(const std::string& file, const std::vector<HeadLine>& head, con
   while (names < head.size() && (is_comment(head[names].text) || is_blank(head[names].text)))
     ++names;
   if (names == head.size()) throw UserError(file + ": the file is empty");
-  const auto fields = fields_of(head[names].text, reading.spelling.separator);
+  const auto fields = split_line(head[names].text, reading.spelling.separator);
   layout.names = column_names(fields, fields.size());
   layout.n_fields = layout.names.size();
   layout.line_of_names = head[names].number;
