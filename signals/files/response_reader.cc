@@ -347,24 +347,6 @@ FrequencyResponse rising_lines(const FrequencyResponse& response) {
   return lines;
 }
 
-// The phase of a causal response falls through its resonances, which have most of the power. It
-// rises in a response to exp(-j w t). Resonances between two lines tell nothing: their phase jumps.
-bool has_rising_phase(const FrequencyResponse& response) {
-  double turn = 0., power = 0., squares = 0., jumps = 0.;
-  for (std::size_t i = 1; i < response.value.size(); ++i) {
-    const std::complex<double> step = std::conj(response.value[i - 1]) * response.value[i];
-    constexpr double largest_turn = 1.;
-    const bool is_jump = std::abs(std::arg(step)) > largest_turn;
-    (is_jump ? jumps : power) += std::abs(step);
-    if (is_jump) continue;
-    turn += step.imag();
-    squares += std::norm(step);
-  }
-  constexpr double least_turn = 0.05, least_lines = 6.;
-  const bool is_resolved = power > 4. * jumps && power * power > least_lines * squares;
-  return is_resolved && turn > least_turn * power;
-}
-
 }  // namespace
 
 FrequencyResponse read_response(const std::filesystem::path& file, const ResponseChoice& choice) {
@@ -385,12 +367,6 @@ FrequencyResponse read_response(const std::filesystem::path& file, const Respons
         ": contains no line of a frequency response above 0 Hz; at least one line is needed");
   if (is_conjugated)
     for (auto& value : lines.value) value = std::conj(value);
-  if (has_rising_phase(lines))
-    throw UserError(file.string() +
-                    ": the phase rises through the resonances, so the response follows the sign "
-                    "convention exp(-j w t), or its phase has the other sign; the convention here "
-                    "is exp(+j w t): conjugate it by --response-as 'conj(" +
-                    as + ")'");
   return lines;
 }
 
