@@ -162,7 +162,8 @@ class Growth {
 class Comparison {
  public:
   Comparison(std::span<const Segment> fitting, std::span<const Segment> held_out, double rate_hz,
-             std::size_t max_order, const OutputErrorOptions& fit, const OrderOptions& options)
+             std::size_t max_order, const OutputErrorOptions& fit, const OrderOptions& options,
+             std::span<const FittedBvrm> starts = {})
       : fitting_(fitting), rate_hz_(rate_hz), fit_options_(fit) {
     // Errors that are rounding are not told apart.
     double moment = 0.;
@@ -170,9 +171,10 @@ class Comparison {
       moment = std::max(moment, mean_square(segment.base_moment));
     rounding_ = 1e-20 * moment;
     growth_.emplace(held_out, rate_hz, options, rounding_);
-    fits_ = fit_orders(response_of(fitting, rate_hz, options.period_samples), fitting, rate_hz,
-                       max_order, options.delay_s, fit,
-                       [&](const FittedBvrm& found) { return growth_->hear(found, fit); });
+    fits_ = fit_orders(
+        response_of(fitting, rate_hz, options.period_samples), fitting, rate_hz, max_order,
+        options.delay_s, fit, [&](const FittedBvrm& found) { return growth_->hear(found, fit); },
+        starts);
     if (fits_.empty())
       throw UserError(
           "order selection: the frequency response of the fitting parts does not determine even "
@@ -300,7 +302,8 @@ std::vector<FittedBvrm> fit_orders(const signals::FrequencyResponse& response,
                                    std::span<const Segment> segments, double sampling_rate_hz,
                                    std::size_t max_order, double delay_s,
                                    const OutputErrorOptions& options,
-                                   const WantsNextOrder& wants_next) {
+                                   const WantsNextOrder& wants_next,
+                                   std::span<const FittedBvrm> further_starts) {
   const Sampling sampling{.rate_hz = sampling_rate_hz, .hold = options.hold};
   const FrequencyProblem problem(response, sampling, options.direct_term, delay_s);
   FrequencyOrders frequency_orders(problem, FrequencyFitOptions{}.max_iterations);
@@ -312,6 +315,7 @@ std::vector<FittedBvrm> fit_orders(const signals::FrequencyResponse& response,
     if (!fits.empty())
       for (Bvrm& warm : one_more_mode(problem, fits.back(), options.direct_term))
         starts.push_back(std::move(warm));
+    if (fits.size() < further_starts.size()) starts.push_back(further_starts[fits.size()].model);
     std::optional<FittedBvrm> best;
     for (const Bvrm& model : starts) {
       FittedBvrm fit = refine_output_error(model, segments, sampling_rate_hz, options);
@@ -332,16 +336,22 @@ OrderSelection select_order(std::span<const Segment> segments, double sampling_r
   const Whitener whitener(rough.errors_of(rough.fits().back()), options.whitening_taps);
   const WhitenedSegments fitting(raw.fitting, whitener), held_out(raw.held_out, whitener);
   const std::size_t highest = rough.fits().back().model.order();
-  const Comparison white(fitting.segments(), held_out.segments(), sampling_rate_hz, highest, fit,
-                         options);
+  const auto compared = [&](std::span<const FittedBvrm> starts) {
+    return Comparison(fitting.segments(), held_out.segments(), sampling_rate_hz, highest, fit,
+                      options, starts);
+  };
+  std::optional<Comparison> white = compared({});
+  // One order is no comparison. The filter is the same for both channels, so the model between them
+  // is, too, and can start there.
+  if (white->fits().size() == 1 && rough.fits().size() > 1) white.emplace(compared(rough.fits()));
 
   OrderSelection selection;
   selection.hold = fit.hold;
-  selection.trials = white.trials();
-  choose(white.growth().held_out_squares(), white.rounding(), selection);
+  selection.trials = white->trials();
+  choose(white->growth().held_out_squares(), white->rounding(), selection);
   const std::string& limit = rough.growth().words();
   selection.at_ceiling = selection.by_information == options.max_order && highest > 2;
-  selection.words = verdict(selection) + (limit.empty() ? white.growth().words() : limit);
+  selection.words = verdict(selection) + (limit.empty() ? white->growth().words() : limit);
   return selection;
 }
 

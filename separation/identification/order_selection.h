@@ -17,17 +17,19 @@ namespace vibrissa::separation {
 /// Asked after each fit, the lowest order first: whether the next order is wanted.
 using WantsNextOrder = std::function<bool(const FittedBvrm&)>;
 
-/// Output-error fits of the orders 2, 4, ... max_order, each with up to three initial models: the
-/// fit of the frequency response, and the fit with two poles less plus one mode without gain where
-/// the residual of the response is largest. The best result is kept, so that the squared error on
-/// these segments never increases with the order. Stops when the response does not determine a
-/// model, and when the next order is not wanted. Throws UserError as refine_output_error() and
-/// identify_frequency() do. Proven by tests/separation/identification/order_selection_test.cc.
+/// Output-error fits of the orders 2, 4, ... max_order, each with up to four initial models: the
+/// fit of the frequency response, the fit with two poles less plus one mode without gain where
+/// the residual of the response is largest, and that of the further starts, which ascend alike. The
+/// best result is kept, so that the squared error on these segments never increases with the order.
+/// Stops when the response does not determine a model, and when the next order is not wanted.
+/// Throws UserError as refine_output_error() and identify_frequency() do. Proven by
+/// tests/separation/identification/order_selection_test.cc.
 std::vector<FittedBvrm> fit_orders(const signals::FrequencyResponse& response,
                                    std::span<const Segment> segments, double sampling_rate_hz,
                                    std::size_t max_order, double delay_s,
                                    const OutputErrorOptions& options,
-                                   const WantsNextOrder& wants_next = {});
+                                   const WantsNextOrder& wants_next = {},
+                                   std::span<const FittedBvrm> further_starts = {});
 
 /// The frequency [Hz] of a mode that does not decay by a factor e within this time: it is near a
 /// line of the input and fits that line through the accelerometer noise. In a separator that starts

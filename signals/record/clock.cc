@@ -90,8 +90,19 @@ bool starts_anew(const std::vector<double>& times, const std::size_t i, const do
   return times[i] < times[i - 1] - 10. * step && std::abs(times[i] - times[0]) < 2. * step;
 }
 
+// Whether single stamps of an even grid stand twice: rows that were stored twice.
+bool holds_rows_twice(const PrintedTimes& times) {
+  std::vector<double> distinct(times.times_s.begin(), times.times_s.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  const std::size_t n_twice = times.times_s.size() - distinct.size();
+  if (n_twice == 0 || 2 * n_twice > distinct.size()) return false;
+  PrintedTimes single = times;
+  single.times_s = distinct;
+  return uniform_axis(single).has_value();
+}
+
 std::optional<Clock> clock_of_one(const PrintedTimes& times) {
-  if (times.times_s.size() < 2) return {};
+  if (times.times_s.size() < 2 || holds_rows_twice(times)) return {};
   if (const auto axis = uniform_axis(times))
     return Clock{.sampling_rate_hz = axis->sampling_rate_hz,
                  .pieces = {{0, times.times_s.size(), axis->start_s}},
