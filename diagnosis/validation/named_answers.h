@@ -6,8 +6,9 @@ namespace vibrissa::diagnosis {
 
 /// Reduces each answer to what closes the gap, and gives it the names of its changes. An effect
 /// that closes less than least_share of what recalibration alone leaves, or less than any
-/// simulation's error, in the records that show it best, is left out where a fit without it is
-/// known: the simpler answer wins. Calibration parameters are named by named_calibrations(). Where
+/// simulation's error, in fitted and unseen records together, is left out of the name where a fit
+/// without it is known: the simpler answer wins. The values are those of the fuller fit where it
+/// predicts unseen records better. Calibration parameters are named by named_calibrations(). Where
 /// least_share or more of the gap is left, and more than any discrepancy, the cause is outside the
 /// catalogue. Answers of the same name become one. fitted, scored: the fit records and those to be
 /// scored, prepared with InputNoise::as_measured. Proven by
