@@ -63,6 +63,18 @@ Run longest_run(std::span<const double> x, std::span<const double> y) {
   return longest;
 }
 
+/// A drive that ended: from the run to the end of the record the base rests, and the moment decays.
+bool is_free_decay(std::span<const double> x, std::span<const double> y, const Run& run) {
+  constexpr double at_rest = 1e-9, decayed = 0.8;
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  const double rest = at_rest * (*high - *low);
+  if (!std::ranges::all_of(x.subspan(run.first), [&](double a) { return std::abs(a) <= rest; }))
+    return false;
+  const auto decay = y.subspan(run.first);
+  const std::size_t half = decay.size() / 2;
+  return rms_about_mean(decay.last(half)) < decayed * rms_about_mean(decay.first(half));
+}
+
 void check_stuck(const DatasetRecord& entry, const std::string& name, const std::string& mover,
                  std::vector<Finding>& findings) {
   if (!entry.record.has(name) || !entry.record.has(mover)) return;
@@ -71,7 +83,7 @@ void check_stuck(const DatasetRecord& entry, const std::string& name, const std:
   // longer runs.
   constexpr std::size_t fewest_samples = 32;
   const Run run = longest_run(x, y);
-  if (run.count < fewest_samples) return;
+  if (run.count < fewest_samples || is_free_decay(x, y, run)) return;
   std::vector<double> values(x.begin(), x.end());
   std::sort(values.begin(), values.end());
   const auto n_values =

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "tests/diagnosis/one_mode_rig.h"
 
 namespace vibrissa::diagnosis {
@@ -89,6 +91,19 @@ TEST(DeadChannels, NamesWhereAChannelStandsStill) {
                 ElementsAre(is(FindingKind::stuck_channel, "for 100 samples from 1 s on")))
         << name;
   }
+}
+
+TEST(DeadChannels, TakesADriveThatEndsForNoLoss) {
+  signals::DatasetRecord entry = record("base_high");
+  change(entry, channel::base_acceleration,
+         [](Samples& x) { std::fill(x.begin() + 500, x.end(), 1e-15); });
+  EXPECT_THAT(findings(entry), ElementsAre(is(FindingKind::stuck_channel, "from 1 s on")))
+      << "the moment goes on as before";
+  change(entry, channel::base_moment, [](Samples& x) {
+    for (std::size_t i = 500; i < x.size(); ++i)
+      x[i] *= std::exp(-3. * static_cast<double>(i - 500) / static_cast<double>(x.size() - 500));
+  });
+  EXPECT_THAT(findings(entry), IsEmpty());
 }
 
 TEST(DeadChannels, NamesAJumpOfOneSample) {
