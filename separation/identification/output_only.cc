@@ -6,9 +6,11 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "signals/base/error.h"
 #include "signals/base/is_constant.h"
+#include "signals/base/median.h"
 #include "signals/base/number_text.h"
 #include "signals/spectra/resample.h"
 
@@ -120,12 +122,6 @@ std::vector<Chain> chains_of(const PolesByOrder& by_order) {
   return chains;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 // Medians of both parts over the orders.
 Pole centre(const std::vector<Pole>& poles) {
   std::vector<double> real, imaginary;
@@ -133,7 +129,7 @@ Pole centre(const std::vector<Pole>& poles) {
     real.push_back(pole.real());
     imaginary.push_back(pole.imag());
   }
-  return {median(real), median(imaginary)};
+  return {signals::median(std::move(real)), signals::median(std::move(imaginary))};
 }
 
 // The chains over at least a third of the orders; the longest of several near the same pole.

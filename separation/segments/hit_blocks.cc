@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "signals/base/median.h"
+
 namespace vibrissa::separation {
 
 namespace {
@@ -11,11 +13,9 @@ namespace {
 constexpr std::size_t shortest_record = 64;
 
 std::vector<double> about_median(std::span<const double> x) {
-  std::vector<double> sorted(x.begin(), x.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::ranges::nth_element(sorted, middle);
   std::vector<double> centred(x.begin(), x.end());
-  for (double& value : centred) value -= *middle;
+  const double middle = signals::median(centred);
+  for (double& value : centred) value -= middle;
   return centred;
 }
 

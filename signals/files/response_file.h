@@ -38,10 +38,9 @@ struct ResponseChoice {
 /// imaginary, or magnitude... (in dB where its name or a negative value says so) and phase in deg
 /// or rad; and optionally standard_deviation... and coherence. NAME is response, frf, H, or the
 /// given name. Lines at 0 Hz, or at the frequency of the previous line, are ignored. Throws
-/// UserError for missing columns or functions (lists the available ones), decreasing frequencies, a
-/// phase that rises through the resonances, units that are not a moment per acceleration, and what
-/// opening the file throws. Proven by tests/signals/formats/response_reader_test.cc and
-/// tests/apps/exchange.py.
+/// UserError for missing columns or functions (lists the available ones), decreasing frequencies,
+/// units that are not a moment per acceleration, and what opening the file throws. Proven by
+/// tests/signals/formats/response_reader_test.cc and tests/apps/exchange.py.
 FrequencyResponse read_response(const std::filesystem::path& file,
                                 const ResponseChoice& choice = {});
 

@@ -6,8 +6,10 @@
 #include <functional>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "signals/base/error.h"
+#include "signals/base/median.h"
 #include "signals/base/number_text.h"
 #include "signals/record/stamp_regression.h"
 
@@ -18,10 +20,7 @@ double usual_step_of(const std::vector<double>& times) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i)
     if (times[i] > times[i - 1]) steps.push_back(times[i] - times[i - 1]);
-  if (steps.empty()) return 0.;
-  const auto middle = steps.begin() + std::ptrdiff_t(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? 0. : median(std::move(steps));
 }
 
 // Adds the range of a counter, in units of the column, behind each place where it starts anew.

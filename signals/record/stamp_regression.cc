@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "signals/base/median.h"
 #include "signals/record/lost_samples.h"
 
 namespace vibrissa::signals {
@@ -38,12 +39,6 @@ Events events_of(const std::span<const double> times_s) {
   constexpr double nearly_all = 0.9;
   if (double(n_usual) > nearly_all * double(sizes.size())) events.packet = usual;
   return events;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Median slope over a lag that is long beside a packet and short beside the usual way between

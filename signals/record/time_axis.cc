@@ -7,9 +7,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "signals/base/error.h"
+#include "signals/base/median.h"
 #include "signals/base/number_text.h"
 
 namespace vibrissa::signals {
@@ -54,9 +56,7 @@ void check_runs_forward(const PrintedTimes& times) {
 double median_step(const std::span<const double> times_s) {
   std::vector<double> steps(times_s.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = times_s[i + 1] - times_s[i];
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return median(std::move(steps));
 }
 
 // The sample with the largest distance from the uniform grid through the first and the last sample,

@@ -174,14 +174,18 @@ TEST(Identify, RefusesOrdersThatAreNone) {
   }
 }
 
-TEST(Identify, FindsResonanceAndDampingWithoutAnyInputChannel) {
-  const Folder folder;
-  const auto both = measured(30000);
+void write_moment_alone(const std::string& file, std::size_t n_samples) {
+  const auto both = measured(n_samples);
   signals::Record moment_alone(rate_hz, both.n_samples());
   const auto m = both.channel(signals::channel::base_moment);
   moment_alone.set_channel(signals::channel::base_moment, {m.begin(), m.end()});
+  signals::write_record(file, moment_alone);
+}
+
+TEST(Identify, FindsResonanceAndDampingWithoutAnyInputChannel) {
+  const Folder folder;
   const std::string record = folder.file("r.csv");
-  signals::write_record(record, moment_alone);
+  write_moment_alone(record, 30000);
   const auto result = vibrissa("identify '" + record + "' --output-only --json");
   ASSERT_EQ(result.status, 0) << result.errors;
   const json found = result.json();
@@ -198,12 +202,8 @@ TEST(Identify, FindsResonanceAndDampingWithoutAnyInputChannel) {
 
 TEST(Identify, OffersTheOutputAloneWhereTheInputIsMissing) {
   const Folder folder;
-  const auto both = measured(500);
-  signals::Record moment_alone(rate_hz, both.n_samples());
-  const auto m = both.channel(signals::channel::base_moment);
-  moment_alone.set_channel(signals::channel::base_moment, {m.begin(), m.end()});
   const std::string record = folder.file("r.csv");
-  signals::write_record(record, moment_alone);
+  write_moment_alone(record, 500);
   const auto result = vibrissa("identify '" + record + "'");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.errors, HasSubstr("--output-only"));

@@ -18,8 +18,8 @@
 namespace vibrissa::signals {
 namespace {
 
-constexpr std::size_t n_samples = 400;
-constexpr double rate_hz = 500.;
+constexpr std::size_t table_rows = 400;
+constexpr double table_rate_hz = 500.;
 
 enum class Header { none, names, metadata_and_names, names_in_comment };
 enum class Units { none, in_names, in_a_line };
@@ -44,9 +44,9 @@ Truth oscillator() {
   std::mt19937_64 random(11);
   std::normal_distribution<> normal;
   Truth truth;
-  const double w = 2. * std::numbers::pi * 31., zeta = 0.03, dt = 1. / rate_hz;
+  const double w = 2. * std::numbers::pi * 31., zeta = 0.03, dt = 1. / table_rate_hz;
   double x = 0., v = 0.;
-  for (std::size_t i = 0; i < n_samples; ++i) {
+  for (std::size_t i = 0; i < table_rows; ++i) {
     const double a = normal(random);
     for (int step = 0; step < 20; ++step) {
       v += dt / 20. * (-a - 2. * zeta * w * v - w * w * x);
@@ -68,7 +68,7 @@ class TableWriter {
 
   std::string text(const Truth& truth) {
     write_head();
-    for (std::size_t i = 0; i < n_samples; ++i) {
+    for (std::size_t i = 0; i < table_rows; ++i) {
       if (layout_.blank_lines && i == 150) line("");
       if (layout_.blank_lines && i == 151) line("# paused here");
       std::vector<std::string> fields;
@@ -225,11 +225,11 @@ TEST(TextLayouts, TwoHundredTablesAreReadAlikeOrRefusedAsAmbiguous) {
           read_record(folder.file("r.txt", text), {.columns = choices(layout, writer.has_time())});
       ++n_read;
       EXPECT_FALSE(is_ambiguous);
-      EXPECT_NEAR(record.sampling_rate_hz(), rate_hz, 1e-6 * rate_hz);
-      ASSERT_EQ(record.n_samples(), n_samples);
+      EXPECT_NEAR(record.sampling_rate_hz(), table_rate_hz, 1e-6 * table_rate_hz);
+      ASSERT_EQ(record.n_samples(), table_rows);
       const auto a = record.channel(channel::base_acceleration);
       const auto m = record.channel(channel::base_moment);
-      for (std::size_t k = 0; k < n_samples; ++k) {
+      for (std::size_t k = 0; k < table_rows; ++k) {
         ASSERT_DOUBLE_EQ(a[k], truth.acceleration[k]) << k;
         ASSERT_NEAR(m[k], 1e-3 * truth.moment[k], 1e-15) << k;
       }
