@@ -5,6 +5,7 @@
 
 #include "diagnosis/checks/clock_offset.h"
 #include "diagnosis/material_estimates.h"
+#include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/records/long_records.h"
 #include "diagnosis/search/calibrated_odds.h"
 #include "diagnosis/search/confidence_set.h"
@@ -236,6 +237,7 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
   Experiment experiment =
       prepare_experiment(simulation, real, signals::Split::fit, InputNoise::reduced);
   experiment.simulation_accuracy = options.simulation_accuracy;
+  experiment.measured_modes = measured_modes(real);
   out.untested = untested_effects(experiment);
   out.location = locate_gap(experiment);
   SearchResult result = search(experiment, options.search);

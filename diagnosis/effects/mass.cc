@@ -25,7 +25,8 @@ Effect mass() {
       .about = "more or less moving mass",
       .link = Link::structure,
       .equation =
-          "m = r m0 of the first mode, r^d of those above, base forcing r^g; e M0 a; with a "
+          "m = r m0 of the first mode, r^d of the second, r^e of those above, base forcing r^g; h "
+          "M0 a; with a "
           "finite-element model by the density of its fin, or else its wire, in all modes",
       .source = "Friswell and Mottershead 1995; Berman and Flannelly 1971, incomplete models",
       .confused_with =
@@ -36,15 +37,16 @@ Effect mass() {
       .parameters = {relative("times the simulated value",
                               log_uniform("ratio", "1", 0.7, 1.45, 1.)),
                      normal("forcing_exponent", "1", 1., 0.1, 0.6, 1.4, 1.),
-                     normal("direct", "1", 0., 0.005, -0.05, 0.05, 0.), spread_over_modes()},
-      .starts = {{0.95, 1., 0., 0.5}, {1.05, 1., 0., 0.5}},
+                     normal("direct", "1", 0., 0.005, -0.05, 0.05, 0.), spread_over_modes(2),
+                     spread_over_modes(3)},
+      .starts = {{0.95, 1., 0., 0.5, 0.5}, {1.05, 1., 0., 0.5, 0.5}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         double forcing = std::pow(v[0], v[1]);
         if (const auto* density = chain.structure.path(chain.structure.mass_parameter()))
           forcing /= change_density(chain.structure, *density, v[0]);
         else
           for (std::size_t i = 0; i < chain.structure.modes.size(); ++i)
-            load(chain.structure.modes[i], i == 0 ? v[0] : std::pow(v[0], v[3]));
+            load(chain.structure.modes[i], i == 0 ? v[0] : std::pow(v[0], i == 1 ? v[3] : v[4]));
         chain.mount.push_back([forcing](Complex) -> Complex { return forcing; });
         chain.parallel.push_back(
             [direct = v[2] * scales.static_gain](Complex) -> Complex { return direct; });

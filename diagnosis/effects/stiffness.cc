@@ -25,6 +25,16 @@ void change_materials(Chain& chain, const ParameterPath& wire, const ParameterPa
   chain.joint_share /= chain.joint_share + (1. - chain.joint_share) * silicone_ratio;
 }
 
+/// What a part that is softer than the rest does to one mode more: usually a few percent, heavy
+/// tails. mode 3 stands for those above it, too.
+Parameter of_mode(const std::string& name, const std::size_t mode) {
+  Parameter out = ratio_near_one(name + std::to_string(mode), 0.05, 0.4, 2.5);
+  out.prior.kind = Prior::Kind::student;
+  out.prior.degrees_of_freedom = 1.;
+  out.mode = mode;
+  return out;
+}
+
 /// k = ratio k0, c = ratio^q c0 of one mode: zeta = c / (2 sqrt(k m)).
 void stiffen(StructuralMode& mode, const double ratio, const double q) {
   mode.frequency_rad_s *= std::sqrt(ratio);
@@ -41,7 +51,9 @@ Effect stiffness() {
       .equation =
           "k = r k0 of the first mode: r^s by itself, r^(1 - s) by its joint's spring K, "
           "p / (K / K0) + 1 - p = r^(s - 1); with a finite-element model r^s by its wire and "
-          "r^(1 - s) by its silicone, in all modes; modes above the first r^d; dampers "
+          "r^(1 - s) by its silicone, in all modes; second mode r^d, modes above it r^e, their "
+          "static gains r^g, r^h at an unchanged "
+          "quasi-static response; dampers "
           "c = (k / k0)^q c0",
       .source = "Friswell and Mottershead 1995, sensitivity methods; Gent 1958, modulus of rubber",
       .confused_with = "mass (gain), base_compliance; added known mass, static pull",
@@ -49,8 +61,10 @@ Effect stiffness() {
       .model_form_error = 0.01,
       .parameters = {ratio_near_one("ratio", 0.03, 0.3, 1.6),
                      normal("damping_exponent", "1", 0., 0.5, -0.8, 1.2, 0.),
-                     normal("modal_share", "1", 0.5, 0.5, 0., 1., 0.5), spread_over_modes()},
-      .starts = {{0.97, 0., 0.5, 0.5}, {1.03, 0., 0.5, 0.5}},
+                     normal("modal_share", "1", 0.5, 0.5, 0., 1., 0.5),
+                     of_mode("ratio_of_mode_", 2), of_mode("ratio_of_mode_", 3),
+                     of_mode("gain_of_mode_", 2), of_mode("gain_of_mode_", 3)},
+      .starts = {{0.97, 0., 0.5, 1., 1., 1., 1.}, {1.03, 0., 0.5, 1., 1., 1., 1.}},
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         if (chain.structure.modes.empty()) return;
         const ParameterPath *wire = chain.structure.path("wire_modulus"),
@@ -62,8 +76,13 @@ Effect stiffness() {
         chain.joint_change.spring *= joint;
         chain.joint_change.damper *= std::pow(joint, v[1]);
         stiffen(mode, modal, v[1]);
-        for (std::size_t i = 1; i < chain.structure.modes.size(); ++i)
-          stiffen(chain.structure.modes[i], std::pow(v[0], v[3]), v[1]);
+        for (std::size_t i = 1; i < chain.structure.modes.size(); ++i) {
+          StructuralMode& above = chain.structure.modes[i];
+          stiffen(above, std::sqrt(v[0]) * (i == 1 ? v[3] : v[4]), v[1]);
+          const double gain = above.base_gain * (i == 1 ? v[5] : v[6]);
+          mode.base_gain -= gain - above.base_gain;
+          above.base_gain = gain;
+        }
       }};
 }
 

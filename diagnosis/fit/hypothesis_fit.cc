@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "diagnosis/fit/fit_posterior.h"
+#include "diagnosis/fit/measured_start.h"
 #include "diagnosis/fit/optimiser.h"
 #include "diagnosis/prediction/record_nuisances.h"
 #include "diagnosis/records/spectrum.h"
@@ -146,10 +147,8 @@ namespace {
 std::vector<FitParameter> with_usual_discrepancy(std::vector<FitParameter> fit_parameters) {
   for (std::size_t i = 0; i < fit_parameters.size(); ++i)
     if ((i >= index_of_discrepancy && i < n_common_parameters) ||
-        fit_parameters[i].description.name == form_error_level) {
-      Prior& prior = fit_parameters[i].description.prior;
-      prior.low = prior.high = prior.centre;
-    }
+        fit_parameters[i].description.name == form_error_level)
+      fit_parameters[i].description.prior.fix();
   return fit_parameters;
 }
 
@@ -158,10 +157,8 @@ template <typename Chosen>
 std::vector<FitParameter> with_nominal(std::vector<FitParameter> fit_parameters,
                                        const Chosen& is_chosen) {
   for (FitParameter& fit_parameter : fit_parameters)
-    if (fit_parameter.nuisance && is_chosen(fit_parameter.effect->id)) {
-      Prior& prior = fit_parameter.description.prior;
-      prior.low = prior.high = prior.centre;
-    }
+    if (fit_parameter.nuisance && is_chosen(fit_parameter.effect->id))
+      fit_parameter.description.prior.fix();
   return fit_parameters;
 }
 
@@ -170,10 +167,11 @@ std::vector<FitParameter> with_nominal_calibrations(const std::vector<FitParamet
 }
 
 /// Coarse grid of resonances, because a narrow resonance has a narrow basin of attraction: by the
-/// mass where the hypothesis holds it, otherwise by the stiffness.
+/// mass where the hypothesis holds it, otherwise by the stiffness; and the resonances of the
+/// records.
 std::vector<Eigen::VectorXd> with_shifted_resonances(
-    const std::vector<FitParameter>& fit_parameters, const Hypothesis& hypothesis,
-    const std::vector<Eigen::VectorXd>& starts) {
+    const Experiment& experiment, const std::vector<FitParameter>& fit_parameters,
+    const Hypothesis& hypothesis, const std::vector<Eigen::VectorXd>& starts) {
   const std::string shifted = hypothesis.contains("mass") ? "mass" : "stiffness";
   std::vector<Eigen::VectorXd> out = starts;
   for (std::size_t i = 0; i < fit_parameters.size(); ++i) {
@@ -187,6 +185,8 @@ std::vector<Eigen::VectorXd> with_shifted_resonances(
         clamp(fit_parameters, out.back());
       }
   }
+  const auto at_measured = start_at_measured_modes(experiment, fit_parameters, shifted, starts[0]);
+  if (at_measured) out.push_back(*at_measured);
   return out;
 }
 
@@ -300,13 +300,13 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   if (start != nullptr)
     attempts.from(start_vectors(experiment, fit.fit_parameters, hypothesis, start, false));
   else
-    attempts.from(with_shifted_resonances(fit.fit_parameters, hypothesis, nominal));
+    attempts.from(with_shifted_resonances(experiment, fit.fit_parameters, hypothesis, nominal));
   // Calibration parameters may absorb an effect: the other basins of attraction are reached with
   // them held.
   const bool is_refit = start != nullptr && start->hypothesis.name() == hypothesis.name();
   if (start != nullptr && has_recalibrated(*start) && !is_refit)
     attempts.from(hypothesis.contains("mass")
-                      ? with_shifted_resonances(fit.fit_parameters, hypothesis, nominal)
+                      ? with_shifted_resonances(experiment, fit.fit_parameters, hypothesis, nominal)
                       : nominal,
                   with_nominal_calibrations(fit.fit_parameters));
   if (start == nullptr && !hypothesis.effects().empty())

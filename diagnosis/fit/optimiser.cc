@@ -98,15 +98,21 @@ void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_para
   Eigen::MatrixXd information;
   // The covariance follows the mean between steps, so that steps alone need not converge.
   constexpr int n_steps_per_iteration = 4;
+  // Far from the optimum, levels of noise fall slowly: a fit that still gains much goes on.
+  constexpr int most_times_longer = 4;
+  constexpr double worth_going_on = 1.;
+  double last_gain = 0.;
   int n_steps = 0;
   for (int n_computed = 0; !state.ended;) {
-    if (n_steps++ == n_steps_per_iteration * n_iterations) return;
+    if (n_steps++ == most_times_longer * n_steps_per_iteration * n_iterations) return;
     posterior.update_slow_variance(state.x, state.predictions);
     state.log_posterior =
         posterior.log_likelihood(state.x, state.predictions) + posterior.log_prior(state.x);
     const bool is_new = !state.derivatives;
     if (is_new) {
-      if (n_computed++ == n_iterations) return;
+      const bool is_climbing = n_computed > 0 && last_gain > worth_going_on;
+      if (n_computed >= (is_climbing ? most_times_longer * n_iterations : n_iterations)) return;
+      ++n_computed;
       state.derivatives = posterior.derivatives(state.x, state.predictions);
       ++state.n_iterations;
     }
@@ -116,6 +122,7 @@ void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_para
         take_step(posterior, fit_parameters, state, gradient, information, is_new ? 5 : 1);
     if (!step && !is_new) state.damping = damping;
     const double gain = step ? step->gain : 0.;
+    if (is_new) last_gain = gain;
     const bool hopeless =
         state.n_iterations >= 3 && state.log_posterior + n_hopeful_gains * gain < options.to_beat;
     const bool is_little = gain < options.tolerance;

@@ -17,6 +17,7 @@ double student_log_norm(const double dof) {
 }  // namespace
 
 double Prior::log_density(const double x) const {
+  if (is_fixed()) return 0.;
   const double z = (x - centre) / scale;
   switch (kind) {
     case Kind::normal:
@@ -25,7 +26,7 @@ double Prior::log_density(const double x) const {
       return -0.5 * (degrees_of_freedom + 1.) * std::log1p(z * z / degrees_of_freedom) -
              std::log(scale) - student_log_norm(degrees_of_freedom);
     case Kind::uniform:
-      return is_fixed() ? 0. : -std::log(high - low);
+      return -std::log(high - low);
   }
   return 0.;
 }
@@ -44,6 +45,8 @@ double Prior::slope(const double x) const {
 }
 
 double Prior::curvature(const double x) const {
+  // Cancels the power of 2 pi that Laplace's approximation adds for each parameter.
+  if (is_fixed()) return 2. * std::numbers::pi;
   const double z = (x - centre) / scale;
   switch (kind) {
     case Kind::normal:
@@ -53,7 +56,7 @@ double Prior::curvature(const double x) const {
     // Curvature of the Gaussian with the same variance, so that the posterior is never wider than
     // the prior.
     case Kind::uniform:
-      return is_fixed() ? 1. : 12. / ((high - low) * (high - low));
+      return 12. / ((high - low) * (high - low));
   }
   return 0.;
 }
@@ -71,7 +74,7 @@ Parameter uniform(std::string name, std::string unit, const double low, const do
                   const double neutral) {
   return {.name = std::move(name),
           .unit = std::move(unit),
-          .prior = {.kind = Prior::Kind::uniform, .low = low, .high = high},
+          .prior = {.kind = Prior::Kind::uniform, .centre = neutral, .low = low, .high = high},
           .neutral = neutral,
           .step = 1e-4 * (high - low)};
 }
@@ -122,9 +125,10 @@ Parameter normal(std::string name, std::string unit, const double centre, const 
           .step = 1e-3 * scale};
 }
 
-Parameter spread_over_modes() {
-  Parameter out = uniform("spread", "1", -0.25, 1.25, 0.5);
+Parameter spread_over_modes(const std::size_t mode) {
+  Parameter out = uniform("spread_to_mode_" + std::to_string(mode), "1", -0.25, 1.25, 0.5);
   out.step = 1e-3;
+  out.mode = mode;
   return out;
 }
 

@@ -24,6 +24,8 @@ struct Prior {
 
   /// Are the bounds equal, so that the parameter has one value?
   bool is_fixed() const { return low == high; }
+  /// Fixes the parameter at the centre of its prior; its evidence becomes that of no parameter.
+  void fix() { low = high = centre; }
   double log_density(double x) const;
   double slope(double x) const;      // d log_density / dx
   double curvature(double x) const;  // > 0, of the Gaussian that approximates the prior near x
@@ -37,8 +39,9 @@ struct Parameter {
   std::string relative_to{};
   bool logarithmic = false;
   Prior prior{};
-  double neutral = 0.;  // value (not x) at which the effect vanishes
-  double step = 1e-4;   // step of x for derivatives
+  double neutral = 0.;   // value (not x) at which the effect vanishes
+  std::size_t mode = 1;  // acts only where the simulation has this mode (and those below it)
+  double step = 1e-4;    // step of x for derivatives
   /// Largest change of x in one iteration of a fit, because basins of attraction may be narrow.
   double largest_step = std::numeric_limits<double>::infinity();
 
@@ -58,9 +61,10 @@ Parameter ratio_near_one(std::string name, double relative_scale, double low, do
 Parameter normal(std::string name, std::string unit, double centre, double scale, double low,
                  double high, double neutral);
 
-/// How a change of the first mode spreads over those above: 0 leaves them as they are, 1 changes
-/// all alike. No record of the simulation tells it, so its prior is flat.
-Parameter spread_over_modes();
+/// How a change of the first mode spreads over mode 2, or over mode 3 and those above it: 0 leaves
+/// them as they are, 1 changes all alike. No record of the simulation tells it, so its prior is
+/// flat.
+Parameter spread_over_modes(std::size_t mode);
 
 /// Reference values of the experiment that make parameters dimensionless.
 struct Scales {

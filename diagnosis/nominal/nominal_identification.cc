@@ -177,4 +177,15 @@ NominalModel identify_nominal(const signals::Dataset& simulation) {
   return model;
 }
 
+std::vector<StructuralMode> measured_modes(signals::Dataset real) {
+  std::erase_if(real.records, [](const signals::DatasetRecord& entry) {
+    return entry.split != signals::Split::fit;
+  });
+  try {
+    return identify_nominal(real).modes;
+  } catch (const signals::UserError&) {
+    return {};
+  }
+}
+
 }  // namespace vibrissa::diagnosis

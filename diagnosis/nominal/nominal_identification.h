@@ -12,4 +12,8 @@ namespace vibrissa::diagnosis {
 /// Proven by tests/diagnosis/nominal/nominal_identification_test.cc.
 NominalModel identify_nominal(const signals::Dataset& simulation);
 
+/// The modes that identify_nominal() finds in the fit records of a real sensor; none where no
+/// record determines them.
+std::vector<StructuralMode> measured_modes(signals::Dataset real);
+
 }  // namespace vibrissa::diagnosis

@@ -65,6 +65,8 @@ constexpr double power_without_cause(const double accuracy) {
 /// The prepared fit records of one sensor with the nominal model.
 struct Experiment {
   NominalModel nominal;
+  /// Modes identified from the records themselves; fits begin there, too. May be empty.
+  std::vector<StructuralMode> measured_modes{};
   std::vector<KnownEffect> known;  // effects that the simulation already contains
   std::vector<PreparedRecord> records;
   Scales scales;

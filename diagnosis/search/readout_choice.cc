@@ -43,6 +43,7 @@ bool is_rotation(const SimulationAndRecords& given, const Experiment& experiment
   Experiment reread =
       prepare_experiment(other.simulation, other.real, signals::Split::fit, InputNoise::reduced);
   reread.simulation_accuracy = experiment.simulation_accuracy;
+  reread.measured_modes = experiment.measured_modes;
   const HypothesisFit& as_moment = result.fits[nonlinear->fit];
   return fit_hypothesis(reread, as_moment.hypothesis).log_evidence >
          as_moment.log_evidence + believed_nats;

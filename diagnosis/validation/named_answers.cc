@@ -50,8 +50,8 @@ class Reduction {
     return &scored_ != &fitted_ && error_power(fewer) - error_power(whole) > any_error();
   }
 
-  /// The calibration parameters that close a part of the gap. Beside an effect: those without which
-  /// (nominal, all else fitted again) too much of it returns.
+  /// The calibration parameters that close a part of the gap and are not dispensable (nominal, all
+  /// else fitted again).
   std::vector<std::string> needed_calibrations(const std::size_t whole) {
     const Attribution& all = attribution(whole);
     std::vector<std::string> kept = named_calibrations(all, experiment_.simulation_accuracy);
@@ -60,12 +60,11 @@ class Reduction {
       return std::ranges::find(all.changes, id, &AttributedChange::id)->missed;
     });
     for (const std::string& id : tried) {
-      if (result_.fits[whole].hypothesis.effects().empty()) break;
       nominal.push_back(id);
       const HypothesisFit start = result_.fits[whole];
       result_.fits.push_back(
           fit_hypothesis(experiment_, start.hypothesis, &start, {.nominal = nominal}));
-      if (return_of(whole, result_.fits.size() - 1) < 1.)
+      if (is_dispensable(whole, result_.fits.size() - 1))
         std::erase(kept, id);
       else
         nominal.pop_back();
@@ -141,7 +140,7 @@ class Reduction {
       if (result_.fits[without].hypothesis.effects().empty())
         left = std::min(left, nominal_power_[records]);
       returned += left - with + more;
-      worth += std::max(least_share * gap, any_error());
+      worth += std::max({least_share * gap, any_error(), form_error_of_recalibration(records)});
     }
     return returned / worth;
   }
@@ -172,14 +171,24 @@ class Reduction {
     return sum;
   }
 
-  /// The same, relative to what is worth a name of the gap as it was brought.
-  double return_of(std::size_t whole, std::size_t without) {
+  /// Is the fit without one calibration as good as the whole one? Without effects, within the
+  /// simulation's accuracy; an effect may take over a part of the gap as it was brought.
+  bool is_dispensable(std::size_t whole, std::size_t without) {
+    const double usual = std::pow(experiment_.simulation_accuracy, 2);
+    const bool has_effects = !result_.fits[whole].hypothesis.effects().empty();
     double returned = 0., worth = 0.;
     for (const Experiment* records : {&scored_, &fitted_}) {
       returned += error_power(without, *records) - error_power(whole, *records);
-      worth += std::max(least_share * (nominal_power_[records] - floor_[records]), any_error());
+      const double part = least_share * (nominal_power_[records] - floor_[records]);
+      worth += has_effects ? std::max(part, any_error()) : usual;
     }
-    return returned / worth;
+    return returned < worth;
+  }
+
+  /// A true change of a calibration differs from its equation by a share of its influence.
+  double form_error_of_recalibration(const Experiment* records) {
+    static const double share = find_effect("stiffness").model_form_error;
+    return share * share * std::max(0., nominal_power_[records] - floor_[records]);
   }
 
   double any_error() const { return std::pow(best_of_usual * experiment_.simulation_accuracy, 2); }

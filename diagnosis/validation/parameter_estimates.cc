@@ -17,6 +17,7 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
       if (fit_parameter.effect == nullptr || fit_parameter.effect->id != id) continue;
       const auto index = static_cast<Eigen::Index>(i);
       const Parameter& parameter = fit_parameter.description;
+      if (parameter.prior.is_fixed()) continue;
       const double x = fit.x(index), variance = fit.covariance(index, index),
                    half = signals::normal_quantile_975 * std::sqrt(variance);
       const auto value = [&](double at) {
