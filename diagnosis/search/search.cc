@@ -80,6 +80,7 @@ class Searcher {
 
   SearchResult run() {
     fit_all({{Hypothesis{}, std::nullopt}});
+    fit_all({{Hypothesis::discrepancy(), 0}});
     for (std::size_t size = 1; size <= options_.max_effects; ++size) {
       if (is_late() || (size > 1 && !has_improved(size))) break;
       const std::size_t n_before = fits_.size();
@@ -329,13 +330,15 @@ class Searcher {
     return out;
   }
 
-  /// An unknown cause, and single effects: those that the residual of the recalibrated simulation
-  /// resembles, and those that calibration parameters may have absorbed.
+  /// Does the recalibrated simulation leave something that an unknown cause explains?
+  bool leaves_something() const {
+    return fits_[known_.at(outside_catalogue)].log_evidence > fits_.front().log_evidence;
+  }
+
+  /// Single effects: those that the residual of the recalibrated simulation resembles, and those
+  /// that calibration parameters may have absorbed in part.
   std::vector<Task> single_effects() {
     std::vector<Task> tasks = extended(0, fits_.front(), 0.);
-    tasks.push_back({.hypothesis = Hypothesis::discrepancy(),
-                     .start = 0,
-                     .hoped = std::numeric_limits<double>::infinity()});
     if (!has_recalibrated(fits_.front())) return tasks;
     // Stiffness, damping and gain together do what another mass does, so no residual shows it.
     const auto mass = std::ranges::find(testable_, "mass", &Effect::id);
@@ -344,6 +347,7 @@ class Searcher {
                        .start = 0,
                        .effect = *mass,
                        .hoped = std::numeric_limits<double>::infinity()});
+    if (!leaves_something()) return tasks;
     const HypothesisFit as_simulated = fit_as_simulated(experiment_);
     for (Task& task :
          extended(0, as_simulated, fits_.front().log_posterior - as_simulated.log_posterior)) {
