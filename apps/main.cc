@@ -48,8 +48,8 @@ constexpr std::array<std::string_view, 5> of_several = {"run", "modes", "simulat
                                                         "trial"};
 
 /// Commands that solve no solid: a fast BLAS kernel would only delay their start.
-constexpr std::array<std::string_view, 8> without_solid = {
-    "init", "identify", "separate", "convert", "excite", "draw", "completion", "manual"};
+constexpr std::array<std::string_view, 9> without_solid = {
+    "init", "check", "identify", "separate", "convert", "excite", "draw", "completion", "manual"};
 
 /// Only the first process prints, but where each has its own work.
 class OutputMute {

@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 
 #include "diagnosis/diagnosis.h"
+#include "python/checks.h"
 #include "python/methods.h"
 #include "python/records.h"
 #include "signals/base/error.h"
@@ -14,4 +15,5 @@ PYBIND11_MODULE(_core, module) {
                                                              PyExc_RuntimeError);
   vibrissa::python::add_records(module);
   vibrissa::python::add_methods(module);
+  vibrissa::python::add_checks(module);
 }

@@ -4,12 +4,16 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
+
 #include "signals/base/decimal_point.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
 #include "signals/files/column_choice.h"
 #include "signals/files/dataset.h"
 #include "signals/files/record_io.h"
+#include "signals/formats/numeric_table.h"
+#include "signals/record/channel_name.h"
 
 namespace vibrissa::python {
 namespace {
@@ -35,15 +39,43 @@ Record make_record(const double sampling_rate_hz, const std::map<std::string, Ar
   return record;
 }
 
-signals::ReadOptions read_options(const std::map<std::string, std::string>& columns,
-                                  const std::optional<double> rate_hz,
-                                  const std::vector<std::string>& remove_mean) {
-  signals::ReadOptions options;
-  for (const auto& [channel, column] : columns)
-    options.columns.push_back(signals::parse_column_choice(channel + "=" + column));
-  options.sampling_rate_hz = rate_hz;
-  options.remove_mean = remove_mean;
-  return options;
+using Columns = std::vector<std::pair<std::string, Array>>;
+
+/// A recording of columns in memory, with the clock and the units of a file.
+signals::Recording recording_of(const std::optional<Array>& time, const Columns& columns,
+                                const std::map<std::string, std::string>& units,
+                                const FileOptions& given) {
+  std::vector<signals::formats::NumericColumn> numbers;
+  const auto add = [&](const std::string& name, const Array& values, const std::string& unit) {
+    numbers.push_back({.name = name, .values = to_vector(values), .unit = unit});
+    if (numbers.back().values.size() != numbers.front().values.size())
+      throw signals::UserError("column '" + name + "' has " +
+                               std::to_string(numbers.back().values.size()) + " values, '" +
+                               numbers.front().name + "' has " +
+                               std::to_string(numbers.front().values.size()));
+  };
+  const auto unit_of = [&](const std::string& name, const std::string& otherwise) {
+    const auto found = units.find(name);
+    return found == units.end() ? otherwise : found->second;
+  };
+  if (columns.empty()) throw signals::UserError("a record needs at least one column");
+  for (const auto& [name, unit] : units)
+    if (name != "time" &&
+        std::ranges::none_of(columns, [&](const auto& column) { return column.first == name; }))
+      throw signals::UserError("units name '" + name + "', but no column has this name");
+  if (time) add("time", *time, unit_of("time", "s"));
+  signals::ReadOptions options = given.read_options();
+  const bool takes_all = options.columns.empty();
+  for (const auto& [name, values] : columns) {
+    add(name, values, unit_of(name, ""));
+    if (takes_all && signals::full_channel_name(name).empty())
+      options.columns.push_back({.channel = name, .column = name});
+  }
+  if (time)
+    options.columns.push_back(
+        signals::parse_column_choice("time=time[" + unit_of("time", "s") + "]"));
+  signals::formats::NumericTable table("arrays", std::move(numbers));
+  return signals::read_recording(table, "arrays", options);
 }
 
 void add_record_class(py::module_& module) {
@@ -75,31 +107,66 @@ void add_record_class(py::module_& module) {
       });
 }
 
-// A function of a path and of how its files are read.
-template <typename Read>
-void add_reader(py::module_& module, const char* const name, const char* const path,
-                const Read read, const char* const description) {
-  module.def(
-      name,
-      [read](const std::filesystem::path& file, const std::map<std::string, std::string>& columns,
-             const std::optional<double> sampling_rate_hz,
-             const std::vector<std::string>& remove_mean) {
-        return read(file, read_options(columns, sampling_rate_hz, remove_mean));
-      },
-      py::call_guard<signals::DecimalPoint>(), py::arg(path), py::kw_only(),
-      py::arg("columns") = std::map<std::string, std::string>{},
-      py::arg("sampling_rate_hz") = py::none(), py::arg("remove_mean") = std::vector<std::string>{},
-      description);
+using Pieces = std::pair<std::vector<Record>, std::string>;
+
+// The records between losses, and how they were read.
+Pieces pieces_of(const signals::Recording& recording) {
+  return {recording.pieces, recording.words};
+}
+
+FileOptions make_options(const std::map<std::string, std::string>& columns,
+                         const std::optional<double> sampling_rate_hz,
+                         const std::vector<std::string>& remove_mean, const std::string& gaps,
+                         const std::optional<double> resample_hz,
+                         const std::optional<std::pair<std::size_t, std::size_t>>& rows) {
+  return {columns, sampling_rate_hz, remove_mean, gaps, resample_hz, rows};
+}
+
+void add_options_class(py::module_& module) {
+  py::class_<FileOptions>(module, "FileOptions")
+      .def(py::init(&make_options), py::kw_only(),
+           py::arg("columns") = std::map<std::string, std::string>{},
+           py::arg("sampling_rate_hz") = py::none(),
+           py::arg("remove_mean") = std::vector<std::string>{}, py::arg("gaps") = "pieces",
+           py::arg("resample_hz") = py::none(), py::arg("rows") = py::none());
 }
 
 }  // namespace
 
+signals::ReadOptions FileOptions::read_options() const {
+  signals::ReadOptions options;
+  for (const auto& [channel, column] : columns)
+    options.columns.push_back(signals::parse_column_choice(channel + "=" + column));
+  options.sampling_rate_hz = sampling_rate_hz;
+  options.remove_mean = remove_mean;
+  if (gaps != "pieces" && gaps != "refuse")
+    throw signals::UserError(signals::unknown_name("gaps", gaps, {"pieces", "refuse"}));
+  options.gaps = gaps == "pieces" ? signals::Gaps::pieces : signals::Gaps::refuse;
+  options.resample_hz = resample_hz;
+  if (!rows) return options;
+  if (rows->first == 0 || rows->second < rows->first)
+    throw signals::UserError("rows must be (first, last), counted from 1");
+  options.first_row = rows->first;
+  options.n_rows = rows->second - rows->first + 1;
+  return options;
+}
+
 void add_records(py::module_& module) {
   add_record_class(module);
-  add_reader(
-      module, "read_record", "file", &signals::read_record,
-      "Reads .csv, .mat, .h5, .npy, .uff or .wav. `columns` names the column and the unit of each "
-      "channel,\nas in {'base_acceleration': 'ax[g]', 'base_moment': 'B[uT]*0.18[N m/T]'}.");
+  add_options_class(module);
+  module.def(
+      "read_recording",
+      [](const std::filesystem::path& file, const FileOptions& options) {
+        return pieces_of(signals::read_recording(file, options.read_options()));
+      },
+      py::call_guard<signals::DecimalPoint>());
+  module.def(
+      "recording_of",
+      [](const std::optional<Array>& time, const Columns& columns,
+         const std::map<std::string, std::string>& units, const FileOptions& options) {
+        return pieces_of(recording_of(time, columns, units, options));
+      },
+      py::call_guard<signals::DecimalPoint>());
   module.def(
       "write_record", &signals::write_record, py::call_guard<signals::DecimalPoint>(),
       py::arg("file"), py::arg("record"),
@@ -118,8 +185,12 @@ void add_records(py::module_& module) {
           "Pairs of name and record.")
       .def_readonly("guesses", &signals::Dataset::guesses,
                     "Assumptions that were made because no file states them.");
-  add_reader(module, "read_dataset", "source", &signals::read_dataset,
-             "Reads a folder of records, with or without dataset.json, or one record.");
+  module.def(
+      "read_dataset",
+      [](const std::filesystem::path& source, const FileOptions& options) {
+        return signals::read_dataset(source, options.read_options());
+      },
+      py::call_guard<signals::DecimalPoint>());
 }
 
 }  // namespace vibrissa::python

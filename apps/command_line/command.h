@@ -37,6 +37,7 @@ void print_json(const nlohmann::json& document);
 /// Each adds its subcommand; the work happens in the subcommand's callback.
 void add_benchmark_command(CLI::App& app);
 void add_bode_command(CLI::App& app);
+void add_check_command(CLI::App& app);
 void add_completion_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_diagnose_command(CLI::App& app);

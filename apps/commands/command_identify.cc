@@ -7,6 +7,7 @@
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
 #include "apps/command_line/results.h"
+#include "apps/jobs/fault_warnings.h"
 #include "separation/identification/identify.h"
 #include "separation/identification/identify_response.h"
 #include "separation/identification/output_only.h"
@@ -159,6 +160,7 @@ void offer_output_only(const signals::Record& record, const std::string& file) {
 void identify(const IdentifyCommandOptions& options) {
   const signals::Record all = options.record.read(options.record_file);
   offer_output_only(all, options.record_file);
+  warn_of_faults(options.record_file, all);
   separation::IdentifyOptions identify = options.identify;
   identify.method = separation::parse_identify_method(options.method);
   if (options.hold) identify.hold = separation::parse_hold(*options.hold);

@@ -7,6 +7,7 @@
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
 #include "apps/command_line/results.h"
+#include "apps/jobs/fault_warnings.h"
 #include "apps/jobs/model_advice.h"
 #include "apps/jobs/stream_separation.h"
 #include "diagnosis/model/updated_model_json.h"
@@ -17,7 +18,6 @@
 #include "separation/model/sampled_bvrm.h"
 #include "separation/stream_methods.h"
 #include "signals/base/error.h"
-#include "signals/base/is_constant.h"
 #include "signals/files/file_format.h"
 #include "signals/files/record_io.h"
 #include "signals/model/reduced_model.h"
@@ -120,15 +120,6 @@ void add_wind_speeds(const SeparateOptions& options,
   }
 }
 
-void warn_of_dead_accelerometer(const signals::Record& record) {
-  if (!record.has(signals::channel::base_acceleration)) return;
-  const auto a = record.channel(signals::channel::base_acceleration);
-  if (signals::is_constant(a))
-    std::cerr << "warning: base_acceleration is " << a.front()
-              << " in all samples, so no vibration is subtracted; check the column of the "
-                 "accelerometer\n";
-}
-
 void separate_as_stream(const SeparateOptions& options) {
   if (options.truth_column || options.sensor_model_file)
     throw signals::UserError(
@@ -170,7 +161,7 @@ void separate(const SeparateOptions& options) {
         "--dtw-path compares with the true wind moment: name its column (--truth)");
   }
   const signals::Record record = options.record.read(options.record_file);
-  warn_of_dead_accelerometer(record);
+  warn_of_faults(options.record_file, record);
   std::vector<double> truth;
   if (options.truth_column) {
     truth = options.record.read_column(options.record_file, *options.truth_column);

@@ -18,6 +18,7 @@ constexpr const char* footer =
     "Examples:\n"
     "  vibrissa run cases/flow_sensor.prm\n"
     "  vibrissa modes cases/whisker_sensor.prm --json\n"
+    "  vibrissa check recording.csv\n"
     "  vibrissa plan --sim simulated --out plan\n"
     "  vibrissa diagnose --sim simulated --real bench --out diagnosis\n"
     "  vibrissa identify recording.csv --column base_acceleration=z_mps2 --rate 500\n"
@@ -35,12 +36,12 @@ std::unique_ptr<CLI::App> command_tree() {
   app->require_subcommand(1);
   // In the order of --help.
   for (const auto add :
-       {add_init_command,      add_run_command,       add_modes_command,     add_mesh_command,
-        add_simulate_command,  add_transient_command, add_static_command,    add_bode_command,
-        add_excite_command,    add_identify_command,  add_separate_command,  add_convert_command,
-        add_plan_command,      add_diagnose_command,  add_reproduce_command, add_trial_command,
-        add_benchmark_command, add_draw_command,      add_doctor_command,    add_completion_command,
-        add_manual_command})
+       {add_init_command,       add_run_command,       add_modes_command,    add_mesh_command,
+        add_simulate_command,   add_transient_command, add_static_command,   add_bode_command,
+        add_excite_command,     add_check_command,     add_identify_command, add_separate_command,
+        add_convert_command,    add_plan_command,      add_diagnose_command, add_reproduce_command,
+        add_trial_command,      add_benchmark_command, add_draw_command,     add_doctor_command,
+        add_completion_command, add_manual_command})
     add(*app);
   return app;
 }

@@ -122,16 +122,16 @@ void check_rates(const signals::Dataset& real, double simulated_rate_hz,
                               "below half of both sampling rates"});
 }
 
-/// Which kinds of fit records can be compared with the simulation.
+/// Which kinds of fit records can be used.
 struct Holdings {
   bool quiet = false, base = false, wind = false, held_out = false;
   std::vector<double> levels{};  // of base motion, rms, m/s^2
 };
 
-Holdings holdings_of(const NominalModel& nominal, const signals::Dataset& real) {
+Holdings holdings_of(const UsableRecord& is_usable, const signals::Dataset& real) {
   Holdings out;
   for (const DatasetRecord& entry : real.records) {
-    if (!is_comparable(nominal, entry)) continue;
+    if (!is_usable(entry)) continue;
     if (entry.split == signals::Split::held_out) {
       out.held_out |= entry.excitation != signals::Excitation{};
       continue;
@@ -152,9 +152,11 @@ bool has_one_level(const std::vector<double>& levels) {
          distinct * *std::min_element(levels.begin(), levels.end());
 }
 
-void check_what_is_there(const NominalModel& nominal, const signals::Dataset& real,
-                         std::vector<Finding>& findings) {
-  const Holdings there = holdings_of(nominal, real);
+}  // namespace
+
+void check_what_is_there(const WantedPaths& wanted, const UsableRecord& is_usable,
+                         const signals::Dataset& real, std::vector<Finding>& findings) {
+  const Holdings there = holdings_of(is_usable, real);
   const auto add = [&](bool missing, FindingKind kind, const std::string& message) {
     if (missing) findings.push_back({kind, "", message});
   };
@@ -163,10 +165,10 @@ void check_what_is_there(const NominalModel& nominal, const signals::Dataset& re
       "from effects of motion; add a quiet record");
   add(!there.held_out, FindingKind::no_held_out,
       "no usable held_out record: the improvement (gap closed) cannot be scored");
-  add(nominal.has_base && !there.base, FindingKind::no_base_motion,
+  add(wanted.base && !there.base, FindingKind::no_base_motion,
       "no usable fit record with base motion: sensor_gain and drag_error cannot be distinguished, "
       "and effects of the base cannot be detected");
-  add(nominal.has_wind && !there.wind, FindingKind::no_wind,
+  add(wanted.wind && !there.wind, FindingKind::no_wind,
       "no usable fit record with wind: sensor_gain and reference_gain cannot be distinguished, and "
       "effects of wind cannot be detected");
   add(has_one_level(there.levels), FindingKind::one_level,
@@ -175,29 +177,34 @@ void check_what_is_there(const NominalModel& nominal, const signals::Dataset& re
       "that do not; add a second level");
 }
 
-}  // namespace
+void check_recording(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  check_channels(entry, findings);
+  // A clamped stage does not move, and a sensor without its magnet reads nothing.
+  if (entry.setup.stage == signals::Stage::clamped) return;
+  check_dead_channels(entry, findings);
+  check_axes(entry, findings);
+  check_period(entry, findings);
+  check_clipping(entry, findings);
+  check_repeats(entry, findings);
+}
 
 std::vector<Finding> check_data(const NominalModel& nominal, const signals::Dataset& real,
                                 const double simulated_rate_hz) {
   std::vector<Finding> findings;
   const double acceleration_noise = channel_noise(real).acceleration_m_s2;
   for (const DatasetRecord& entry : real.records) {
-    check_channels(entry, findings);
+    check_recording(entry, findings);
     check_setup(entry, findings);
-    // A clamped stage does not move, and a sensor without its magnet reads nothing.
     if (entry.setup.stage == signals::Stage::clamped) continue;
-    check_dead_channels(entry, findings);
-    check_axes(entry, findings);
-    check_period(entry, findings);
     check_length(nominal, entry, findings);
-    check_clipping(entry, findings);
-    check_repeats(entry, findings);
     if (entry.setup == signals::BenchSetup{})
       check_response(nominal, entry, acceleration_noise, findings);
   }
   check_rates(real, simulated_rate_hz, findings);
   check_rest(real, findings);
-  check_what_is_there(nominal, real, findings);
+  check_what_is_there(
+      {nominal.has_base, nominal.has_wind},
+      [&](const DatasetRecord& entry) { return is_comparable(nominal, entry); }, real, findings);
   return findings;
 }
 

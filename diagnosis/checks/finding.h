@@ -32,7 +32,22 @@ enum class FindingKind {
   two_clocks,
   misplaced_record,
   time_limit,
-  not_confirmed
+  not_confirmed,
+  // Of a single record, before any simulation is there (checks/check_record.h):
+  missing_channel,
+  not_finite,
+  no_coherence,
+  poor_coherence,
+  few_lines,
+  hum,
+  drift,
+  few_steps,
+  drive_ended,
+  one_hit,
+  possible_aliasing,
+  changing_response,
+  channel_delay,
+  no_usable_model
 };
 std::string to_string(FindingKind kind);
 

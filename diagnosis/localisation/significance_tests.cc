@@ -11,10 +11,14 @@ double normal_tail(const double z) {
   return std::max(1e-300, 0.5 * std::erfc(z / std::numbers::sqrt2));
 }
 
+double variance_ratio_deviate(const double ratio, const double n_over, const double n_under) {
+  const double over = 2. / (9. * n_over), under = 2. / (9. * n_under), root = std::cbrt(ratio);
+  return ((1. - under) * root - (1. - over)) / std::sqrt(under * root * root + over);
+}
+
 double variance_ratio_tail(const double ratio, const double n_over, const double n_under) {
   if (!(ratio > 0.)) return 1.;
-  const double over = 2. / (9. * n_over), under = 2. / (9. * n_under), root = std::cbrt(ratio);
-  return normal_tail(((1. - under) * root - (1. - over)) / std::sqrt(under * root * root + over));
+  return normal_tail(variance_ratio_deviate(ratio, n_over, n_under));
 }
 
 std::vector<double> holm_corrected(const std::vector<double>& p_values) {

@@ -7,6 +7,9 @@ diagnosis.
 import json as _json
 import os as _os
 import tempfile as _tempfile
+import warnings as _warnings
+
+import numpy as _numpy
 
 from . import _core
 from ._core import (
@@ -17,13 +20,12 @@ from ._core import (
     TooLittleData,
     ResourceError,
     UserError,
-    read_dataset,
-    read_record,
     write_record,
 )
 
 __all__ = [
     "Bvrm",
+    "Check",
     "Dataset",
     "Diagnosis",
     "Identification",
@@ -32,7 +34,9 @@ __all__ = [
     "TooLittleData",
     "ResourceError",
     "UserError",
+    "check",
     "diagnose",
+    "from_arrays",
     "identify",
     "read_dataset",
     "read_record",
@@ -77,6 +81,93 @@ class Diagnosis:
     def __repr__(self):
         best = self.report["ranking"][0]
         return f"Diagnosis({self.verdict}, probability {best['probability']:.2g})"
+
+
+class Check:
+    """What a recording is and which commands it serves.
+
+    `report` is the document of `vibrissa check --json`, `words` is its text. `serves` gives "good",
+    "limited" or "no" for each of identify, separate, diagnose and plan.
+    """
+
+    def __init__(self, texts):
+        self.report = _json.loads(texts[0])
+        self.words = texts[1]
+
+    @property
+    def serves(self):
+        return {command: entry["verdict"] for command, entry in self.report["serves"].items()}
+
+    def __str__(self):
+        return self.words
+
+    def __repr__(self):
+        return f"Check({', '.join(f'{name}: {word}' for name, word in self.serves.items())})"
+
+
+def _longest(recording, source):
+    pieces, words = recording
+    record = max(pieces, key=len)
+    if len(pieces) > 1:
+        _warnings.warn(f"{source}: samples are lost; the longest of {len(pieces)} pieces is used "
+                       f"({words})", stacklevel=3)
+    return record
+
+
+def read_record(file, **options):
+    """Reads .csv and other text, .mat, .h5, .npy, .uff or .wav as the commands do.
+
+    Options: `columns` names the column and the unit of each channel, as in {"base_acceleration":
+    "ax[g]", "base_moment": "B[uT]*0.18[N m/T]"}; `sampling_rate_hz` for a file without time;
+    `remove_mean`, a list of channels; `rows`, the first and the last; `gaps`: "pieces" takes the
+    longest piece between lost samples and warns, "refuse" raises UserError; `resample_hz` estimates
+    even samples from uneven ones.
+    """
+    return _longest(_core.read_recording(_os.fspath(file), _core.FileOptions(**options)), file)
+
+
+def read_dataset(source, **options):
+    """Reads a folder of records, with or without dataset.json, or one record; options as
+    `read_record`. Without `gaps` lost samples raise UserError."""
+    options.setdefault("gaps", "refuse")
+    return _core.read_dataset(_os.fspath(source), _core.FileOptions(**options))
+
+
+def from_arrays(time, columns, units=None, **options):
+    """Makes a Record of NumPy arrays or pandas columns, with the clock of the readers of files.
+
+    `time` may jitter and miss samples; it is in seconds, in units["time"], or dates. None needs
+    `sampling_rate_hz`. `columns` is a DataFrame or a dict. Names are channels with or without their
+    unit ("base_moment"); `units` gives the units of columns, which are converted to SI. Other
+    columns are kept as they are. Options as `read_record`. Raises UserError for values that are not
+    finite and for uneven sampling (see `resample_hz`).
+    """
+    named = [(str(name), _numpy.asarray(columns[name], dtype=float)) for name in columns]
+    if time is not None:
+        time = _seconds(_numpy.asarray(time))
+    return _longest(_core.recording_of(time, named, dict(units or {}),
+                                       _core.FileOptions(**options)), "arrays")
+
+
+def _seconds(time):
+    if _numpy.issubdtype(time.dtype, _numpy.datetime64):
+        return (time - time[0]) / _numpy.timedelta64(1, "s")
+    if _numpy.issubdtype(time.dtype, _numpy.timedelta64):
+        return time / _numpy.timedelta64(1, "s")
+    return _numpy.asarray(time, dtype=float)
+
+
+def check(source, **options):
+    """Says what a recording is, what is wrong with it and which commands it serves.
+
+    `source` is a path (a file, a folder of records or its dataset.json; options as `read_record`)
+    or a Record.
+    """
+    if isinstance(source, Record):
+        if options:
+            raise TypeError("check: a Record has been read; options are for files")
+        return Check(_core.check_record(source))
+    return Check(_core.check_file(_os.fspath(source), _core.FileOptions(**options)))
 
 
 def identify(record, *, held_out=None, order=None, max_order=20, period_samples=0,

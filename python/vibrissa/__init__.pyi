@@ -56,6 +56,12 @@ class Identification:
     model: Bvrm
     report: dict[str, Any]
 
+class Check:
+    report: dict[str, Any]
+    words: str
+    @property
+    def serves(self) -> dict[str, str]: ...
+
 class Diagnosis:
     updated: Model
     words: str
@@ -69,7 +75,32 @@ def read_record(
     columns: Mapping[str, str] = ...,
     sampling_rate_hz: Optional[float] = ...,
     remove_mean: Sequence[str] = ...,
+    gaps: str = ...,
+    resample_hz: Optional[float] = ...,
+    rows: Optional[tuple[int, int]] = ...,
 ) -> Record: ...
+def from_arrays(
+    time: Optional[Any],
+    columns: Mapping[str, Any],
+    units: Optional[Mapping[str, str]] = ...,
+    *,
+    columns: Mapping[str, str] = ...,
+    sampling_rate_hz: Optional[float] = ...,
+    remove_mean: Sequence[str] = ...,
+    gaps: str = ...,
+    resample_hz: Optional[float] = ...,
+    rows: Optional[tuple[int, int]] = ...,
+) -> Record: ...
+def check(
+    source: Union[_Path, Record],
+    *,
+    columns: Mapping[str, str] = ...,
+    sampling_rate_hz: Optional[float] = ...,
+    remove_mean: Sequence[str] = ...,
+    gaps: str = ...,
+    resample_hz: Optional[float] = ...,
+    rows: Optional[tuple[int, int]] = ...,
+) -> Check: ...
 def write_record(file: _Path, record: Record) -> None: ...
 def read_dataset(
     source: _Path,
@@ -77,6 +108,9 @@ def read_dataset(
     columns: Mapping[str, str] = ...,
     sampling_rate_hz: Optional[float] = ...,
     remove_mean: Sequence[str] = ...,
+    gaps: str = ...,
+    resample_hz: Optional[float] = ...,
+    rows: Optional[tuple[int, int]] = ...,
 ) -> Dataset: ...
 def identify(
     record: Record,

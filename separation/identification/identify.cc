@@ -20,6 +20,7 @@
 #include "signals/base/error.h"
 #include "signals/base/is_constant.h"
 #include "signals/base/number_text.h"
+#include "signals/record/unusable_channel.h"
 
 namespace vibrissa::separation {
 
@@ -35,14 +36,9 @@ using signals::UserError;
 namespace channel = signals::channel;
 
 void check_channel(const Record& record, const std::string& name, const std::string& which) {
-  const auto x = record.channel(name);
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (!std::isfinite(x[i]))
-      throw UserError("identification: " + name + " of the " + which + " is not finite at sample " +
-                      std::to_string(i) + " (" + signals::to_text(record.time_s(i)) + " s)");
-  if (signals::is_constant(x))
-    throw UserError("identification: " + name + " of the " + which +
-                    " is constant, so no model can be identified from it");
+  if (const auto unusable = signals::unusable_channel(record, name))
+    throw UserError("identification: " + name + " of the " + which + " " + unusable->reason +
+                    (unusable->is_constant ? ", so no model can be identified from it" : ""));
 }
 
 void check_record(const Record& record, double sampling_rate_hz, const std::string& which) {
@@ -135,8 +131,9 @@ class Identifier {
         segments_(segments_of(records)) {}
 
   Selected select() const {
-    constexpr std::size_t fewest_samples = 400;
-    const auto too_short = [](const Segment& s) { return s.base_moment.size() < fewest_samples; };
+    const auto too_short = [](const Segment& s) {
+      return s.base_moment.size() < fewest_samples_for_order;
+    };
     const std::size_t highest = affordable_order(records_, options_);
     if (options_.order || highest == 2 || std::ranges::any_of(segments_, too_short))
       return by_criterion(highest);

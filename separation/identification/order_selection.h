@@ -42,6 +42,9 @@ std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s);
 signals::FrequencyResponse response_of(std::span<const Segment> segments, double rate_hz,
                                        std::size_t period_samples);
 
+/// Samples of a fit record below which no part of it can be held out to choose the order.
+inline constexpr std::size_t fewest_samples_for_order = 400;
+
 struct OrderOptions {
   std::size_t max_order = 6;  // number of poles, even
   double delay_s = 0.;

@@ -1,14 +1,12 @@
 #include "separation/verdict/verdict.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <sstream>
 
 #include "separation/identification/order_selection.h"
-#include "separation/segments/hit_blocks.h"
-#include "signals/spectra/fft.h"
+#include "separation/verdict/coherence.h"
 #include "signals/spectra/frequency_response.h"
 
 namespace vibrissa::separation {
@@ -90,28 +88,6 @@ std::string delay_sentence(const Estimate& delay_s, double rate_hz) {
          "; the model has this delay.";
 }
 
-/// The lines up to the first one at which the pulse has less than a tenth of its largest
-/// amplitude, as usual in impact testing (20 dB). Nothing when the input is no hit.
-std::optional<Band> hit_band(const signals::Record& record) {
-  const auto input = record.channel(signals::channel::base_acceleration);
-  if (hits_of(input).empty()) return std::nullopt;
-  const Block block = hit_blocks(input).front();
-  const std::vector<double> pulse = pulses_of(input.subspan(block.first, block.end - block.first));
-  signals::RealFft fft(pulse.size());
-  std::ranges::copy(pulse, fft.time().begin());
-  fft.forward();
-  const auto spectrum = fft.spectrum();
-  constexpr double share = 0.1;
-  double largest = 0.;
-  std::size_t k = 1;
-  for (; k < spectrum.size(); ++k) {
-    largest = std::max(largest, std::abs(spectrum[k]));
-    if (std::abs(spectrum[k]) < share * largest) break;
-  }
-  const double step = record.sampling_rate_hz() / static_cast<double>(pulse.size());
-  return Band{step, static_cast<double>(k - 1) * step};
-}
-
 double line_spacing(const signals::FrequencyResponse& response, double at_hz) {
   const auto& f = response.frequency_hz;
   const auto above = std::upper_bound(f.begin() + 1, f.end() - 1, at_hz);
@@ -119,30 +95,6 @@ double line_spacing(const signals::FrequencyResponse& response, double at_hz) {
 }
 
 }  // namespace
-
-Band coherent_band(const signals::Record& record) {
-  if (const auto hit = hit_band(record)) return *hit;
-  const auto input = record.channel(signals::channel::base_acceleration);
-  const double highest = record.sampling_rate_hz() / 2.;
-  constexpr std::size_t shortest = 32, longest = 2048;
-  const std::size_t segment = std::clamp(std::bit_floor(input.size() / 8), shortest, longest);
-  if (input.size() < 2 * segment) return {0., highest};
-  const signals::WelchOptions options{.segment_samples = segment};
-  const auto response = signals::welch_response(
-      input, record.channel(signals::channel::base_moment), record.sampling_rate_hz(), options);
-  constexpr double false_alarm = 0.01;
-  const double averages = signals::welch_averages(input.size(), options);
-  const double limit =
-      1. - std::pow(false_alarm / static_cast<double>(response.value.size()), 1. / (averages - 1.));
-  Band band{.low_hz = highest, .high_hz = 0.};
-  for (std::size_t i = 0; i < response.value.size(); ++i)
-    if (response.coherence[i] > limit) {
-      band.low_hz = std::min(band.low_hz, response.frequency_hz[i]);
-      band.high_hz = response.frequency_hz[i];
-    }
-  if (band.high_hz < band.low_hz) return {0., highest};
-  return band;
-}
 
 Verdict judge(const Identification& identification, const signals::Record& fitted) {
   Verdict verdict;

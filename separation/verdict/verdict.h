@@ -29,11 +29,6 @@ struct Verdict {
 /// accelerometer is calibrated that well (ISO 16063-21 reaches 0.5 %).
 inline constexpr double exact_share = 1e-3;
 
-/// The band between the lowest and the highest line whose coherence is above the limit that
-/// unrelated noise exceeds in one record of a hundred: 1 - (0.01 / lines)^(1 / (averages - 1))
-/// (Carter, Knapp & Nuttall 1973). The whole band when no line is above it.
-Band coherent_band(const signals::Record& record);
-
 /// A pair of poles is a mode when the fit converged, it lies within the band, oscillates, decays
 /// within the record, and its damping ratio is above twice its deviation. A model is usable when it
 /// has a mode and explains more of the variance of unseen data than it leaves. Proven by

@@ -252,8 +252,7 @@ std::vector<fs::path> record_files(const fs::path& folder) {
 
 void add_guessed(const std::string& name, const Record& record, const double clock_start_s,
                  Dataset& dataset) {
-  const Excitation excitation{.base = moves(record, channel::base_acceleration),
-                              .wind = moves(record, channel::wind_speed)};
+  const Excitation excitation = guessed_excitation(record);
   const std::size_t n_fit = record.n_samples() * 2 / 3;
   dataset.records.push_back({.name = name,
                              .record = record.slice(0, n_fit),
@@ -285,6 +284,11 @@ Dataset guess(const std::vector<fs::path>& files, const ReadOptions& options) {
 }
 
 }  // namespace
+
+Excitation guessed_excitation(const Record& record) {
+  return {.base = moves(record, channel::base_acceleration),
+          .wind = moves(record, channel::wind_speed)};
+}
 
 std::string to_string(const Excitation& excitation) {
   if (excitation.base && excitation.wind) return "base+wind";

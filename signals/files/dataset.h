@@ -49,6 +49,10 @@ struct Dataset {
   std::vector<std::string> readings = {};
 };
 
+/// What excited the sensor, as far as the channels tell: base or wind whose channel varies, where a
+/// white acceleration below 0.1 m/s2 rms is noise. Proven by tests/signals/files/dataset_test.cc.
+Excitation guessed_excitation(const Record& record);
+
 /// Reads FOLDER/dataset.json ("vibrissa-dataset-1") and its records. Without dataset.json it reads
 /// every record file of the folder, or the one given file; the excitation is guessed from the
 /// channels that vary (a white acceleration below 0.1 m/s2 rms is noise), and the last third of

@@ -49,17 +49,23 @@ std::size_t Recording::longest() const {
 Recording read_recording(const std::filesystem::path& file, const ReadOptions& options) {
   check(options);
   const auto table = formats::open_table(file, options.text);
-  for (const ColumnChoice& choice : options.columns) table->take_rows_of(choice.column);
-  const Sources sources = find_sources(*table, options);
-  const std::size_t n_rows = number_of_rows(*table, options);
+  return read_recording(*table, file.string(), options);
+}
+
+Recording read_recording(formats::RecordTable& table, const std::string& name,
+                         const ReadOptions& options) {
+  check(options);
+  for (const ColumnChoice& choice : options.columns) table.take_rows_of(choice.column);
+  const Sources sources = find_sources(table, options);
+  const std::size_t n_rows = number_of_rows(table, options);
   std::optional<Clock> clock;
   Recording recording;
-  recording.pieces = read_rows(*table, file.string(), sources, options, n_rows, clock);
+  recording.pieces = read_rows(table, name, sources, options, n_rows, clock);
   for (Record& piece : recording.pieces) remove_means(options, piece);
   recording.epoch_s = clock->epoch_s;
-  const std::string layout = table->layout_text();
+  const std::string layout = table.layout_text();
   recording.words = (layout.empty() ? "" : layout + "; ") + clock->words + "; " +
-                    sizes_of(recording, *clock) + "; " + to_string(sources, *table);
+                    sizes_of(recording, *clock) + "; " + to_string(sources, table);
   return recording;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "signals/files/column_choice.h"
+#include "signals/formats/record_table.h"
 #include "signals/formats/text/table_layout.h"
 #include "signals/record/record.h"
 
@@ -26,6 +27,8 @@ struct ReadOptions {
   Gaps gaps = Gaps::refuse;
   std::optional<double> resample_hz = {};  // uneven samples are estimated at this even rate
   bool skips_missing_columns = false;      // of the choice; another file may have them
+  /// Where no column is a channel: all columns of numbers, under their own names.
+  bool takes_all_columns = false;
 };
 
 /// The records of a file and how it was read.
@@ -52,6 +55,11 @@ struct Recording {
 /// rate that contradicts the time, a unit that does not measure what the channel does, a missing
 /// channel in remove_mean.
 Recording read_recording(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// The same for columns that are in memory or in an open file; name is used in messages. Proven by
+/// tests/signals/files/record_io_test.cc.
+Recording read_recording(formats::RecordTable& table, const std::string& name,
+                         const ReadOptions& options = {});
 
 /// The longest record of read_recording.
 Record read_record(const std::filesystem::path& file, const ReadOptions& options = {});

@@ -53,6 +53,7 @@ class SourceFinder {
   std::size_t find_column(const ColumnChoice& choice) const;
   void add_channels_by_name(Sources& sources) const;
   void add_time_by_name(Sources& sources, bool needs_time) const;
+  void add_all_numbers(Sources& sources) const;
 
  private:
   std::size_t column_of(const ColumnChoice& choice) const;
@@ -222,6 +223,28 @@ void SourceFinder::add_time_by_name(Sources& sources, const bool needs_time) con
   if (found) sources.time = time_source(*found, sources);
 }
 
+/// "X_Value" of "X_Value_2", the second of two columns with one name.
+std::string without_number(const std::string& name) {
+  const std::size_t end = name.find_last_not_of("0123456789");
+  return end != std::string::npos && end + 1 < name.size() && name[end] == '_' ? name.substr(0, end)
+                                                                               : name;
+}
+
+/// Columns whose first row is a number, but times.
+void SourceFinder::add_all_numbers(Sources& sources) const {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const bool is_time = sources.time && sources.time->column == i;
+    if (columns_[i].name.empty() || is_time || is_time_name(without_number(columns_[i].name)))
+      continue;
+    try {
+      file_.read({{&i, 1}, 1, 1});
+    } catch (const UserError&) {
+      continue;
+    }
+    sources.channels.push_back({columns_[i].name, i});
+  }
+}
+
 }  // namespace
 
 Sources find_sources(const formats::RecordTable& file, const ReadOptions& options) {
@@ -230,6 +253,7 @@ Sources find_sources(const formats::RecordTable& file, const ReadOptions& option
   finder.add_channels_by_name(sources);
   const bool has_exact_clock = file.clock() && !file.clock_is_nominal();
   finder.add_time_by_name(sources, !options.sampling_rate_hz && !has_exact_clock);
+  if (sources.channels.empty() && options.takes_all_columns) finder.add_all_numbers(sources);
   if (sources.channels.empty())
     throw UserError(
         file.place(0) +

@@ -57,6 +57,47 @@ class Module(unittest.TestCase):
         for name in record.channel_names:
             np.testing.assert_array_equal(record[name], self.record[name])
 
+    def test_checks_as_the_program_does(self):
+        done = subprocess.run([PROGRAM, "check", "--json", str(self.path / "r.csv")],
+                              capture_output=True, text=True, check=False,
+                              env=os.environ | kernel_of_this_process())
+        self.assertIn(done.returncode, (0, 3), done.stderr)
+        expected = json.loads(done.stdout)
+        of_file = vibrissa.check(self.path / "r.csv")
+        self.assertEqual(of_file.report, expected)
+        of_record = vibrissa.check(self.record)
+        self.assertEqual(of_record.serves, of_file.serves)
+        self.assertEqual(set(of_record.serves), {"identify", "separate", "diagnose", "plan"})
+
+    def test_takes_arrays_with_the_clock_and_units_of_files(self):
+        random = np.random.default_rng(1)
+        even = np.arange(2000) / 500.0
+        jittering = np.round(even + random.normal(0, 2e-4, even.size), 3)
+        values = random.normal(size=even.size)
+        record = vibrissa.from_arrays(1e3 * jittering, {"base_acceleration": values, "hall": values},
+                                      {"time": "ms", "base_acceleration": "g"})
+        self.assertAlmostEqual(record.sampling_rate_hz, 500, delta=0.1)
+        np.testing.assert_allclose(record["base_acceleration_m_s2"], 9.80665 * values)
+        np.testing.assert_array_equal(record["hall"], values)
+        dates = np.datetime64("2024-01-02T10:11:12") + (even * 1e6).astype("timedelta64[us]")
+        self.assertEqual(vibrissa.from_arrays(dates, {"base_moment": values}).sampling_rate_hz, 500)
+        without = vibrissa.from_arrays(None, {"base_moment": values}, sampling_rate_hz=250)
+        self.assertEqual(without.sampling_rate_hz, 250)
+        kept = np.r_[0:900, 910:2000]
+        with self.assertWarns(UserWarning):
+            longest = vibrissa.from_arrays(even[kept], {"base_moment": values[kept]})
+        self.assertEqual(len(longest), 1090)
+        for time, columns, units, options in (
+                (even[kept], {"base_moment": values[kept]}, {}, {"gaps": "refuse"}),
+                (even, {"base_moment": values[:100]}, {}, {}),
+                (even, {"base_moment": np.where(even > 1, np.nan, values)}, {}, {}),
+                (even, {"base_moment": values}, {"base_moment": "g"}, {}),
+                (even, {"base_moment": values}, {"bas_moment": "N m"}, {}),
+                (None, {"base_moment": values}, {}, {}),
+                (np.cumsum(random.exponential(size=2000)), {"base_moment": values}, {}, {})):
+            with self.assertRaises(vibrissa.UserError):
+                vibrissa.from_arrays(time, columns, units, **options)
+
     def test_identifies_the_same_model(self):
         found = vibrissa.identify(self.record, order=2)
         said = json.loads(program("identify", str(self.path / "r.csv"), "--order", "2", "-o",

@@ -1,4 +1,5 @@
 #include "separation/verdict/verdict.h"
+#include "separation/verdict/coherence.h"
 
 #include <gmock/gmock.h>
 

@@ -1,0 +1,75 @@
+#include "checks/check_file.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "checks/report_json.h"
+#include "checks/report_text.h"
+#include "tests/checks/record_generator.h"
+#include "tests/signals/temporary_folder.h"
+
+namespace vibrissa::checks {
+namespace {
+
+using signals::test::TemporaryFolder;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+Serves serves(const CheckResult& result, std::size_t command) {
+  return result.serves[command].serves;
+}
+
+TEST(CheckFile, ServesIdentifyAndSaysWhatADiagnosisWillLack) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "r.csv";
+  signals::write_record(file, test::good_record(test::Drive::random, 8000));
+  const CheckResult result = check_file(file, {});
+  EXPECT_EQ(serves(result, 0), Serves::good);
+  EXPECT_EQ(serves(result, 1), Serves::good);
+  EXPECT_EQ(serves(result, 2), Serves::limited) << "no wind, one level, nothing at rest";
+  EXPECT_TRUE(serves_all(result.serves));
+  EXPECT_THAT(check_text(result), HasSubstr("no fit record at rest"));
+}
+
+TEST(CheckFile, ReadsColumnsThatAreNoChannelsUnderTheirNames) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "logger.csv";
+  std::ofstream out(file);
+  out << "t,ax,hall,remark\n";
+  for (int i = 0; i < 200; ++i) out << 0.01 * i << "," << i % 7 << "," << i % 5 << ",ok\n";
+  out.close();
+  const CheckResult result = check_file(file, {});
+  ASSERT_THAT(result.records, SizeIs(1));
+  EXPECT_THAT(result.records[0].channels, SizeIs(2));
+  for (std::size_t command = 0; command < 4; ++command)
+    EXPECT_EQ(serves(result, command), Serves::no);
+  EXPECT_THAT(check_text(result), HasSubstr("no column is base_moment_N_m"));
+}
+
+TEST(CheckFile, TakesAllRecordsOfADatasetTogether) {
+  const TemporaryFolder folder;
+  signals::write_record(folder.path() / "good.csv", test::good_record(test::Drive::random, 8001));
+  signals::write_record(folder.path() / "dead.csv",
+                        test::bad_record(test::Fault::dead_moment, 8002).record);
+  std::ofstream(folder.path() / "dataset.json") << R"({"schema": "vibrissa-dataset-1", "records": [
+             {"file": "good.csv", "excitation": "base"},
+             {"file": "dead.csv", "excitation": "base"}]})";
+  const CheckResult result = check_file(folder.path() / "dataset.json", {});
+  ASSERT_THAT(result.records, SizeIs(2));
+  EXPECT_EQ(serves(result, 0), Serves::good) << "one record is enough";
+  EXPECT_EQ(serves(result, 2), Serves::no) << "diagnose refuses a constant channel";
+}
+
+TEST(CheckFile, HasAJsonDocumentWithTheSameVerdicts) {
+  const auto result = check_one("r", test::bad_record(test::Fault::clipped, 8003).record);
+  const nlohmann::json document = check_json(result);
+  EXPECT_EQ(document["schema"], "vibrissa-check-1");
+  for (const CommandVerdict& verdict : result.serves)
+    EXPECT_EQ(document["serves"][verdict.command]["verdict"], to_string(verdict.serves));
+  EXPECT_EQ(document["records"][0]["findings"][0]["kind"], "clipped_channel");
+}
+
+}  // namespace
+}  // namespace vibrissa::checks

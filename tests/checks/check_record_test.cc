@@ -1,0 +1,77 @@
+#include "checks/check_record.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "checks/serves.h"
+#include "tests/checks/record_generator.h"
+
+namespace vibrissa::checks {
+namespace {
+
+using test::Drive;
+using test::Fault;
+
+std::string words_of(const RecordReport& report) {
+  std::string text;
+  for (const Finding& finding : report.findings)
+    text += "\n  " + to_string(finding.severity) + " " + diagnosis::to_string(finding.kind) + ": " +
+            finding.sentence;
+  return text;
+}
+
+bool is_clean(const RecordReport& report) {
+  const ServesTable table = what_it_serves(report);
+  return std::ranges::all_of(report.findings,
+                             [](const Finding& f) { return f.severity == Severity::note; }) &&
+         std::ranges::all_of(table,
+                             [](const CommandVerdict& v) { return v.serves == Serves::good; });
+}
+
+bool is_named(const test::BadRecord& bad, const RecordReport& report) {
+  const bool has_finding = std::ranges::any_of(report.findings, [&](const Finding& f) {
+    return f.kind == bad.expected && f.severity != Severity::note;
+  });
+  const ServesTable table = what_it_serves(report);
+  const bool is_worse =
+      std::ranges::any_of(table, [](const CommandVerdict& v) { return v.serves != Serves::good; });
+  return has_finding && is_worse && (!bad.stops_identify || table[0].serves == Serves::no);
+}
+
+constexpr std::size_t n_good = 60, n_bad = 60, most_wrong = 4;
+
+/// How many of 60 good and 60 bad records are called what they are not.
+std::size_t n_wrong_of_120(const std::uint64_t first_seed) {
+  std::size_t n_wrong = 0;
+  for (std::size_t i = 0; i < n_good; ++i) {
+    const RecordReport report =
+        check_record(test::good_record(static_cast<Drive>(i % 4), first_seed + i));
+    if (is_clean(report)) continue;
+    ++n_wrong;
+    std::cout << "good record " << i << " (drive " << i % 4 << "):" << words_of(report) << "\n";
+  }
+  for (std::size_t i = 0; i < n_bad; ++i) {
+    const test::BadRecord bad =
+        test::bad_record(static_cast<Fault>(i % test::n_faults), first_seed + 1000 + i);
+    const RecordReport report = check_record(bad.record);
+    if (is_named(bad, report)) continue;
+    ++n_wrong;
+    std::cout << "bad record " << i << " (" << bad.name << "):" << words_of(report) << "\n";
+  }
+  std::cout << n_good + n_bad - n_wrong << " of " << n_good + n_bad << " right\n";
+  return n_wrong;
+}
+
+// The seeds are the numbers of the records: none was chosen.
+TEST(CheckRecord, IsRightOnGoodAndBadRecords) {
+  EXPECT_LE(n_wrong_of_120(1000), most_wrong);
+}
+
+TEST(LongCheckRecord, IsRightOnFurtherRecords) {
+  for (const std::uint64_t first_seed : {10000, 20000, 30000})
+    EXPECT_LE(n_wrong_of_120(first_seed), most_wrong) << first_seed;
+}
+
+}  // namespace
+}  // namespace vibrissa::checks
