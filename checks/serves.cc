@@ -118,6 +118,22 @@ ServesTable what_it_serves(const RecordReport& report) {
   return table;
 }
 
+namespace {
+
+/// Under base motion and wind together little of the moment follows the base, which harms nothing
+/// where another record gives the response to the base.
+RecordReport beside_a_good_one(RecordReport report) {
+  if (!report.excitation.wind) return report;
+  std::erase_if(report.findings, [](const Finding& finding) {
+    return finding.kind == FindingKind::no_usable_model ||
+           finding.kind == FindingKind::poor_coherence || finding.kind == FindingKind::few_lines ||
+           finding.kind == FindingKind::no_coherence;
+  });
+  return report;
+}
+
+}  // namespace
+
 ServesTable what_they_serve(std::span<const RecordReport> reports,
                             const std::vector<Finding>& of_dataset) {
   ServesTable table = empty_table();
@@ -127,8 +143,12 @@ ServesTable what_they_serve(std::span<const RecordReport> reports,
     for (const std::size_t command : {identify, separate})
       if (is_first || own[command].serves < table[command].serves) table[command] = own[command];
     is_first = false;
+  }
+  const bool has_model = !is_first && reports.size() > 1 && table[identify].serves == good;
+  for (const RecordReport& report : reports) {
     // A record at rest gives the noise beside others.
     if (is_at_rest(report) && !std::ranges::all_of(reports, is_at_rest)) continue;
+    const ServesTable own = what_it_serves(has_model ? beside_a_good_one(report) : report);
     for (const std::size_t command : {diagnose, plan})
       for (const std::string& reason : own[command].reasons)
         worsen(table[command], own[command].serves,
