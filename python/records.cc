@@ -68,8 +68,10 @@ signals::Recording recording_of(const std::optional<Array>& time, const Columns&
   const bool takes_all = options.columns.empty();
   for (const auto& [name, values] : columns) {
     add(name, values, unit_of(name, ""));
-    if (takes_all && signals::full_channel_name(name).empty())
-      options.columns.push_back({.channel = name, .column = name});
+    // Where no unit is given the values are in SI, as on the command line.
+    const std::string known = signals::full_channel_name(name);
+    if (takes_all && (known.empty() || (known != name && unit_of(name, "").empty())))
+      options.columns.push_back({.channel = known.empty() ? name : known, .column = name});
   }
   if (time)
     options.columns.push_back(
