@@ -62,6 +62,12 @@ constexpr double power_without_cause(const double accuracy) {
   return 4. * accuracy * accuracy;
 }
 
+/// Power of the error, relative to the measured moment, below which nothing is sought: the first
+/// percentile of a simulation's accuracy, whose logarithm has the spread 1.
+constexpr double least_error_power(const double accuracy) {
+  return 0.01 * accuracy * accuracy;
+}
+
 /// The prepared fit records of one sensor with the nominal model.
 struct Experiment {
   NominalModel nominal;

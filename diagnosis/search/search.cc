@@ -10,6 +10,7 @@
 #include <set>
 
 #include "diagnosis/model/parallel.h"
+#include "diagnosis/records/spectrum.h"
 #include "diagnosis/search/calibrated_odds.h"
 #include "diagnosis/search/needless_calibrations.h"
 #include "diagnosis/search/resemblance.h"
@@ -277,7 +278,10 @@ class Searcher {
   /// may be the right one? If not, only noise may still be missing.
   bool leaves_much(std::size_t fit) const {
     constexpr double enough = 0.003;
-    return left_by(fit) >= enough * left_by(known_.at("none"));
+    double measured = 0.;
+    for (const PreparedRecord& record : experiment_.records) measured += total_power(record.moment);
+    return left_by(fit) >= std::max(enough * left_by(known_.at("none")),
+                                    least_error_power(experiment_.simulation_accuracy) * measured);
   }
 
   std::vector<Task> extensions(std::size_t size) {

@@ -16,9 +16,6 @@ namespace {
 /// Answers below this probability are not reduced; below the other one they keep the names of all
 /// calibration parameters that close a part of the gap.
 constexpr double hopeless = 1e-3, not_probable = 0.02;
-/// No simulation is more accurate than this share of its usual accuracy: the first percentile of
-/// the level of the discrepancy, whose logarithm has the spread 1.
-constexpr double best_of_usual = 0.1;
 
 /// Does the effect change predictions? Noise has no time course, and the ages of repeated samples
 /// are unknown in each record.
@@ -191,7 +188,7 @@ class Reduction {
     return share * share * std::max(0., nominal_power_[records] - floor_[records]);
   }
 
-  double any_error() const { return std::pow(best_of_usual * experiment_.simulation_accuracy, 2); }
+  double any_error() const { return least_error_power(experiment_.simulation_accuracy); }
 
   std::optional<std::size_t> without_least_needed(std::size_t fit) {
     const Hypothesis& hypothesis = result_.fits[fit].hypothesis;

@@ -276,9 +276,12 @@ Dataset guess(const std::vector<fs::path>& files, const ReadOptions& options) {
     dataset.readings.push_back(file.string() + ": read as: " + recording.words);
     const bool is_one = recording.pieces.size() == 1;
     const double start_s = recording.pieces.front().time_s(0);
-    for (std::size_t i = 0; i < recording.pieces.size(); ++i)
-      add_guessed(file.stem().string() + (is_one ? "" : "_" + std::to_string(i + 1)),
-                  recording.pieces[i], recording.pieces[i].time_s(0) - start_s, dataset);
+    for (std::size_t i = 0; i < recording.pieces.size(); ++i) {
+      std::string name = file.stem().string();
+      if (!is_one) name.append("_").append(std::to_string(i + 1));
+      const signals::Record& piece = recording.pieces[i];
+      add_guessed(name, piece, piece.time_s(0) - start_s, dataset);
+    }
   }
   return dataset;
 }
