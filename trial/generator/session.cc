@@ -44,12 +44,13 @@ class Bench {
                           moment,
                           motion_.fine_hz(),
                           -static_cast<double>(before) / motion_.fine_hz()};
-    signals::DatasetRecord out{.name = take.name,
-                               .record = read_out(world_, structure_, fine, take.n_samples, rate_hz,
-                                                  noise + 3, session_.noise),
-                               .excitation = {take.base_rms > 0., take.wind_mean > 0.},
-                               .period_samples = take.period_samples,
-                               .split = take.split};
+    signals::DatasetRecord out{
+        .name = take.name,
+        .record = read_out(world_, structure_, fine, take.n_samples, rate_hz, noise + 3,
+                           {.noise = session_.noise, .wind = session_.has_wind_channel}),
+        .excitation = {take.base_rms > 0., take.wind_mean > 0.},
+        .period_samples = take.period_samples,
+        .split = take.split};
     return out;
   }
 

@@ -22,6 +22,7 @@ struct Take {
   double gustiness = 0.35;  // turbulence intensity of the wind
 
   bool is_at_rest() const { return base_rms == 0. && wind_mean == 0.; }
+  bool operator==(const Take&) const = default;
 };
 
 /// The usual session: at rest, two levels (the higher one twice), wind, both; and two held-out
@@ -44,6 +45,7 @@ struct Session {
   std::vector<Take> takes;
   std::uint64_t seed = 1;
   bool noise = true;
+  bool has_wind_channel = true;
 };
 
 /// The records that the bench writes for a sensor with this motion; accelerometer and moment sensor

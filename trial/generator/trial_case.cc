@@ -6,7 +6,10 @@
 #include <random>
 #include <set>
 
+#include "trial/generator/calibration_draw.h"
+#include "trial/generator/circumstance_draw.h"
 #include "trial/generator/effect_draw.h"
+#include "trial/generator/record_set.h"
 #include "trial/plant/solid_motion.h"
 
 namespace vibrissa::trial {
@@ -18,6 +21,9 @@ constexpr std::array turns{single,           pair,       none, single,   nameles
                            left_out,         single,     pair, single,   triple,   single,
                            calibration_only, single,     none, left_out, single,   wrong_metadata,
                            nameless,         below_limit};
+
+/// Purposes of random streams of a case.
+enum : std::uint32_t { of_calibrations = 101, of_the_form };
 
 /// Effects that others in the catalogue can replace exactly, or that every hypothesis contains as
 /// calibration parameters. Removing them from the catalogue does not make the cause an unknown one.
@@ -40,6 +46,12 @@ std::vector<Unknown> those_of(const Physics physics, std::vector<Unknown> list) 
   return list;
 }
 
+std::vector<Unknown> those_at(const Distance distance, std::vector<Unknown> list) {
+  if (distance != Distance::exact)
+    std::erase_if(list, [](const Unknown& unknown) { return is_a_calibration(unknown.id); });
+  return list;
+}
+
 std::vector<Unknown> without_aliases(std::vector<Unknown> list) {
   std::erase_if(list, [](const Unknown& unknown) { return has_exact_alias(unknown.id); });
   return list;
@@ -54,7 +66,8 @@ std::size_t n_before(const CaseClass kind, const std::size_t number) {
 }
 
 void add_effects(TrialCase& out, const std::size_t number, std::mt19937_64& random) {
-  const std::vector<Unknown> named = those_of(out.physics, named_unknowns());
+  const std::vector<Unknown> named =
+      those_at(out.circumstances.distance, those_of(out.physics, named_unknowns()));
   EffectDraw draw(out, random);
   const std::size_t n_named = out.kind == triple   ? 3
                               : out.kind == pair   ? 2
@@ -68,22 +81,10 @@ void add_effects(TrialCase& out, const std::size_t number, std::mt19937_64& rand
   out.left_out = {out.effects.front().id};
 }
 
-void take_as_built(World& world, std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  const auto off = [&](double deviation) {
-    return 1. + deviation * std::clamp(normal(random), -2., 2.);
-  };
-  world.solid.silicone_modulus = off(built_modulus);
-  world.damping = off(built_damping);
-  world.sensor_gain = off(built_gain);
-  world.drag = off(built_drag);
-}
-
-std::vector<Take> takes_of(const Physics physics) {
-  if (physics == Physics::finite_strain) return short_takes();
-  std::vector<Take> out = usual_takes();
-  for (const Take& take : transfer_takes()) out.push_back(take);
-  return out;
+Session session_of(const Physics physics, const RecordSet set, const std::uint64_t seed) {
+  return {.takes = physics == Physics::finite_strain ? short_takes() : takes_of(set),
+          .seed = seed,
+          .has_wind_channel = has_wind_channel(set)};
 }
 
 signals::Dataset recorded(const Physics physics, const World& world, const Session& session) {
@@ -93,7 +94,25 @@ signals::Dataset recorded(const Physics physics, const World& world, const Sessi
   return record_session(motion, structure, world, session);
 }
 
+/// Takes of a simulation: it has no noise, and needs no held-out records.
+Session simulated(Session session) {
+  session.noise = false;
+  session.has_wind_channel = true;
+  std::erase_if(session.takes, [](const Take& take) {
+    return take.split != signals::Split::fit || take.is_at_rest();
+  });
+  return session;
+}
+
+std::uint64_t seed_of_simulation(const std::uint64_t seed) {
+  return seed * 100000 + 99999;
+}
+
 }  // namespace
+
+CaseClass class_of(const std::size_t number) {
+  return turns[number % turns.size()];
+}
 
 World plain_world(std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform;
@@ -106,57 +125,80 @@ World plain_world(std::mt19937_64& random) {
   return world;
 }
 
-TrialCase draw_case(const std::uint64_t seed, const std::size_t number, const Physics physics) {
+TrialCase draw_case(const std::uint64_t seed, const std::size_t number, const Physics physics,
+                    const Circumstances& circumstances) {
   TrialCase out;
   out.physics = physics;
-  out.kind = turns[number % turns.size()];
+  out.circumstances = circumstances;
+  out.kind = class_of(number);
   out.seed = seed * 100000 + number;
   std::mt19937_64 random(out.seed);
-  out.session = {.takes = takes_of(physics), .seed = out.seed};
+  out.session = session_of(physics, circumstances.set, out.seed);
   out.world = plain_world(random);
+  out.world.moment_noise *= noise_factor(circumstances.set);
+  std::mt19937_64 calibrations(stream_seed(seed, number, of_calibrations));
+  draw_calibrations(out.world, circumstances.distance, calibrations);
+  out.plain = out.world;
   add_effects(out, number, random);
-  if (out.kind == calibration_only) take_as_built(out.world, random);
+  if (out.kind == calibration_only && circumstances.distance == Distance::exact)
+    draw_calibrations(out.world, Distance::as_built, random);
   return out;
 }
 
 signals::Dataset records_of(const TrialCase& trial_case) {
   signals::Dataset out = recorded(trial_case.physics, trial_case.world, trial_case.session);
   if (trial_case.kind != wrong_metadata) return out;
-  // Alternately a fan that was off and a wrong period.
-  if (trial_case.seed / turns.size() % 2 == 0) {
-    for (signals::DatasetRecord& entry : out.records)
-      if (entry.name == "base_low") entry.excitation.wind = true;
-  } else {
-    for (signals::DatasetRecord& entry : out.records)
-      if (entry.name == "base_high") entry.period_samples = 1500;
+  // Alternately a fan that was off, which only a measured wind shows, and a wrong period.
+  const bool is_fan =
+      trial_case.seed / turns.size() % 2 == 0 && trial_case.session.has_wind_channel;
+  const bool has_low = trial_case.circumstances.set != RecordSet::one_level;
+  for (signals::DatasetRecord& entry : out.records) {
+    if (is_fan && entry.name == (has_low ? "base_low" : "base_high_2"))
+      entry.excitation.wind = true;
+    if (!is_fan && entry.name == "base_high") entry.period_samples = 1500;
   }
   return out;
 }
 
-std::vector<FurtherExperiment> further_experiments(const Physics physics) {
-  if (physics == Physics::finite_strain) return {};
-  return further_experiments();
+std::vector<FurtherExperiment> further_experiments_of(const TrialCase& trial_case) {
+  if (trial_case.physics == Physics::finite_strain) return {};
+  return further_experiments(trial_case.circumstances.set);
 }
 
 std::vector<std::pair<std::string, signals::Dataset>> further_records_of(
     const TrialCase& trial_case) {
   constexpr std::uint64_t another_day = 50000;
   std::vector<std::pair<std::string, signals::Dataset>> out;
-  for (const FurtherExperiment& experiment : further_experiments(trial_case.physics))
-    out.emplace_back(
-        experiment.name,
-        record_session(structure_of(trial_case.world.solid), trial_case.world,
-                       {.takes = experiment.takes, .seed = trial_case.seed + another_day}));
+  for (const FurtherExperiment& experiment : further_experiments_of(trial_case))
+    out.emplace_back(experiment.name,
+                     record_session(structure_of(trial_case.world.solid), trial_case.world,
+                                    {.takes = experiment.takes,
+                                     .seed = trial_case.seed + another_day,
+                                     .has_wind_channel = trial_case.session.has_wind_channel}));
   return out;
 }
 
 signals::Dataset simulated_records(const std::uint64_t seed, const Physics physics) {
-  World world;
-  Session session{.takes = takes_of(physics), .seed = seed * 100000 + 99999, .noise = false};
-  std::erase_if(session.takes, [](const Take& take) {
-    return take.split != signals::Split::fit || take.is_at_rest();
-  });
-  return recorded(physics, world, session);
+  return recorded(physics, {},
+                  simulated(session_of(physics, RecordSet::complete, seed_of_simulation(seed))));
+}
+
+signals::Dataset simulated_records(const std::uint64_t seed, const SimulationForm& form,
+                                   const RecordSet set) {
+  const World world;
+  const Session session = simulated(session_of(Physics::modes, set, seed_of_simulation(seed)));
+  if (form.hold == Hold::band_limited) return record_session(form.structure, world, session);
+  HeldMotion motion(form.structure, world, form.hold);
+  return record_session(motion, form.structure, world, session);
+}
+
+bool has_own_simulation(const Circumstances& circumstances) {
+  return circumstances.form_error != FormError::zero || circumstances.set == RecordSet::two_files;
+}
+
+SimulationForm form_of(const TrialCase& trial_case) {
+  return draw_form(structure_of({}), size_of(trial_case.circumstances.form_error),
+                   stream_seed(trial_case.seed, 0, of_the_form));
 }
 
 }  // namespace vibrissa::trial

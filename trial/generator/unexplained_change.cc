@@ -1,5 +1,6 @@
 #include "trial/generator/unexplained_change.h"
 
+#include <algorithm>
 #include <list>
 #include <numbers>
 
@@ -17,6 +18,30 @@ std::vector<std::complex<double>> change_of(const signals::Record& a, const sign
   for (std::size_t i = 0; i < x.size(); ++i) mean += difference[i] = y[i] - x[i];
   for (double& d : difference) d -= mean / static_cast<double>(x.size());
   return signals::real_fft(difference);
+}
+
+/// Mean over the line and its neighbours up to this distance.
+std::vector<double> smoothed(const std::vector<double>& power) {
+  constexpr std::ptrdiff_t reach = 8;
+  const auto n = static_cast<std::ptrdiff_t>(power.size());
+  std::vector<double> out(power.size());
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const std::ptrdiff_t first = std::max<std::ptrdiff_t>(0, i - reach),
+                         end = std::min(n, i + reach + 1);
+    double sum = 0.;
+    for (std::ptrdiff_t k = first; k < end; ++k) sum += power[static_cast<std::size_t>(k)];
+    out[static_cast<std::size_t>(i)] = sum / static_cast<double>(end - first);
+  }
+  return out;
+}
+
+std::vector<double> power_of(const signals::Record& record) {
+  const auto moment = record.channel(signals::channel::base_moment);
+  const std::vector<std::complex<double>> lines =
+      signals::real_fft(std::vector<double>(moment.begin(), moment.end()));
+  std::vector<double> out;
+  for (std::size_t k = 1; k < record.n_samples() / 2; ++k) out.push_back(std::norm(lines[k]));
+  return out;
 }
 
 }  // namespace
@@ -46,6 +71,19 @@ UnexplainedChange::UnexplainedChange(const World& plain, const Session& session)
       lengths_.push_back(n);
     }
   }
+  if (!session.has_wind_channel) unseen_wind_ = wind_power();
+}
+
+std::vector<double> UnexplainedChange::wind_power() const {
+  Session at_rest = bare_;
+  for (Take& take : at_rest.takes) take.base_rms = 0.;
+  std::vector<double> out;
+  for (const signals::DatasetRecord& entry :
+       record_session(structure_of(plain_.solid), plain_, at_rest).records) {
+    const std::vector<double> lines = smoothed(power_of(entry.record));
+    out.insert(out.end(), lines.begin(), lines.end());
+  }
+  return out;
 }
 
 std::vector<std::complex<double>> UnexplainedChange::of(const World& world) const {
@@ -65,7 +103,8 @@ std::vector<std::complex<double>> UnexplainedChange::of(const World& world) cons
 std::vector<double> UnexplainedChange::noise(const double moment, const double acceleration) const {
   std::vector<double> out(gains_.size());
   for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = lengths_[i] * (moment * moment + std::norm(gains_[i]) * acceleration * acceleration);
+    out[i] = lengths_[i] * (moment * moment + std::norm(gains_[i]) * acceleration * acceleration) +
+             (unseen_wind_.empty() ? 0. : unseen_wind_[i]);
   return out;
 }
 

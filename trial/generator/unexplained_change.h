@@ -23,8 +23,12 @@ class UnexplainedChange {
   /// Unscaled DFT [N m].
   std::vector<std::complex<double>> of(const World& world) const;
   /// Variance of each line [(N m)^2] for white noise with these standard deviations on both
-  /// channels [N m, m/s^2].
+  /// channels [N m, m/s^2], and for a wind that nobody measures, where the session has no channel
+  /// for it.
   std::vector<double> noise(double moment, double acceleration) const;
+  /// Mean power of the wind's moment at each line [(N m)^2], smoothed over neighbouring lines; 0 in
+  /// takes without wind.
+  std::vector<double> wind_power() const;
 
  private:
   World plain_;
@@ -32,6 +36,7 @@ class UnexplainedChange {
   signals::Dataset records_;
   std::vector<std::complex<double>> gains_;  // moment per base acceleration
   std::vector<double> lengths_;              // number of samples of the line's take
+  std::vector<double> unseen_wind_;          // wind_power(); empty where the wind is measured
 };
 
 }  // namespace vibrissa::trial

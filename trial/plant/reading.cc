@@ -87,7 +87,7 @@ class Noise {
 
 signals::Record read_out(const World& world, const Structure& structure, const FineRecord& fine,
                          const std::size_t n, const double rate_hz, const std::uint64_t seed,
-                         const bool noise) {
+                         const Readings& readings) {
   std::mt19937_64 random(seed), sensor_random(seed + 1), clock_random(seed + 2);
   const std::vector<double> reference = reference_signal(world, fine);
   const std::vector<double> sensed = sensor_signal(world, structure, fine, sensor_random);
@@ -96,7 +96,7 @@ signals::Record read_out(const World& world, const Structure& structure, const F
   };
   const std::vector<double> moment_at = moment_times(world, rate_hz, n);
   const std::vector<double> reference_at = acceleration_times(world, rate_hz, n, clock_random);
-  const double quiet = noise ? 1. : 0.;
+  const double quiet = readings.noise ? 1. : 0.;
   const double own = std::hypot(world.acceleration_noise * quiet, world.reference_noise);
   Noise moment_noise(world.moment_noise * quiet, world.noise_colour, rate_hz);
   Noise axial(own, world.noise_colour, rate_hz), cross(own, world.noise_colour, rate_hz);
@@ -116,7 +116,7 @@ signals::Record read_out(const World& world, const Structure& structure, const F
   signals::Record out(rate_hz, n);
   out.set_channel(signals::channel::base_acceleration, std::move(a));
   out.set_channel(signals::channel::cross_acceleration, std::move(across));
-  out.set_channel(signals::channel::wind_speed, std::move(wind));
+  if (readings.wind) out.set_channel(signals::channel::wind_speed, std::move(wind));
   out.set_channel(signals::channel::base_moment, std::move(moment));
   return out;
 }

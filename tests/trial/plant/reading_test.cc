@@ -19,7 +19,7 @@ TEST(ReadOut, AnAccelerometerThatIsReadAgainRepeatsItsNoiseToo) {
   world.acceleration_noise = 0.05;
   world.moment_noise = 1e-6;
   const signals::Record record =
-      read_out(world, Structure{}, {moves, still, still, still, fine_hz}, n, rate_hz, 1, true);
+      read_out(world, Structure{}, {moves, still, still, still, fine_hz}, n, rate_hz, 1, {});
   const auto reading = record.channel(signals::channel::base_acceleration);
   int repeats = 0;
   for (std::size_t i = 1; i < n; ++i) repeats += reading[i] == reading[i - 1];

@@ -1,0 +1,55 @@
+#include "trial/generator/calibration_draw.h"
+
+#include <algorithm>
+#include <set>
+
+namespace vibrissa::trial {
+namespace {
+
+void take_as_built(World& world, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  const auto off = [&](double deviation) {
+    return 1. + deviation * std::clamp(normal(random), -2., 2.);
+  };
+  world.solid.silicone_modulus = off(built_modulus);
+  world.damping = off(built_damping);
+  world.sensor_gain = off(built_gain);
+  world.drag = off(built_drag);
+}
+
+void take_as_paper(World& world, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform;
+  const auto off = [&](const PaperDistance& range) {
+    const double size = range.low + (range.high - range.low) * uniform(random);
+    return 1. + (range.either_sign && uniform(random) < 0.5 ? size : -size);
+  };
+  world.solid.silicone_modulus = off(paper_modulus);
+  world.damping = off(paper_damping);
+  world.sensor_gain = off(paper_gain);
+  world.reference_gain = off(paper_gain);
+  world.drag = off(paper_drag);
+}
+
+}  // namespace
+
+void draw_calibrations(World& world, const Distance distance, std::mt19937_64& random) {
+  if (distance == Distance::as_built) take_as_built(world, random);
+  if (distance == Distance::as_paper) take_as_paper(world, random);
+}
+
+std::map<std::string, double> calibrations_of(const World& world) {
+  return {{"stiffness", world.solid.silicone_modulus},
+          {"damping", world.damping},
+          {"sensor_gain", world.sensor_gain},
+          {"reference_gain", world.reference_gain},
+          {"drag_error", world.drag}};
+}
+
+bool is_a_calibration(const std::string& id) {
+  // A further mass is stiffness, damping and gain; a compliant base is stiffness.
+  static const std::set<std::string> ids{"stiffness",      "base_compliance", "mass",      "damping",
+                                         "reference_gain", "sensor_gain",     "drag_error"};
+  return ids.count(id) != 0;
+}
+
+}  // namespace vibrissa::trial
