@@ -5,6 +5,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/command_line/results.h"
+#include "apps/jobs/nominal_input.h"
 #include "apps/jobs/trial_programs.h"
 #include "report/files/child_process.h"
 #include "report/files/run_folder.h"
@@ -16,6 +17,7 @@
 #include "trial/scoring/trial_page.h"
 #include "trial/scoring/trial_run.h"
 #include "trial/scoring/trial_score.h"
+#include "trial/scoring/trial_tables.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -30,7 +32,7 @@ struct TrialCommand {
   trial::TrialRunOptions run;
   std::optional<fs::path> key, out;
   std::size_t n_benches = 25;
-  bool as_built = false, finite_strain = false;
+  bool as_built = false, finite_strain = false, life = false;
   std::array<double, 4> asked{2., 9., 2., 1.};
 };
 
@@ -57,6 +59,7 @@ void make(TrialCommand options) {
                                  std::to_string(options.first), std::to_string(options.n_cases),
                                  options.folder.string()};
   if (options.finite_strain) words.push_back("finite-strain");
+  if (options.life) words.push_back("life");
   const report::ChildResult child = report::run_child(words, a_day_s, [&] {
     for (const std::size_t n = n_begun(options.folder); n_shown + 1 < n; ++n_shown)
       progress.advance();
@@ -73,8 +76,17 @@ void make(TrialCommand options) {
             << ".key.\nThe labels have the hash (SHA-256, salted): " << trial.commitment << "\n";
 }
 
+/// As "diagnose" takes it: --model for a case file, --sim for records.
+trial::TrialSimulation read_simulation(const fs::path& file) {
+  NominalInput input;
+  (file.extension() == ".prm" ? input.model : input.simulation) = file.string();
+  const NominalInput::Simulation simulation = input.read(false);
+  return {simulation.model, simulation.sampling_rate_hz()};
+}
+
 void run(const TrialCommand& options) {
   trial::TrialRunOptions settings = options.run;
+  settings.read_simulation = read_simulation;
   settings.show_progress = options.common.is_talkative();
   const trial::TrialRunSummary done = trial::run_trial(options.folder, settings);
   if (!done.is_first_rank) return;
@@ -93,9 +105,11 @@ void score(const TrialCommand& options) {
   const fs::path key = options.key.value_or(fs::path(options.folder.string() + ".key"));
   const trial::TrialScore score = trial::score_trial(trial, trial::open_labels(trial, key));
   if (options.common.json) return print_json(to_json(score));
-  std::cout << "The labels are decrypted; their hash is the one of " << trial.commitment << ".\n\n"
-            << trial::summary_table(score).to_text() << "\nWrong answers\n"
-            << trial::confusion_table(score).to_text();
+  std::cout
+      << "The labels are decrypted; their hash is the one of " << trial.commitment << ".\n\n"
+      << (score.classes.empty() ? trial::summary_table(score) : trial::class_table(score)).to_text()
+      << "\nWrong answers\n"
+      << trial::confusion_table(score).to_text();
   if (score.unanswered > 0)
     std::cout << score.unanswered << " cases have no answer yet: vibrissa trial run "
               << options.folder.string() << "\n";
@@ -104,6 +118,7 @@ void score(const TrialCommand& options) {
   folder.write_text("score.json", to_json(score).dump(1) + "\n");
   folder.write_text("cases.csv", trial::case_table(score).to_csv());
   folder.write_text("summary.csv", trial::summary_table(score).to_csv());
+  if (!score.classes.empty()) folder.write_text("classes.csv", trial::class_table(score).to_csv());
   folder.write_text("confusion.csv", trial::confusion_table(score).to_csv());
   for (const report::Figure& figure : trial::trial_figures(score))
     report::write_figure(folder.path(), figure);
@@ -138,11 +153,20 @@ void add_make(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   command->add_option("--seed", options->seed, "Seed of all random draws")->capture_default_str();
   command->add_option("-o,--out,--output", options->folder,
                       "New folder (default: results/trial, or results/trial-2, ... if it exists)");
-  command->add_flag("--finite-strain", options->finite_strain,
-                    "Simulates the whole solid at finite strain in place of its modes; the effects "
-                    "are drawn from a shorter list; a quarter of an hour for each sensor");
+  auto* finite_strain = command->add_flag(
+      "--finite-strain", options->finite_strain,
+      "Simulates the whole solid at finite strain in place of its modes; the effects "
+      "are drawn from a shorter list; a quarter of an hour for each sensor");
+  command
+      ->add_flag("--life", options->life,
+                 "Draws what people bring, too: reduced sets of records, sensors that are far "
+                 "from their simulation, simulations with a form error, a model in place of "
+                 "simulated records; not with --finite-strain")
+      ->excludes(finite_strain);
   add_common_options(*command, options->common);
-  command->footer("Example:\n  vibrissa trial make --cases 40 --seed 5 --out trial5");
+  command->footer(
+      "Examples:\n  vibrissa trial make --cases 40 --seed 5 --out trial5\n"
+      "  vibrissa trial make --life --cases 42 --seed 6 --out life6");
   command->callback([options] { make(*options); });
 }
 
@@ -159,10 +183,10 @@ void add_run(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) {
   command
       ->add_option(
           "--simulation-accuracy", options->run.simulation_accuracy,
-          "As for diagnose; 0.001 asks for effects that are smaller than the usual error of "
-          "a simulation, because that of a trial is exact")
-      ->check(CLI::Range(1e-4, 0.3))
-      ->capture_default_str();
+          "As for diagnose, for all sensors (default: 0.01, and 0.03 where a sensor of --life "
+          "states it); 0.001 asks for effects that are smaller than the usual error of a "
+          "simulation, because that of a trial of complete records is exact")
+      ->check(CLI::Range(1e-4, 0.3));
   command->add_flag("--further", options->run.further,
                     "Where several answers remain, adds the recommended experiment and, for "
                     "comparison, a random one");

@@ -47,8 +47,9 @@ std::map<std::string, double> calibrations_of(const World& world) {
 
 bool is_a_calibration(const std::string& id) {
   // A further mass is stiffness, damping and gain; a compliant base is stiffness.
-  static const std::set<std::string> ids{"stiffness",      "base_compliance", "mass",      "damping",
-                                         "reference_gain", "sensor_gain",     "drag_error"};
+  static const std::set<std::string> ids{"stiffness", "base_compliance", "mass",
+                                         "damping",   "reference_gain",  "sensor_gain",
+                                         "drag_error"};
   return ids.count(id) != 0;
 }
 

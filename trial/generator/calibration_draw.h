@@ -17,10 +17,10 @@ struct PaperDistance {
 inline constexpr PaperDistance paper_modulus{0.1, 0.45}, paper_damping{0.15, 0.55},
     paper_gain{0.05, 0.2, true}, paper_drag{0.1, 0.35, true};
 
-/// Draws modulus, damping, gains and drag of a sensor at that distance from its simulation. as_built:
-/// normal, cut at two standard deviations (built_modulus ... of world.h; the accelerometer is as
-/// simulated). as_paper: uniform in the ranges above; modulus and damping are lower than simulated.
-/// Proven by tests/trial/generator/calibration_draw_test.cc.
+/// Draws modulus, damping, gains and drag of a sensor at that distance from its simulation.
+/// as_built: normal, cut at two standard deviations (built_modulus ... of world.h; the
+/// accelerometer is as simulated). as_paper: uniform in the ranges above; modulus and damping are
+/// lower than simulated. Proven by tests/trial/generator/calibration_draw_test.cc.
 void draw_calibrations(World& world, Distance distance, std::mt19937_64& random);
 
 /// Ratio of the sensor to its simulation by the effect's id: stiffness (modulus), damping,

@@ -48,7 +48,7 @@ std::vector<EffectLadder> effect_ladders(const UnexplainedChange& change,
       for (const double size : ladder.sizes) {
         World world = change.plain();
         unknown.apply(world, size, shape);
-        const std::vector<std::complex<double>> lines = change.of(world);
+        const std::vector<std::complex<double>> lines = change.of(world, unknown.random);
         ladder.changes.emplace_back(lines.begin(), lines.end());
       }
       out.push_back(std::move(ladder));

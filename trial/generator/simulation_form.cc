@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "trial/generator/session.h"
 #include "trial/plant/plant.h"
@@ -32,7 +33,8 @@ Directions draw_directions(const Eigen::Index n, std::mt19937_64& random) {
 }
 
 Structure truncated(Structure s, const Eigen::Index n, const bool is_corrected) {
-  for (Eigen::VectorXd* of_modes : {&s.frequency_rad_s, &s.damping_ratio, &s.base, &s.tilt, &s.wind})
+  for (Eigen::VectorXd* of_modes :
+       {&s.frequency_rad_s, &s.damping_ratio, &s.base, &s.tilt, &s.wind})
     of_modes->conservativeResize(n);
   if (is_corrected) return s;
   s.first_moment_kg_m = s.tilt.dot(s.base);
@@ -45,19 +47,42 @@ Structure moved(Structure s, const Directions& along, const double amount) {
   const Eigen::Index n = s.frequency_rad_s.size();
   std::array<Eigen::VectorXd*, 4> of_modes{&s.base, &s.tilt, &s.wind, &s.damping_ratio};
   for (Eigen::Index k = 0; k < 4; ++k)
-    of_modes[static_cast<std::size_t>(k)]->array() *=
-        (amount * along.col(k).head(n)).array().exp();
+    of_modes[static_cast<std::size_t>(k)]->array() *= (amount * along.col(k).head(n)).array().exp();
   return s;
 }
 
-Structure draw_truncated(const Structure& sensor, const double error, std::mt19937_64& random) {
+using Response = std::vector<std::complex<double>>;
+
+/// From base acceleration to moment, over the band of the session.
+Response band_response(const Structure& structure) {
+  constexpr double line_hz = 0.5;
+  const Take band;
+  const StateSpace plant = make_plant(structure, {});
+  Response out;
+  for (double f = band.low_hz; f <= band.high_hz; f += line_hz)
+    out.push_back(
+        plant.response({0., 2. * std::numbers::pi * f})(output::moment, input::acceleration));
+  return out;
+}
+
+double difference(const Response& sensor, const Response& simulation) {
+  double difference = 0., power = 0.;
+  for (std::size_t i = 0; i < sensor.size(); ++i) {
+    difference += std::norm(simulation[i] - sensor[i]);
+    power += std::norm(sensor[i]);
+  }
+  return std::sqrt(difference / power);
+}
+
+Structure draw_truncated(const Structure& sensor, const Response& response, const double error,
+                         std::mt19937_64& random) {
   // Shares of the error beyond this leave too little to the shapes.
   constexpr double largest_share = 0.7;
   std::vector<Structure> possible{sensor};
   for (const Eigen::Index n : {1, 2, 3, 4})
     for (const bool is_corrected : {true, false})
       if (const Structure s = truncated(sensor, n, is_corrected);
-          form_error(sensor, s) < largest_share * error)
+          difference(response, band_response(s)) < largest_share * error)
         possible.push_back(s);
   return possible[random() % possible.size()];
 }
@@ -65,32 +90,21 @@ Structure draw_truncated(const Structure& sensor, const double error, std::mt199
 }  // namespace
 
 double form_error(const Structure& sensor, const Structure& simulation) {
-  constexpr double line_hz = 0.25;
-  const Take band;
-  const StateSpace a = make_plant(sensor, {}), b = make_plant(simulation, {});
-  double difference = 0., power = 0.;
-  for (double f = band.low_hz; f <= band.high_hz; f += line_hz) {
-    const std::complex<double> s(0., 2. * std::numbers::pi * f);
-    const auto gain = [&](const StateSpace& plant) {
-      return plant.response(s)(output::moment, input::acceleration);
-    };
-    difference += std::norm(gain(b) - gain(a));
-    power += std::norm(gain(a));
-  }
-  return std::sqrt(difference / power);
+  return difference(band_response(sensor), band_response(simulation));
 }
 
 SimulationForm draw_form(const Structure& sensor, const double error, const std::uint64_t seed) {
   if (error == 0.) return {.structure = sensor};
   std::mt19937_64 random(seed);
-  const Structure base = draw_truncated(sensor, error, random);
+  const Response response = band_response(sensor);
+  const Structure base = draw_truncated(sensor, response, error, random);
   const Directions along = draw_directions(base.frequency_rad_s.size(), random);
   constexpr std::array holds{Hold::band_limited, Hold::linear, Hold::zero_order};
-  constexpr int n_halvings = 40;
+  constexpr int n_halvings = 20;
   double low = 0., high = 0.2;
   for (int i = 0; i < n_halvings; ++i) {
     const double middle = 0.5 * (low + high);
-    (form_error(sensor, moved(base, along, middle)) < error ? low : high) = middle;
+    (difference(response, band_response(moved(base, along, middle))) < error ? low : high) = middle;
   }
   return {.structure = moved(base, along, low), .hold = holds[random() % holds.size()]};
 }

@@ -22,8 +22,8 @@ double form_error(const Structure& sensor, const Structure& simulation);
 /// A form with that error: fewer modes, with or without their static correction; then the
 /// participation of all modes and the damping of the higher modes are off in random directions, by
 /// the amount that makes up the error. The hold is drawn, too; it does not count into the error,
-/// because it acts between the samples and not on the sensor. 0: the structure itself, band-limited.
-/// Proven by tests/trial/generator/simulation_form_test.cc.
+/// because it acts between the samples and not on the sensor. 0: the structure itself,
+/// band-limited. Proven by tests/trial/generator/simulation_form_test.cc.
 SimulationForm draw_form(const Structure& sensor, double error, std::uint64_t seed);
 
 nlohmann::json to_json(const SimulationForm& form);

@@ -60,6 +60,10 @@ UnexplainedChange::UnexplainedChange(const World& plain, const Session& session)
   std::erase_if(bare_.takes, [](const Take& take) { return take.split != signals::Split::fit; });
   const Structure& structure = structure_of(plain.solid);
   records_ = record_session(structure, plain, bare_);
+  still_ = bare_;
+  if (!session.has_wind_channel)
+    for (Take& take : still_.takes) take.wind_mean = 0.;
+  still_records_ = session.has_wind_channel ? records_ : record_session(structure, plain, still_);
   const StateSpace plant = make_plant(structure, plain);
   for (const signals::DatasetRecord& entry : records_.records) {
     const std::size_t n_samples = entry.record.n_samples();
@@ -71,27 +75,37 @@ UnexplainedChange::UnexplainedChange(const World& plain, const Session& session)
       lengths_.push_back(n);
     }
   }
-  if (!session.has_wind_channel) unseen_wind_ = wind_power();
+  if (!session.has_wind_channel) unseen_wind_ = wind_power(plain);
 }
 
-std::vector<double> UnexplainedChange::wind_power() const {
+std::vector<double> UnexplainedChange::wind_power(const World& world) const {
   Session at_rest = bare_;
   for (Take& take : at_rest.takes) take.base_rms = 0.;
   std::vector<double> out;
   for (const signals::DatasetRecord& entry :
-       record_session(structure_of(plain_.solid), plain_, at_rest).records) {
+       record_session(structure_of(world.solid), world, at_rest).records) {
     const std::vector<double> lines = smoothed(power_of(entry.record));
     out.insert(out.end(), lines.begin(), lines.end());
   }
   return out;
 }
 
-std::vector<std::complex<double>> UnexplainedChange::of(const World& world) const {
-  const signals::Dataset with = record_session(structure_of(world.solid), world, bare_);
+std::vector<double> UnexplainedChange::of_wind_power(const World& world) const {
+  if (unseen_wind_.empty()) return {};
+  std::vector<double> out = wind_power(world);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] -= unseen_wind_[i];
+  return out;
+}
+
+std::vector<std::complex<double>> UnexplainedChange::of(const World& world,
+                                                        const bool random) const {
+  const signals::Dataset& plain = random ? records_ : still_records_;
+  const signals::Dataset with =
+      record_session(structure_of(world.solid), world, random ? bare_ : still_);
   std::vector<std::complex<double>> out;
   out.reserve(gains_.size());
-  for (std::size_t r = 0; r < records_.records.size(); ++r) {
-    const signals::Record &a = records_.records[r].record, &b = with.records[r].record;
+  for (std::size_t r = 0; r < plain.records.size(); ++r) {
+    const signals::Record &a = plain.records[r].record, &b = with.records[r].record;
     const auto moment = change_of(a, b, signals::channel::base_moment);
     const auto motion = change_of(a, b, signals::channel::base_acceleration);
     for (std::size_t k = 1; k < a.n_samples() / 2; ++k)

@@ -3,16 +3,20 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace vibrissa::trial {
 
-/// One sensor of a trial: caseNNNNN/real holds its records, further/EXPERIMENT those of further
-/// experiments, answer.json the diagnosis.
+/// One sensor of a trial: caseNNNNN/further/EXPERIMENT holds the records of further experiments,
+/// answer.json the diagnosis.
 struct TrialEntry {
   std::string name;
-  std::vector<std::string> left_out;  // effects that are removed from the catalogue
+  std::vector<std::string> left_out;               // effects that are removed from the catalogue
+  std::filesystem::path real{}, simulation{};      // records; records or a case file (.prm)
+  std::optional<double> simulation_accuracy{};     // as its maker states it
+  std::vector<std::string> further_experiments{};  // that its bench can do
 };
 
 /// trial.json: the information that is public before the labels are opened.
@@ -20,7 +24,7 @@ struct TrialIndex {
   std::filesystem::path folder;
   std::uint64_t seed = 0;
   std::vector<TrialEntry> cases;
-  std::vector<std::string> further_experiments;
+  std::vector<std::string> further_experiments;  // of all cases together
   std::string commitment, sealed_labels;
 
   std::filesystem::path answer_file(const TrialEntry& entry) const {
@@ -28,7 +32,9 @@ struct TrialIndex {
   }
 };
 
-/// Throws UserError with the file and the entry that is missing or of the wrong kind.
+/// Reads schema "vibrissa-trial-1" (complete records, one simulation for all) and
+/// "vibrissa-trial-2" (each case with its own circumstances). Throws UserError with the file and
+/// the entry that is missing or of the wrong kind, and for every other schema.
 TrialIndex read_trial(const std::filesystem::path& folder);
 
 /// The labels by name of case. Throws UserError when the key is missing, or when the labels do not

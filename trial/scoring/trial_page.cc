@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/model/words.h"
+#include "trial/scoring/trial_tables.h"
 
 namespace vibrissa::trial {
 namespace {
@@ -49,6 +50,13 @@ report::Page trial_page(const TrialScore& score, const std::string& commitment) 
        .tables = {{"confusion", "True cause and verdict of the wrong answers",
                    confusion_table(score)}}},
       {.heading = "Cases", .tables = {{"cases", "All cases", case_table(score), true}}}};
+  if (!score.classes.empty())
+    page.sections.insert(page.sections.begin() + 1,
+                         {.heading = "Scores by circumstances",
+                          .text = {"What each sensor came with: its set of records, its distance "
+                                   "from the simulation, the simulation's form error, and the way "
+                                   "in which the simulation was given."},
+                          .tables = {{"classes", "Scores by circumstances", class_table(score)}}});
   return page;
 }
 

@@ -1,10 +1,10 @@
 #include "trial/scoring/trial_run.h"
 
 #include <exception>
+#include <map>
 #include <random>
 
 #include "diagnosis/diagnosis_json.h"
-#include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/search/confidence_set.h"
 #include "fem/linalg/solver_session.h"
 #include "signals/base/error.h"
@@ -25,12 +25,12 @@ using nlohmann::json;
 
 /// The diagnosis with the records of a further experiment added.
 json answer_after(const std::string& experiment, const fs::path& folder, signals::Dataset real,
-                  const diagnosis::NominalModel& nominal,
+                  const diagnosis::UpdatedModel& simulation,
                   const diagnosis::DiagnoseOptions& settings) {
   for (signals::DatasetRecord& entry :
        signals::read_dataset(folder / "further" / experiment).records)
     real.records.push_back(std::move(entry));
-  const diagnosis::Diagnosis said = diagnosis::diagnose(nominal, real, settings);
+  const diagnosis::Diagnosis said = diagnosis::diagnose(simulation, real, settings);
   return {{"experiment", experiment},
           {"verdict", said.verdict},
           {"probability", said.ranking.front().probability},
@@ -49,29 +49,51 @@ std::string by_chance(std::vector<std::string> experiments, const std::string& r
 
 /// The diagnoses after the recommended experiment and after a random other one.
 json answers_after(const TrialIndex& trial, const TrialEntry& entry, const signals::Dataset& real,
-                   const diagnosis::NominalModel& nominal,
+                   const diagnosis::UpdatedModel& simulation,
                    const diagnosis::DiagnoseOptions& settings, const std::string& recommended) {
   const auto after = [&](const std::string& experiment) -> json {
     try {
-      return answer_after(experiment, trial.folder / entry.name, real, nominal, settings);
+      return answer_after(experiment, trial.folder / entry.name, real, simulation, settings);
     } catch (const std::exception& error) {
       return {{"experiment", experiment}, {"message", error.what()}};
     }
   };
   json out{{"recommended", after(recommended)}};
-  const std::string other = by_chance(trial.further_experiments, recommended, entry.name);
+  const std::string other = by_chance(entry.further_experiments, recommended, entry.name);
   if (!other.empty()) out["by_chance"] = after(other);
   return out;
 }
 
-json answer(const TrialIndex& trial, const TrialEntry& entry,
-            const diagnosis::NominalModel& nominal, const TrialRunOptions& options) {
+/// Simulations that several cases share are read once.
+class Simulations {
+ public:
+  explicit Simulations(const TrialRunOptions& options) : options_(options) {}
+  const TrialSimulation& of(const TrialEntry& entry) {
+    const auto there = read_.find(entry.simulation);
+    if (there != read_.end()) return there->second;
+    return read_.emplace(entry.simulation, options_.read_simulation(entry.simulation))
+        .first->second;
+  }
+
+ private:
+  const TrialRunOptions& options_;
+  std::map<fs::path, TrialSimulation> read_;
+};
+
+diagnosis::DiagnoseOptions settings_of(const TrialEntry& entry, const TrialRunOptions& options) {
   diagnosis::DiagnoseOptions settings;
   settings.search = {.max_effects = options.max_effects,
                      .n_threads = options.n_threads,
                      .left_out = entry.left_out};
-  settings.simulation_accuracy = options.simulation_accuracy;
-  settings.possible_experiments = trial.further_experiments;
+  settings.simulation_accuracy = options.simulation_accuracy.value_or(
+      entry.simulation_accuracy.value_or(diagnosis::usual_simulation_accuracy));
+  settings.possible_experiments = entry.further_experiments;
+  return settings;
+}
+
+json answer(const TrialIndex& trial, const TrialEntry& entry, Simulations& simulations,
+            const TrialRunOptions& options) {
+  diagnosis::DiagnoseOptions settings = settings_of(entry, options);
   json out{{"schema", "vibrissa-trial-answer-1"}};
   const auto failed = [&](int status, const std::string& message) {
     out["exit_status"] = status;
@@ -80,14 +102,15 @@ json answer(const TrialIndex& trial, const TrialEntry& entry,
   };
   signals::Stopwatch watch;
   try {
-    const fs::path folder = trial.folder / entry.name;
-    const auto real = signals::read_dataset(folder / "real");
-    const diagnosis::Diagnosis said = diagnosis::diagnose(nominal, real, settings);
+    const auto real = signals::read_dataset(entry.real);
+    const TrialSimulation& simulation = simulations.of(entry);
+    settings.simulated_rate_hz = simulation.sampling_rate_hz;
+    const diagnosis::Diagnosis said = diagnosis::diagnose(simulation.model, real, settings);
     out["diagnosis"] = json::parse(diagnosis::diagnosis_json(said));
     out["exit_status"] = 0;
     out["seconds"] = watch.elapsed_s();
     if (options.further && diagnosis::n_known(said.confidence_set) > 1 && said.next.name != "none")
-      out.update(answers_after(trial, entry, real, nominal, settings, said.next.name));
+      out.update(answers_after(trial, entry, real, simulation.model, settings, said.next.name));
   } catch (const diagnosis::TooLittleData& error) {
     return failed(exit_status::too_little_data, error.what());
   } catch (const signals::UserError& error) {
@@ -109,8 +132,7 @@ TrialRunSummary run_trial(const fs::path& folder, const TrialRunOptions& options
     throw signals::UserError(folder.string() +
                              ": the trial contains no further experiments (finite-strain trials "
                              "have none); run it without --further");
-  const diagnosis::NominalModel nominal =
-      diagnosis::identify_nominal(signals::read_dataset(folder / "sim"));
+  Simulations simulations(options);
   std::vector<const TrialEntry*> open;
   for (const TrialEntry& entry : trial.cases)
     if (!fs::exists(trial.answer_file(entry))) open.push_back(&entry);
@@ -122,7 +144,7 @@ TrialRunSummary run_trial(const fs::path& folder, const TrialRunOptions& options
   std::exception_ptr failure;
   try {
     for (std::size_t i = queue.next(); i < open.size(); i = queue.next()) {
-      const json said = answer(trial, *open[i], nominal, options);
+      const json said = answer(trial, *open[i], simulations, options);
       signals::write_file(trial.answer_file(*open[i]),
                           [&](std::ostream& out) { out << said.dump(1) << "\n"; });
       const int status = said["exit_status"];
