@@ -132,6 +132,7 @@ void observe(const TrialCommand& options) {
                                  std::to_string(options.seed), "--asked"};
   for (const double share : options.asked) words.push_back(signals::to_text(share));
   if (options.as_built) words.push_back("--as-built");
+  if (options.life) words.push_back("--life");
   if (options.run.further) words.push_back("--further");
   if (options.common.json) words.push_back("--json");
   if (options.common.quiet) words.push_back("--quiet");
@@ -223,10 +224,17 @@ void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) 
   auto* as_built = command->add_flag(
       "--as-built", options->as_built,
       "Every sensor deviates by a few percent in modulus, damping, gain and drag");
+  auto* further = command->add_flag(
+      "--further", options->run.further,
+      "Where several answers remain, adds each further experiment; not with --as-built");
+  further->excludes(as_built);
   command
-      ->add_flag("--further", options->run.further,
-                 "Where several answers remain, adds each further experiment; not with --as-built")
-      ->excludes(as_built);
+      ->add_flag("--life", options->life,
+                 "Bounds for 'trial make --life', for each set of records and each distance (21 "
+                 "benches have all pairs of both); not with the other two. A form error of the "
+                 "simulation is not bounded: the observer knows the sensor as designed")
+      ->excludes(as_built)
+      ->excludes(further);
   command
       ->add_option("--asked", options->asked,
                    "Relative frequencies of sensors with 0, 1, 2 and 3 true effects")

@@ -3,13 +3,16 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "report/files/child_process.h"
 #include "signals/base/exit_status.h"
 #include "tests/apps/program.h"
 #include "trial/scoring/trial_score.h"
 #include "trial/scoring/trial_statistics.h"
+#include "trial/scoring/trial_tables.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -62,12 +65,19 @@ TEST(TrialStatistics, CalibrationErrorIsTheWeightedDistance) {
   EXPECT_NEAR(trial::expected_calibration_error(bins), 0.5 * 0.35 + 0.5 * 0.05, 1e-12);
 }
 
+using Pair = std::pair<std::size_t, std::size_t>;
+
 /// A trial of which only names, labels and answers exist.
 class WrittenTrial : public testing::Test {
  protected:
-  void add(const std::string& kind, const json& effects, const json& answer) {
+  void add(const std::string& kind, const json& effects, const json& answer,
+           const std::optional<trial::Circumstances>& circumstances = {}) {
     const std::string name = "case" + std::to_string(labels_.size());
     labels_[name] = {{"class", kind}, {"effects", effects}, {"seed", 1}};
+    if (circumstances) {
+      labels_[name]["circumstances"] = to_json(*circumstances);
+      labels_[name]["calibrations"] = {{"damping", 0.6}, {"stiffness", 0.7}};
+    }
     fs::create_directories(folder_.file(name));
     std::ofstream(folder_.file(name + "/answer.json")) << answer.dump();
     trial_.folder = folder_.file("");
@@ -111,7 +121,6 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
     const trial::Share& found = score.shares.at(name);
     return std::pair(found.hits, found.of);
   };
-  using Pair = std::pair<std::size_t, std::size_t>;
   EXPECT_EQ(share("single at 3 limits, right"), Pair(1, 2));
   EXPECT_EQ(share("single of all sizes, right"), Pair(1, 3));
   EXPECT_EQ(share("none, false alarm"), Pair(0, 1));
@@ -125,6 +134,64 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
   EXPECT_EQ(share("wrong name above 0.8"), Pair(1, 5));
   // The one detected delay has an error of 0.1 ms and a stated standard deviation of 0.1 ms.
   EXPECT_NEAR(score.figures.at("parameter error over its deviation, median"), 1., 1e-6);
+}
+
+Pair hits_and_number(const trial::Scores& scores, const std::string& name) {
+  const trial::Share& found = scores.shares.at(name);
+  return {found.hits, found.of};
+}
+
+TEST_F(WrittenTrial, SplitsEveryScoreByCircumstances) {
+  const json delay = {{{"id", "delay"}, {"size", 1e-3}, {"limit", 1e-4}}};
+  using trial::Distance, trial::FormError, trial::RecordSet;
+  add("single", delay, answer("delay", 0.9), trial::Circumstances{.set = RecordSet::base_only});
+  add("single", delay, answer("hum", 0.9), trial::Circumstances{.set = RecordSet::base_only});
+  add("single", delay, answer("delay", 0.9),
+      trial::Circumstances{.form_error = FormError::three_percent});
+  const trial::TrialScore score = trial::score_trial(trial_, labels_);
+  const std::map<std::string, trial::Scores> classes(score.classes.begin(), score.classes.end());
+  const std::string right = "single at 3 limits, right";
+  EXPECT_EQ(hits_and_number({score.shares, {}}, right), Pair(2, 3));
+  EXPECT_EQ(hits_and_number(classes.at("set: base_only"), right), Pair(1, 2));
+  EXPECT_EQ(hits_and_number(classes.at("set: complete"), right), Pair(1, 1));
+  EXPECT_EQ(hits_and_number(classes.at("distance: exact"), right), Pair(2, 3));
+  EXPECT_EQ(hits_and_number(classes.at("form error: 0 %"), right), Pair(1, 2));
+  EXPECT_EQ(hits_and_number(classes.at("form error: 3 %"), right), Pair(1, 1));
+  EXPECT_EQ(hits_and_number(classes.at("way in: records"), right), Pair(2, 3));
+  EXPECT_EQ(classes.count("set: no_rest"), 0u) << "no such case";
+  const std::string table = trial::class_table(score).to_csv();
+  EXPECT_THAT(table, HasSubstr("\"" + right + "\",set: base_only,0.5,"));
+  EXPECT_THAT(table, HasSubstr("expected calibration error,set: base_only,"));
+}
+
+TEST_F(WrittenTrial, LeavesCalibrationsOutOnSensorsAtADistance) {
+  const json delay = {{{"id", "delay"}, {"size", 1e-3}, {"limit", 1e-4}}};
+  const trial::Circumstances far{.distance = trial::Distance::as_paper};
+  json off = answer("damping+delay+stiffness", 0.9);
+  off["diagnosis"]["ranking"][0]["parameters"] = {
+      {{"effect", "damping"}, {"name", "ratio"}, {"value", 0.62}, {"ci95", {0.55, 0.7}}},
+      {{"effect", "stiffness"}, {"name", "ratio"}, {"value", 0.5}, {"ci95", {0.4, 0.6}}}};
+  add("single", delay, off, far);
+  add("single", delay, answer("damping+delay", 0.9), trial::Circumstances{});
+  add("none", json::array(), answer("damping+stiffness", 0.9), far);
+  add("none", json::array(), answer("damping+hum", 0.9), far);
+  const trial::TrialScore score = trial::score_trial(trial_, labels_);
+  const std::map<std::string, trial::Scores> classes(score.classes.begin(), score.classes.end());
+  EXPECT_EQ(hits_and_number(classes.at("distance: as_paper"), "single of all sizes, right"),
+            Pair(1, 1));
+  EXPECT_EQ(hits_and_number(classes.at("distance: exact"), "single of all sizes, right"),
+            Pair(0, 1))
+      << "an exact sensor has no wrong calibration";
+  EXPECT_EQ(hits_and_number(classes.at("distance: as_paper"), "none, false alarm"), Pair(1, 2));
+  // The modal stiffness ratio is not the true ratio of the modulus.
+  EXPECT_EQ(hits_and_number(classes.at("distance: as_paper"),
+                            "calibrations, true value in the 95 % interval"),
+            Pair(1, 1));
+}
+
+TEST_F(WrittenTrial, OfCompleteRecordsHasNoClasses) {
+  add("none", json::array(), answer("none", 0.9));
+  EXPECT_TRUE(trial::score_trial(trial_, labels_).classes.empty());
 }
 
 TEST_F(WrittenTrial, JudgesTheOpenSetByTheOddsOfNoKnownEffect) {
@@ -279,6 +346,91 @@ TEST(LongTrial, OfTenSensorsIsMadeRunAndScored) {
   const auto again = vibrissa("trial run --json --max-effects 2 '" + trial + "'");
   EXPECT_EQ(json::parse(again.output)["there_before"], 10);
   EXPECT_EQ(json::parse(again.output)["answered"], 0);
+}
+
+/// Seven sensors with what people bring: each set of records once.
+TEST(LongTrial, OfLifeIsMadeRunAndScored) {
+  const Folder folder;
+  const std::string trial = folder.file("life");
+  ASSERT_EQ(vibrissa("trial make --life --quiet --cases 7 --seed 11 --out " + quoted(trial)).status,
+            0);
+  const std::string index = content(trial + "/trial.json");
+  for (const char* secret : {"\"distance\"", "\"form_error\"", "\"calibrations\"", "as_paper"})
+    EXPECT_EQ(index.find(secret), std::string::npos) << secret;
+  const auto run = vibrissa("trial run --json --max-effects 1 " + quoted(trial));
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(json::parse(run.output)["failed"], 0);
+  const auto scored = vibrissa("trial score --json " + quoted(trial));
+  ASSERT_EQ(scored.status, 0) << scored.errors;
+  const json classes = json::parse(scored.output)["classes"];
+  for (const trial::RecordSet set : trial::record_sets())
+    EXPECT_TRUE(classes.contains("set: " + to_string(set))) << to_string(set);
+  for (const trial::FormError error : trial::form_errors())
+    EXPECT_TRUE(classes.contains("form error: " + to_string(error))) << to_string(error);
+}
+
+TEST(Trial, OfTheSameSeedIsTheSame) {
+  const Folder folder;
+  for (const char* name : {"one", "two"})
+    ASSERT_EQ(
+        vibrissa("trial make --life --quiet --cases 2 --seed 12 --out " + quoted(folder.file(name)))
+            .status,
+        0);
+  for (const auto& entry : fs::recursive_directory_iterator(folder.file("one"))) {
+    if (entry.path().extension() != ".csv") continue;
+    const fs::path other =
+        fs::path(folder.file("two")) / fs::relative(entry.path(), folder.file("one"));
+    EXPECT_EQ(content(entry.path().string()), content(other.string())) << entry.path();
+  }
+}
+
+/// Index of a trial with this schema and one case.
+json index_of(const std::string& schema, const json& entry) {
+  return {{"schema", schema},
+          {"seed", 1},
+          {"cases", {entry}},
+          {"further_experiments", {"wide_band"}},
+          {"labels_commitment_sha256", ""},
+          {"labels_sealed", ""}};
+}
+
+TEST(TrialFiles, OfVersion1HaveOneSimulationForAll) {
+  const Folder folder;
+  const fs::path here = folder.file("");
+  folder.write("trial.json",
+               index_of("vibrissa-trial-1", {{"name", "case00000"}, {"left_out", {"hum"}}}).dump());
+  const trial::TrialEntry entry = trial::read_trial(here).cases.front();
+  EXPECT_EQ(entry.real, here / "case00000/real");
+  EXPECT_EQ(entry.simulation, here / "sim");
+  EXPECT_FALSE(entry.simulation_accuracy);
+  EXPECT_EQ(entry.further_experiments, std::vector<std::string>{"wide_band"});
+}
+
+TEST(TrialFiles, OfVersion2HaveTheirOwn) {
+  const Folder folder;
+  const fs::path here = folder.file("");
+  folder.write("trial.json", index_of("vibrissa-trial-2", {{"name", "case00000"},
+                                                           {"left_out", json::array()},
+                                                           {"set", "two_files"},
+                                                           {"real", "case00000/real.csv"},
+                                                           {"simulation", "case00000/sim.csv"},
+                                                           {"simulation_accuracy", 0.03},
+                                                           {"further_experiments", json::array()}})
+                                 .dump());
+  const trial::TrialEntry entry = trial::read_trial(here).cases.front();
+  EXPECT_EQ(entry.real, here / "case00000/real.csv");
+  EXPECT_EQ(entry.simulation, here / "case00000/sim.csv");
+  EXPECT_EQ(entry.simulation_accuracy, 0.03);
+  EXPECT_TRUE(entry.further_experiments.empty());
+}
+
+TEST(TrialFiles, OfAnotherVersionAreRefused) {
+  const Folder folder;
+  folder.write("trial.json", index_of("vibrissa-trial-3", {}).dump());
+  const auto run = vibrissa("trial run " + quoted(folder.file("")));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.errors, HasSubstr("vibrissa-trial-3"));
+  EXPECT_THAT(run.errors, HasSubstr("trial make"));
 }
 
 TEST(Trial, RanksShareOneQueue) {

@@ -1,6 +1,7 @@
 #include "trial/generator/calibration_draw.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace vibrissa::trial {
@@ -43,6 +44,25 @@ std::map<std::string, double> calibrations_of(const World& world) {
           {"sensor_gain", world.sensor_gain},
           {"reference_gain", world.reference_gain},
           {"drag_error", world.drag}};
+}
+
+std::map<std::string, double> calibration_deviations(const Distance distance) {
+  if (distance == Distance::exact) return {};
+  if (distance == Distance::as_built)
+    return {{"stiffness", built_modulus},
+            {"damping", built_damping},
+            {"sensor_gain", built_gain},
+            {"drag_error", built_drag}};
+  const auto deviation = [](const PaperDistance& range) {
+    const double width = range.high - range.low, middle = 0.5 * (range.low + range.high);
+    const double variance = width * width / 12.;
+    return std::sqrt(range.either_sign ? middle * middle + variance : variance);
+  };
+  return {{"stiffness", deviation(paper_modulus)},
+          {"damping", deviation(paper_damping)},
+          {"sensor_gain", deviation(paper_gain)},
+          {"reference_gain", deviation(paper_gain)},
+          {"drag_error", deviation(paper_drag)}};
 }
 
 bool is_a_calibration(const std::string& id) {

@@ -50,6 +50,9 @@ std::vector<EffectLadder> effect_ladders(const UnexplainedChange& change,
         unknown.apply(world, size, shape);
         const std::vector<std::complex<double>> lines = change.of(world, unknown.random);
         ladder.changes.emplace_back(lines.begin(), lines.end());
+        const std::vector<double> power =
+            unknown.random ? std::vector<double>{} : change.of_wind_power(world);
+        if (!power.empty()) ladder.wind_power.emplace_back(power.begin(), power.end());
       }
       out.push_back(std::move(ladder));
     }

@@ -14,6 +14,9 @@ struct EffectLadder {
   const Unknown* unknown = nullptr;
   std::vector<double> sizes;
   std::vector<std::vector<std::complex<float>>> changes;  // unexplained [size][line]
+  /// Change of the power of an unmeasured wind [size][line]; empty where the wind is measured, and
+  /// for random effects, whose changes contain it.
+  std::vector<std::vector<float>> wind_power{};
 };
 
 /// Ladders of all named effects, some with several shapes. on_unknown: called after each effect.

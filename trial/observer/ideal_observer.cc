@@ -7,10 +7,13 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <string>
 
+#include "trial/generator/calibration_draw.h"
 #include "trial/generator/detection_limit.h"
 #include "trial/observer/box_integral.h"
 
@@ -27,7 +30,8 @@ constexpr double widest_step = 2., held = 0.95;
 /// line for changes of variances. The squared norm of a signature is the non-centrality of the
 /// likelihood-ratio test that knows the form.
 Eigen::VectorXd whitened(const std::vector<std::complex<float>>& change,
-                         const std::vector<double>& noise, const bool random) {
+                         const std::vector<float>& wind_power, const std::vector<double>& noise,
+                         const bool random) {
   const auto n = static_cast<Eigen::Index>(change.size());
   Eigen::VectorXd out = Eigen::VectorXd::Zero(3 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -39,6 +43,8 @@ Eigen::VectorXd whitened(const std::vector<std::complex<float>>& change,
       out[i] = std::numbers::sqrt2 * x.real() / std::sqrt(variance);
       out[n + i] = std::numbers::sqrt2 * x.imag() / std::sqrt(variance);
     }
+    if (!wind_power.empty())
+      out[2 * n + i] += wind_power[static_cast<std::size_t>(i)] / variance / std::numbers::sqrt2;
   }
   return out;
 }
@@ -81,8 +87,10 @@ struct LadderOnBench {
 
 LadderOnBench on_bench(const EffectLadder& ladder, const std::vector<double>& noise) {
   LadderOnBench out{.ladder = &ladder, .signatures = {}};
-  for (const auto& change : ladder.changes)
-    out.signatures.push_back(whitened(change, noise, ladder.unknown->random));
+  for (std::size_t i = 0; i < ladder.changes.size(); ++i)
+    out.signatures.push_back(whitened(
+        ladder.changes[i], ladder.wind_power.empty() ? std::vector<float>{} : ladder.wind_power[i],
+        noise, ladder.unknown->random));
   return out;
 }
 
@@ -157,7 +165,8 @@ IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
                              std::vector<std::size_t> block_ends)
     : bench_(bench), block_ends_(std::move(block_ends)) {
   if (block_ends_.empty()) block_ends_ = {noise.size()};
-  assert(!(bench.as_built && block_ends_.size() > 1));
+  const bool is_exact = bench.distance == Distance::exact;
+  assert(is_exact || block_ends_.size() == 1);
   for (const EffectLadder& ladder : ladders) add_ladder(ladder, noise);
   assert(!signatures_.empty() && "no ladder reaches its detection limit");
   spread_priors();
@@ -173,7 +182,7 @@ IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
       const auto lines = all.middleRows(part + begin, end - begin);
       inner.noalias() += lines.transpose() * lines;
     }
-    if (bench.as_built) allow_for_building(ladders, noise);
+    if (!is_exact) allow_for_distance(ladders, noise);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(inner);
     noise_root_.push_back(parts.eigenvectors() *
                           parts.eigenvalues().cwiseMax(0.).cwiseSqrt().asDiagonal());
@@ -183,6 +192,7 @@ IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
 }
 
 void IdealObserver::add_ladder(const EffectLadder& ladder, const std::vector<double>& noise) {
+  if (!bench_.asks_calibrations && is_a_calibration(ladder.unknown->id)) return;
   const LadderOnBench here = on_bench(ladder, noise);
   const std::optional<double> limit = here.limit(bench_, block_ends_.front());
   if (!limit) return;
@@ -226,27 +236,28 @@ void IdealObserver::spread_priors() {
   }
 }
 
-/// A normally distributed building tolerance widens the noise along its signature: inner products
-/// use (1 + N N^T)^-1.
-void IdealObserver::allow_for_building(const std::vector<EffectLadder>& ladders,
+/// A normally distributed deviation widens the noise along its signature: inner products use
+/// (1 + N N^T)^-1.
+void IdealObserver::allow_for_distance(const std::vector<EffectLadder>& ladders,
                                        const std::vector<double>& noise) {
-  const std::array<std::pair<const char*, double>, 4> off{{{"stiffness", built_modulus},
-                                                           {"damping", built_damping},
-                                                           {"sensor_gain", built_gain},
-                                                           {"drag_error", built_drag}}};
+  const std::map<std::string, double> off = calibration_deviations(bench_.distance);
   const auto n = static_cast<Eigen::Index>(signatures_.size());
-  Eigen::MatrixXd spread(signatures_.front().size(), 4), across(n, 4);
-  for (Eigen::Index i = 0; i < 4; ++i) {
-    const auto& [id, deviation] = off[static_cast<std::size_t>(i)];
-    const auto ladder = std::find_if(ladders.begin(), ladders.end(),
-                                     [&](const EffectLadder& l) { return l.unknown->id == id; });
+  const auto m = static_cast<Eigen::Index>(off.size());
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(signatures_.front().size(), m), across(n, m);
+  Eigen::Index i = -1;
+  for (const auto& calibration : off) {
+    const double deviation = calibration.second;
+    const auto ladder = std::find_if(ladders.begin(), ladders.end(), [&](const EffectLadder& l) {
+      return l.unknown->id == calibration.first;
+    });
+    ++i;
     // Small enough for a linear response.
     const double size = 0.2 * deviation;
     spread.col(i) = on_bench(*ladder, noise).at(size) * (deviation / size);
     for (Eigen::Index k = 0; k < n; ++k)
       across(k, i) = signatures_[static_cast<std::size_t>(k)].dot(spread.col(i));
   }
-  const Eigen::MatrixXd within = Eigen::MatrixXd::Identity(4, 4) + spread.transpose() * spread;
+  const Eigen::MatrixXd within = Eigen::MatrixXd::Identity(m, m) + spread.transpose() * spread;
   inner_.front() -= across * within.llt().solve(across.transpose());
 }
 

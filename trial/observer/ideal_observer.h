@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "trial/classes/circumstances.h"
 #include "trial/generator/effect_ladder.h"
 #include "trial/observer/box_integral.h"
 
@@ -14,10 +15,12 @@ namespace vibrissa::trial {
 
 struct ObservedBench {
   double acceleration_noise = 0.;  // m/s^2
-  /// Every sensor deviates by building tolerances in modulus, damping, gain and drag, and the
-  /// observer includes them; otherwise everything except the true effects is as simulated, and the
-  /// observer knows it.
-  bool as_built = false;
+  /// At another distance than exact every sensor deviates in modulus, damping, gains and drag, and
+  /// the observer knows how far such sensors are off, and how the response changes in proportion;
+  /// otherwise everything except the true effects is as simulated, and the observer knows it.
+  Distance distance = Distance::exact;
+  /// Are effects asked that unknown calibrations imitate (is_a_calibration())?
+  bool asks_calibrations = true;
   /// Relative frequencies of 0, 1, 2, 3 true effects, which the observer knows.
   std::array<double, 4> asked{2., 9., 2., 1.};
 };
@@ -51,7 +54,7 @@ class IdealObserver {
 
   /// noise: of each line of the ladders, from UnexplainedChange::noise. block_ends: end indices of
   /// the lines of the usual session, which determine the detection limits, and of each further
-  /// experiment (not possible with as_built); empty: all lines belong to the usual session.
+  /// experiment (at distance exact alone); empty: all lines belong to the usual session.
   IdealObserver(const std::vector<EffectLadder>& ladders, const std::vector<double>& noise,
                 const ObservedBench& bench, std::vector<std::size_t> block_ends = {});
 
@@ -82,7 +85,7 @@ class IdealObserver {
 
   void add_ladder(const EffectLadder& ladder, const std::vector<double>& noise);
   void spread_priors();
-  void allow_for_building(const std::vector<EffectLadder>& ladders,
+  void allow_for_distance(const std::vector<EffectLadder>& ladders,
                           const std::vector<double>& noise);
   View view_of(const Eigen::MatrixXd& inner) const;
   template <std::size_t n>

@@ -1,6 +1,7 @@
 // Upper bound on the accuracy of a diagnosis: the ideal Bayesian observer on sensors like those of
 // a trial.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -11,6 +12,8 @@
 #include "fem/linalg/solver_session.h"
 #include "signals/system/kept_memory.h"
 #include "signals/system/progress.h"
+#include "trial/generator/circumstance_draw.h"
+#include "trial/generator/record_set.h"
 #include "trial/generator/trial_case.h"
 #include "trial/observer/ideal_observer.h"
 
@@ -67,13 +70,14 @@ struct FurtherTally {
 struct Options {
   std::size_t n_benches = 25;
   std::uint64_t seed = 1;
-  bool as_built = false, further = false, json = false, quiet = false;
+  bool as_built = false, life = false, further = false, json = false, quiet = false;
   std::array<double, 4> asked = trial::ObservedBench{}.asked;
   bool is_talkative() const { return !json && !quiet; }
 };
 
 struct Result {
   Tallies tallies{};
+  std::map<std::string, Tallies> classes{};  // of the circumstances of life
   FurtherTally further{};
 };
 
@@ -103,57 +107,103 @@ Takes takes_of(const Options& options) {
 }
 
 void ask(const IdealObserver& observer, const Options& options, const Takes& takes,
-         std::mt19937_64& random, Result& result) {
+         const std::vector<Tallies*>& tallies, std::mt19937_64& random, FurtherTally& further) {
   const char* names[] = {"none", "single", "pair", "triple"};
   for (std::size_t n_effects = 0; n_effects < 4; ++n_effects) {
     if (options.asked[n_effects] == 0.) continue;
     for (std::size_t i = 0; i < sensors_of_a_bench[n_effects]; ++i) {
       const ObservedSensor sensor = observer.draw(n_effects, random);
       const ObserverAnswer answer = observer.answer(sensor);
-      result.tallies[names[n_effects]].add(answer);
-      if (n_effects == 1 && sensor.in_limits.front() >= well_above_limit)
-        result.tallies["single at 3 limits and more"].add(answer);
-      if (options.further && answer.set_size > 1)
-        result.further.add(observer, sensor, takes.n_further());
+      for (Tallies* tally : tallies) {
+        (*tally)[names[n_effects]].add(answer);
+        if (n_effects == 1 && sensor.in_limits.front() >= well_above_limit)
+          (*tally)["single at 3 limits and more"].add(answer);
+      }
+      if (options.further && answer.set_size > 1) further.add(observer, sensor, takes.n_further());
     }
   }
 }
 
+std::vector<trial::EffectLadder> ladders_of(const trial::UnexplainedChange& change,
+                                            const Options& options) {
+  signals::Progress progress("effects", trial::named_unknowns().size(), options.is_talkative());
+  return trial::effect_ladders(change, [&] { progress.advance(); });
+}
+
+trial::World plain_design() {
+  trial::World out;
+  out.joint.scale = trial::usual_turn;
+  return out;
+}
+
 Result observe(const Options& options) {
   const Takes takes = takes_of(options);
-  trial::World plain;
-  plain.joint.scale = trial::usual_turn;
-  const trial::UnexplainedChange change(plain, {.takes = takes.all, .seed = options.seed});
-  std::vector<trial::EffectLadder> ladders;
-  {
-    signals::Progress progress("effects", trial::named_unknowns().size(), options.is_talkative());
-    ladders = trial::effect_ladders(change, [&] { progress.advance(); });
-  }
+  const trial::UnexplainedChange change(plain_design(), {.takes = takes.all, .seed = options.seed});
+  const std::vector<trial::EffectLadder> ladders = ladders_of(change, options);
   signals::Progress progress("benches", options.n_benches, options.is_talkative());
   std::mt19937_64 random(options.seed);
   Result out;
   for (std::size_t i = 0; i < options.n_benches; ++i, progress.advance()) {
     const trial::World bench = trial::plain_world(random);
-    const IdealObserver observer(ladders,
-                                 change.noise(bench.moment_noise, bench.acceleration_noise),
-                                 {.acceleration_noise = bench.acceleration_noise,
-                                  .as_built = options.as_built,
-                                  .asked = options.asked},
-                                 takes.block_ends);
-    ask(observer, options, takes, random, out);
+    const IdealObserver observer(
+        ladders, change.noise(bench.moment_noise, bench.acceleration_noise),
+        {.acceleration_noise = bench.acceleration_noise,
+         .distance = options.as_built ? trial::Distance::as_built : trial::Distance::exact,
+         .asked = options.asked},
+        takes.block_ends);
+    ask(observer, options, takes, {&out.tallies}, random, out.further);
   }
   return out;
 }
 
-void print(const Result& result) {
-  std::printf("%-28s %5s %6s %6s %6s %6s %5s\n", "", "n", "right", "stated", "top3", "in95",
-              "size");
-  for (const auto& [name, tally] : result.tallies)
+/// Benches of life: each with a set of records and a distance in turn; 21 have all pairs of both.
+/// All benches of a set use the same ladders.
+Result observe_life(const Options& options) {
+  Result out;
+  const std::vector<trial::RecordSet>& sets = trial::record_sets();
+  for (std::size_t s = 0; s < std::min(sets.size(), options.n_benches); ++s) {
+    const trial::Session session{.takes = trial::takes_of(sets[s]),
+                                 .seed = options.seed,
+                                 .has_wind_channel = trial::has_wind_channel(sets[s])};
+    const trial::UnexplainedChange change(plain_design(), session);
+    const std::vector<trial::EffectLadder> ladders = ladders_of(change, options);
+    for (std::size_t i = s; i < options.n_benches; i += sets.size()) {
+      std::mt19937_64 random(trial::stream_seed(options.seed, i, 1));
+      const trial::World bench = trial::plain_world(random);
+      const trial::Distance distance = trial::distances()[i % trial::distances().size()];
+      const IdealObserver observer(
+          ladders,
+          change.noise(bench.moment_noise * trial::noise_factor(sets[s]), bench.acceleration_noise),
+          {.acceleration_noise = bench.acceleration_noise,
+           .distance = distance,
+           .asks_calibrations = distance == trial::Distance::exact,
+           .asked = options.asked});
+      ask(observer, options, {},
+          {&out.tallies, &out.classes["set: " + to_string(sets[s])],
+           &out.classes["distance: " + to_string(distance)]},
+          random, out.further);
+    }
+  }
+  return out;
+}
+
+void print(const Tallies& tallies) {
+  for (const auto& [name, tally] : tallies)
     std::printf("%-28s %5zu %6.3f %6.3f %6.3f %6.3f %5.2f\n", name.c_str(), tally.of,
                 tally.share(static_cast<double>(tally.right)), tally.share(tally.said),
                 tally.share(static_cast<double>(tally.among_three)),
                 tally.share(static_cast<double>(tally.set_holds)),
                 tally.share(static_cast<double>(tally.set_size)));
+}
+
+void print(const Result& result) {
+  std::printf("%-28s %5s %6s %6s %6s %6s %5s\n", "", "n", "right", "stated", "top3", "in95",
+              "size");
+  print(result.tallies);
+  for (const auto& [name, tallies] : result.classes) {
+    std::printf("%s\n", name.c_str());
+    print(tallies);
+  }
   std::printf(
       "n: sensors; right: share of right answers; stated: their mean stated probability;\n"
       "top3: truth among the three most probable answers; in95: truth in the 95 %% set;\n"
@@ -170,8 +220,11 @@ void print_json(const Result& result, const Options& options) {
   nlohmann::json out{{"schema", "vibrissa-ideal-observer-1"},
                      {"seed", options.seed},
                      {"as_built", options.as_built},
+                     {"life", options.life},
                      {"asked", options.asked}};
   for (const auto& [name, tally] : result.tallies) out["answers"][name] = tally.to_json();
+  for (const auto& [of, tallies] : result.classes)
+    for (const auto& [name, tally] : tallies) out["classes"][of][name] = tally.to_json();
   if (const FurtherTally& further = result.further; further.undecided > 0) {
     const double n = static_cast<double>(further.undecided);
     out["further"] = {{"undecided", further.undecided},
@@ -196,10 +249,16 @@ int main(int argc, char** argv) try {
   auto* as_built = app.add_flag(
       "--as-built", options.as_built,
       "Every sensor deviates by building tolerances in modulus, damping, gain and drag");
+  auto* further = app.add_flag(
+      "--further", options.further,
+      "When more than one answer remains, add each further experiment; not with --as-built");
+  further->excludes(as_built);
   app.add_flag(
-         "--further", options.further,
-         "When more than one answer remains, add each further experiment; not with --as-built")
-      ->excludes(as_built);
+         "--life", options.life,
+         "Benches of \"trial make --life\": each with a set of records and a distance from the "
+         "simulation in turn (21 benches have all pairs); the simulation has no form error")
+      ->excludes(as_built)
+      ->excludes(further);
   app.add_option("--asked", options.asked,
                  "Relative frequencies of 0, 1, 2, 3 true effects; 0: never")
       ->check(CLI::Range(0., 1e6))
@@ -209,7 +268,7 @@ int main(int argc, char** argv) try {
   CLI11_PARSE(app, argc, argv);
   signals::keep_freed_memory();
   const fem::SolverSession session;
-  const Result result = observe(options);
+  const Result result = options.life ? observe_life(options) : observe(options);
   if (options.json)
     print_json(result, options);
   else

@@ -144,13 +144,12 @@ void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
     out.probabilities[name] = ranking[i].at("probability");
   }
   out.right = is_right(out, out.verdict);
-  out.right_within_set =
-      out.right || within_a_set(diagnosis.at("indistinguishable"), out.truth, compared(out, out.verdict));
+  out.right_within_set = out.right || within_a_set(diagnosis.at("indistinguishable"), out.truth,
+                                                   compared(out, out.verdict));
   const json& set = diagnosis.at("confidence_set");
   out.confidence_set_size = set.size();
-  out.in_confidence_set = std::any_of(set.begin(), set.end(), [&](const json& name) {
-    return is_right(out, name);
-  });
+  out.in_confidence_set =
+      std::any_of(set.begin(), set.end(), [&](const json& name) { return is_right(out, name); });
   out.links_right = out.truth == diagnosis::outside_catalogue ||
                     links_are_right(out.truth, diagnosis.at("location").at("links"));
   const json& held_out = ranking[0].at("held_out");

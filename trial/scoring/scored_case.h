@@ -16,9 +16,9 @@ struct ScoredCase {
   std::string name;
   CaseClass kind = CaseClass::none;
   std::optional<Circumstances> circumstances{};  // nothing in a trial of complete records
-  std::string truth, verdict;  // truth: the correct verdict
-  std::string effects{};       // names of the generator
-  double size_in_limits = 0.;  // of the smallest effect; 0 without one
+  std::string truth, verdict;                    // truth: the correct verdict
+  std::string effects{};                         // names of the generator
+  double size_in_limits = 0.;                    // of the smallest effect; 0 without one
   int exit_status = 0;
   double probability = 0., seconds = 0.;
   double probability_of_tried = 1.;               // that any tested answer is right

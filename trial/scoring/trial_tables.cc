@@ -92,12 +92,8 @@ report::Table summary_table(const TrialScore& score) {
 }
 
 report::Table class_table(const TrialScore& score) {
-  report::Table table({{"what", ""},
-                       {"class", ""},
-                       {"value", "", 3},
-                       {"low", "", 3},
-                       {"high", "", 3},
-                       {"of", ""}});
+  report::Table table(
+      {{"what", ""}, {"class", ""}, {"value", "", 3}, {"low", "", 3}, {"high", "", 3}, {"of", ""}});
   const auto add = [&](const std::string& what, const std::string& name, const Share& share) {
     const auto [low, high] = share.ci95();
     table.add_row({what, name, share.value(), low, high, share.of});

@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <map>
+#include <string>
+
 #include "trial/generator/trial_case.h"
 
 namespace vibrissa::trial {
@@ -47,6 +51,22 @@ TEST(CalibrationDraw, AsBuiltIsAFewPercentAndExactIsNothing) {
     for (const auto& [id, ratio] : calibrations_of(drawn(Distance::exact, seed)))
       EXPECT_EQ(ratio, 1.) << id;
   }
+}
+
+TEST(CalibrationDraw, DeviatesAsTheObserverAssumes) {
+  constexpr unsigned n = 2000;
+  for (const Distance distance : {Distance::as_built, Distance::as_paper}) {
+    std::map<std::string, double> sum, square;
+    for (unsigned seed = 0; seed < n; ++seed)
+      for (const auto& [id, ratio] : calibrations_of(drawn(distance, seed))) {
+        sum[id] += ratio / n;
+        square[id] += ratio * ratio / n;
+      }
+    // A cut at two standard deviations takes an eighth of the deviation.
+    for (const auto& [id, deviation] : calibration_deviations(distance))
+      EXPECT_NEAR(std::sqrt(square[id] - sum[id] * sum[id]) / deviation, 0.97, 0.1) << id;
+  }
+  EXPECT_TRUE(calibration_deviations(Distance::exact).empty());
 }
 
 TEST(CalibrationDraw, NoEffectIsAskedThatCalibrationsImitate) {

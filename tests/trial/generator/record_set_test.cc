@@ -98,9 +98,9 @@ TEST(RecordSet, TenTimesTheNoiseIsThat) {
         for (const double m : entry.record.channel(signals::channel::base_moment)) power += m * m;
     return std::sqrt(power);
   };
-  EXPECT_NEAR(noise(records_with(RecordSet::ten_times_noise)) /
-                  noise(records_with(RecordSet::complete)),
-              10., 0.5);
+  EXPECT_NEAR(
+      noise(records_with(RecordSet::ten_times_noise)) / noise(records_with(RecordSet::complete)),
+      10., 0.5);
 }
 
 TEST(RecordSet, ABenchWithoutAFanDoesNoExperimentWithWind) {
@@ -117,8 +117,7 @@ TEST(RecordSet, DetectionLimitsRiseWhereRecordsAreMissing) {
     world.moment_noise = 1e-6;
     world.acceleration_noise = 0.04;
     return detection_limit(
-        LikelihoodRatio(world,
-                        {.takes = takes_of(set), .has_wind_channel = has_wind_channel(set)}),
+        LikelihoodRatio(world, {.takes = takes_of(set), .has_wind_channel = has_wind_channel(set)}),
         find_unknown("flow_lag"), 1., 0.5);
   };
   const auto complete = limit(RecordSet::complete), unmeasured = limit(RecordSet::no_wind_channel);

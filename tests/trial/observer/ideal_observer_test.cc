@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "trial/generator/record_set.h"
 
 namespace vibrissa::trial {
 namespace {
@@ -120,9 +123,104 @@ TEST(IdealObserver, WhereSensorsAreALittleOffTheirSpreadIsNoEffect) {
       straight("drag_error", {0.f, 0.f, 0.f, 30.f}, sizes),
       straight("delay", {0.f, 0.f, 0.f, 0.f, 1000.f}, {0.001, 0.02})};
   const IdealObserver knows(ladders, unit_noise, {}),
-      allows(ladders, unit_noise, {.as_built = true});
+      allows(ladders, unit_noise, {.distance = Distance::as_built});
   const Rates with = ask(knows, 1, 1000), without = ask(allows, 1, 1000);
   EXPECT_GT(with.right, without.right + 0.1);
+}
+
+/// Fit takes of the usual session, those of a set first.
+struct OrderedTakes {
+  std::vector<Take> all;
+  std::vector<std::size_t> block_ends;  // lines of the set, and all lines
+};
+
+OrderedTakes beginning_with(RecordSet set) {
+  OrderedTakes out;
+  std::size_t n = 0;
+  const auto add = [&](const std::vector<Take>& takes) {
+    for (const Take& take : takes) {
+      const bool is_there = std::find(out.all.begin(), out.all.end(), take) != out.all.end();
+      if (is_there || take.split != signals::Split::fit) continue;
+      out.all.push_back(take);
+      n += take.n_samples / 2 - 1;
+    }
+    out.block_ends.push_back(n);
+  };
+  add(takes_of(set));
+  add(usual_takes());
+  return out;
+}
+
+/// Ladders of a few effects that are alike in base records, and tell apart in others.
+std::vector<EffectLadder> few_ladders(const UnexplainedChange& change) {
+  std::vector<EffectLadder> out;
+  for (const char* id : {"delay", "sensor_lowpass", "sensor_gain", "reference_gain"}) {
+    const Unknown& unknown = find_unknown(id);
+    EffectLadder ladder{.unknown = &unknown, .sizes = {}, .changes = {}};
+    for (const double share : {0.03, 0.3, 1.}) {
+      World world = change.plain();
+      unknown.apply(world, share * unknown.largest, 0.5);
+      const auto lines = change.of(world, unknown.random);
+      ladder.sizes.push_back(share * unknown.largest);
+      ladder.changes.emplace_back(lines.begin(), lines.end());
+    }
+    out.push_back(ladder);
+  }
+  return out;
+}
+
+TEST(IdealObserver, IsNotRightMoreOftenWhereRecordsAreTakenAway) {
+  World plain;
+  plain.joint.scale = usual_turn;
+  for (const RecordSet set : {RecordSet::base_only, RecordSet::no_rest}) {
+    const OrderedTakes takes = beginning_with(set);
+    const UnexplainedChange change(plain, {.takes = takes.all});
+    const IdealObserver observer(few_ladders(change), change.noise(1e-5, 0.05), {},
+                                 takes.block_ends);
+    std::mt19937_64 random(8);
+    int with_set = 0, with_all = 0;
+    constexpr int n = 400;
+    for (int i = 0; i < n; ++i) {
+      const ObservedSensor sensor = observer.draw(i % 4 == 0 ? 2 : 1, random);
+      with_set += observer.answer(sensor).right ? 1 : 0;
+      with_all += observer.answer(sensor, 1).right ? 1 : 0;
+    }
+    EXPECT_LE(with_set, with_all + 0.02 * n) << to_string(set);
+    if (set == RecordSet::base_only) {
+      EXPECT_LT(with_set, with_all - 0.05 * n) << "wind tells both gains apart";
+    }
+  }
+}
+
+TEST(IdealObserver, AsksNoCalibrationWhereTheyAreUnknown) {
+  const std::vector<double> sizes{0.001, 0.01, 0.05, 0.1, 0.4};
+  const std::vector<EffectLadder> ladders{
+      straight("stiffness", {100.f}, sizes),
+      straight("damping", {0.f, 20.f}, sizes),
+      straight("sensor_gain", {0.f, 0.f, 100.f}, sizes),
+      straight("reference_gain", {0.f, 10.f, 100.f}, sizes),
+      straight("drag_error", {0.f, 0.f, 0.f, 30.f}, sizes),
+      straight("delay", {0.f, 0.f, 0.f, 0.f, 1000.f}, {0.001, 0.02})};
+  const IdealObserver observer(ladders, unit_noise,
+                               {.distance = Distance::as_paper, .asks_calibrations = false});
+  std::mt19937_64 random(9);
+  for (int i = 0; i < 100; ++i) {
+    const ObservedSensor sensor = observer.draw(1, random);
+    ASSERT_EQ(named_unknowns()[sensor.unknowns.front()].id, "delay");
+  }
+}
+
+TEST(IdealObserver, SeesThePowerOfAnUnmeasuredWind) {
+  // Known change of the power of n lines by the share p of their variance: d^2 = n p^2 / 2.
+  constexpr double p = 3.;
+  EffectLadder ladder{.unknown = &find_unknown("sample_repeat"),
+                      .sizes = {1.},
+                      .changes = {std::vector<std::complex<float>>(n_lines)},
+                      .wind_power = {std::vector<float>(n_lines, static_cast<float>(p))}};
+  const IdealObserver observer({ladder}, unit_noise, {});
+  const double d = std::sqrt(n_lines * p * p / 2.);
+  const double border = 0.5 * d + std::log(2. / 9.) / d;
+  EXPECT_NEAR(ask(observer, 1, 4000).right, normal_cdf(d - border), 0.01);
 }
 
 }  // namespace
