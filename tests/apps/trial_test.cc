@@ -1,12 +1,15 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <complex>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 
+#include "apps/jobs/nominal_input.h"
 #include "report/files/child_process.h"
 #include "signals/base/exit_status.h"
 #include "tests/apps/program.h"
@@ -382,6 +385,29 @@ TEST(Trial, OfTheSameSeedIsTheSame) {
         fs::path(folder.file("two")) / fs::relative(entry.path(), folder.file("one"));
     EXPECT_EQ(content(entry.path().string()), content(other.string())) << entry.path();
   }
+}
+
+/// Rms difference of the base response over the band of the trial, relative to the first.
+double response_difference(const diagnosis::NominalModel& one,
+                           const diagnosis::NominalModel& other) {
+  double difference = 0., power = 0.;
+  for (double f = 3.; f <= 110.; f += 0.5) {
+    const std::complex<double> s(0., 2. * std::numbers::pi * f);
+    difference += std::norm(other.base_response(s) - one.base_response(s));
+    power += std::norm(one.base_response(s));
+  }
+  return std::sqrt(difference / power);
+}
+
+TEST(Trial, GivesTheSameSensorAsAModelAndAsRecords) {
+  const Folder folder;
+  const std::string trial = folder.file("life");
+  ASSERT_EQ(vibrissa("trial make --life --quiet --cases 1 --seed 13 --out " + quoted(trial)).status,
+            0);
+  const NominalInput model{.model = trial + "/sim.prm", .simulation = {}},
+      records{.model = {}, .simulation = trial + "/sim"};
+  EXPECT_LT(response_difference(records.read(false).model.nominal, model.read(false).model.nominal),
+            2e-3);
 }
 
 /// Index of a trial with this schema and one case.
