@@ -80,6 +80,7 @@ class WrittenTrial : public testing::Test {
     if (circumstances) {
       labels_[name]["circumstances"] = to_json(*circumstances);
       labels_[name]["calibrations"] = {{"damping", 0.6}, {"stiffness", 0.7}};
+      labels_[name]["simulation"] = {{"modes", 3}, {"hold", "linear"}};
     }
     fs::create_directories(folder_.file(name));
     std::ofstream(folder_.file(name + "/answer.json")) << answer.dump();
@@ -161,6 +162,7 @@ TEST_F(WrittenTrial, SplitsEveryScoreByCircumstances) {
   EXPECT_EQ(hits_and_number(classes.at("form error: 0 %"), right), Pair(1, 2));
   EXPECT_EQ(hits_and_number(classes.at("form error: 3 %"), right), Pair(1, 1));
   EXPECT_EQ(hits_and_number(classes.at("way in: records"), right), Pair(2, 3));
+  EXPECT_EQ(hits_and_number(classes.at("hold: linear"), right), Pair(2, 3));
   EXPECT_EQ(classes.count("set: no_rest"), 0u) << "no such case";
   const std::string table = trial::class_table(score).to_csv();
   EXPECT_THAT(table, HasSubstr("\"" + right + "\",set: base_only,0.5,"));

@@ -195,6 +195,7 @@ ScoredCase score_case(const std::string& name, const json& label, const json& an
   out.truth = truth_of(out.kind, effects);
   if (label.contains("circumstances"))
     out.circumstances = circumstances_from(label.at("circumstances"));
+  if (label.contains("simulation")) out.hold = label.at("simulation").at("hold");
   for (const json& effect : effects) {
     out.effects.append(out.effects.empty() ? "" : "+").append(effect.at("id").get<std::string>());
     const double ratio =

@@ -16,6 +16,7 @@ struct ScoredCase {
   std::string name;
   CaseClass kind = CaseClass::none;
   std::optional<Circumstances> circumstances{};  // nothing in a trial of complete records
+  std::string hold{};                            // of the simulation's input, as the label says
   std::string truth, verdict;                    // truth: the correct verdict
   std::string effects{};                         // names of the generator
   double size_in_limits = 0.;                    // of the smallest effect; 0 without one

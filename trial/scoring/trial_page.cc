@@ -54,8 +54,8 @@ report::Page trial_page(const TrialScore& score, const std::string& commitment) 
     page.sections.insert(page.sections.begin() + 1,
                          {.heading = "Scores by circumstances",
                           .text = {"What each sensor came with: its set of records, its distance "
-                                   "from the simulation, the simulation's form error, and the way "
-                                   "in which the simulation was given."},
+                                   "from the simulation, the simulation's form error, the hold of "
+                                   "its input, and the way in which it was given."},
                           .tables = {{"classes", "Scores by circumstances", class_table(score)}}});
   return page;
 }

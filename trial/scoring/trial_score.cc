@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "diagnosis/model/effect.h"
@@ -125,16 +126,20 @@ Scores scores_of(const std::vector<const ScoredCase*>& cases) {
   return out;
 }
 
+void add_class(TrialScore& out, const std::string& name,
+               const std::function<bool(const ScoredCase&)>& holds) {
+  std::vector<const ScoredCase*> of_class;
+  for (const ScoredCase& c : out.cases)
+    if (c.circumstances && holds(c)) of_class.push_back(&c);
+  if (!of_class.empty()) out.classes.emplace_back(name, scores_of(of_class));
+}
+
 template <class Value>
 void split(TrialScore& out, const std::string& what, const std::vector<Value>& values,
            Value Circumstances::*member) {
-  for (const Value value : values) {
-    std::vector<const ScoredCase*> of_class;
-    for (const ScoredCase& c : out.cases)
-      if (c.circumstances && (*c.circumstances).*member == value) of_class.push_back(&c);
-    if (!of_class.empty())
-      out.classes.emplace_back(what + ": " + to_string(value), scores_of(of_class));
-  }
+  for (const Value value : values)
+    add_class(out, what + ": " + to_string(value),
+              [&](const ScoredCase& c) { return (*c.circumstances).*member == value; });
 }
 
 }  // namespace
@@ -158,6 +163,9 @@ TrialScore score_trial(const TrialIndex& trial, const json& labels) {
   split(out, "set", record_sets(), &Circumstances::set);
   split(out, "distance", distances(), &Circumstances::distance);
   split(out, "form error", form_errors(), &Circumstances::form_error);
+  for (const char* hold : {"band_limited", "linear", "zero_order"})
+    add_class(out, std::string("hold: ") + hold,
+              [&](const ScoredCase& c) { return c.hold == hold; });
   split(out, "way in", {WayIn::records, WayIn::model}, &Circumstances::way_in);
   return out;
 }

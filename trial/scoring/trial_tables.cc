@@ -67,6 +67,7 @@ report::Table case_table(const TrialScore& score) {
                        {"set", ""},
                        {"distance", ""},
                        {"form error", ""},
+                       {"hold", ""},
                        {"way in", ""}});
   for (const ScoredCase& c : score.cases) {
     const Circumstances circumstances = c.circumstances.value_or(Circumstances{});
@@ -74,7 +75,7 @@ report::Table case_table(const TrialScore& score) {
                    c.size_in_limits > 0. ? std::optional(c.size_in_limits) : std::nullopt,
                    c.effects, c.truth, c.verdict, c.probability, c.right ? "yes" : "no",
                    c.gap_closed, c.seconds, to_string(circumstances.set),
-                   to_string(circumstances.distance), to_string(circumstances.form_error),
+                   to_string(circumstances.distance), to_string(circumstances.form_error), c.hold,
                    to_string(circumstances.way_in)});
   }
   return table;
