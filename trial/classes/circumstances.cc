@@ -63,13 +63,6 @@ std::string to_string(const WayIn way) {
   return way_names[static_cast<std::size_t>(way)].name;
 }
 
-RecordSet parse_record_set(const std::string& name) {
-  return value_of(set_names, "set of records", name);
-}
-Distance parse_distance(const std::string& name) {
-  return value_of(distance_names, "distance from the simulation", name);
-}
-
 const std::vector<RecordSet>& record_sets() {
   static const std::vector<RecordSet> all = values_of(set_names);
   return all;
@@ -97,8 +90,9 @@ nlohmann::json to_json(const Circumstances& circumstances) {
 
 Circumstances circumstances_from(const nlohmann::json& document) {
   try {
-    return {.set = parse_record_set(document.at("set")),
-            .distance = parse_distance(document.at("distance")),
+    return {.set = value_of(set_names, "set of records", document.at("set")),
+            .distance =
+                value_of(distance_names, "distance from the simulation", document.at("distance")),
             .form_error = value_of(form_error_names, "form error", document.at("form_error")),
             .way_in = value_of(way_names, "way in", document.at("way_in"))};
   } catch (const nlohmann::json::exception& error) {

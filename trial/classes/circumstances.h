@@ -46,10 +46,6 @@ std::string to_string(Distance distance);
 std::string to_string(FormError error);
 std::string to_string(WayIn way);
 
-/// The value of a name. Throws UserError that lists the known names.
-RecordSet parse_record_set(const std::string& name);
-Distance parse_distance(const std::string& name);
-
 /// All values, in the order of their declaration.
 const std::vector<RecordSet>& record_sets();
 const std::vector<Distance>& distances();

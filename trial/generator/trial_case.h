@@ -49,7 +49,7 @@ CaseClass class_of(std::size_t number);
 /// the records of its set, within the usual range. Finite-strain cases contain only effects that
 /// the solid can simulate; their detection limits are those of the modes. On a sensor at a distance
 /// no effect is drawn that calibrations can imitate. Proven by
-/// tests/trial/generator/detection_limit_test.cc and trial_case_test.cc.
+/// tests/trial/generator/detection_limit_test.cc and record_set_test.cc.
 TrialCase draw_case(std::uint64_t seed, std::size_t number, Physics physics = Physics::modes,
                     const Circumstances& circumstances = {});
 

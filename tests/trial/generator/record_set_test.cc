@@ -110,6 +110,21 @@ TEST(RecordSet, ABenchWithoutAFanDoesNoExperimentWithWind) {
   EXPECT_EQ(further_experiments(RecordSet::complete).size(), 5u);
 }
 
+TEST(RecordSet, AWrongLogIsWrongInEverySet) {
+  constexpr std::size_t number = 17;
+  ASSERT_EQ(class_of(number), CaseClass::wrong_metadata);
+  for (const RecordSet set : record_sets()) {
+    if (set == RecordSet::two_files) continue;
+    for (const std::size_t turn : {number, number + 20}) {
+      const signals::Dataset records = records_of(draw_case(3, turn, Physics::modes, {.set = set}));
+      EXPECT_TRUE(holds(records, [](const DatasetRecord& entry) {
+        return entry.period_samples == 1500 ||
+               (entry.excitation.wind && entry.name.starts_with("base_"));
+      })) << to_string(set);
+    }
+  }
+}
+
 TEST(RecordSet, DetectionLimitsRiseWhereRecordsAreMissing) {
   const auto limit = [](RecordSet set) {
     World world;
