@@ -26,6 +26,7 @@ constexpr double exact_misfit = 3e-4;
 struct PathCandidate {
   Bvrm model;
   double misfit = 0.;  // relative
+  separation::Hold hold = separation::Hold::band_limited;
 };
 
 signals::FrequencyResponse base_response_of(const signals::DatasetRecord& entry) {
@@ -115,18 +116,15 @@ bool is_better(const PathCandidate& a, const PathCandidate& b) {
 }
 
 /// Welch's window widens a resonance, so the fit continues with the records themselves, under the
-/// behaviour of the input between samples that fits them best: simulations hold it, interpolate it
-/// linearly or sample a continuous motion.
-std::optional<PathCandidate> refined(const Bvrm& start, const Entries& entries) {
+/// behaviour of the input between samples that fits them best.
+std::optional<PathCandidate> refined(const Bvrm& start, const Entries& entries, Holds holds) {
   const std::vector<separation::Segment> segments = segments_of(entries);
   std::optional<PathCandidate> best;
-  for (const separation::Hold hold : {separation::Hold::band_limited, separation::Hold::first_order,
-                                      separation::Hold::zero_order})
-    try {
+  for (const separation::Hold hold : holds) try {
       const separation::FittedBvrm fit = separation::refine_output_error(
           start, segments, entries.front()->record.sampling_rate_hz(), {.hold = hold});
       const PathCandidate candidate{
-          fit.model, std::sqrt(fit.residual_variance / mean_square_moment(segments))};
+          fit.model, std::sqrt(fit.residual_variance / mean_square_moment(segments)), hold};
       if (!best || is_better(candidate, *best)) best = candidate;
     } catch (const signals::UserError&) {
       // The order is too high for these records.
@@ -135,16 +133,31 @@ std::optional<PathCandidate> refined(const Bvrm& start, const Entries& entries) 
 }
 
 std::optional<PathCandidate> best_candidate(const signals::FrequencyResponse& response,
-                                            const Entries& entries, const bool periodic) {
+                                            const Entries& entries, const Holds holds,
+                                            const bool periodic) {
   std::optional<PathCandidate> best;
   for (const auto& fit : separation::identify_frequency_orders(response, {.order = max_order})) {
     if (best && best->misfit < exact_misfit) break;
     const std::optional<PathCandidate> candidate =
         periodic ? PathCandidate{fit.model, relative_misfit(fit.model, response)}
-                 : refined(fit.model, entries);
+                 : refined(fit.model, entries, holds);
     if (candidate && (!best || candidate->misfit <= worthwhile * best->misfit)) best = candidate;
   }
   return best;
+}
+
+/// The lines of periodic records are exact for a continuous motion. A simulation that holds or
+/// interpolates its input may fit them, too, with modes that lag.
+std::optional<PathCandidate> best_of_periodic(const signals::FrequencyResponse& response,
+                                              const Entries& entries, const Holds holds) {
+  const std::optional<PathCandidate> continuous =
+      best_candidate(response, entries, holds, /*periodic=*/true);
+  if (holds.size() == 1) return continuous;
+  const std::optional<PathCandidate> sampled =
+      best_candidate(response, entries, holds, /*periodic=*/false);
+  const bool is_sampled = sampled && sampled->hold != separation::Hold::band_limited &&
+                          (!continuous || is_better(*sampled, *continuous));
+  return is_sampled ? sampled : continuous;
 }
 
 void set_modes(NominalModel& model, const Bvrm& found) {
@@ -165,7 +178,8 @@ void set_modes(NominalModel& model, const Bvrm& found) {
 
 }  // namespace
 
-void identify_base_path(NominalModel& model, std::span<const signals::DatasetRecord* const> base) {
+void identify_base_path(NominalModel& model, std::span<const signals::DatasetRecord* const> base,
+                        const Holds holds) {
   Entries entries(base.begin(), base.end());
   const auto is_periodic = [](const auto* entry) { return entry->period_samples > 0; };
   const bool periodic = std::any_of(entries.begin(), entries.end(), is_periodic);
@@ -176,7 +190,9 @@ void identify_base_path(NominalModel& model, std::span<const signals::DatasetRec
     model.has_base = true;
     return;
   }
-  if (const std::optional<PathCandidate> best = best_candidate(response, entries, periodic)) {
+  if (const std::optional<PathCandidate> best =
+          periodic ? best_of_periodic(response, entries, holds)
+                   : best_candidate(response, entries, holds, /*periodic=*/false)) {
     set_modes(model, best->model);
     model.has_base = true;
     model.base_misfit = best->misfit;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -159,15 +160,13 @@ void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
   if (wind_power > 0.) model.wind_misfit = std::sqrt(wind_error / wind_power);
 }
 
-}  // namespace
-
-NominalModel identify_nominal(const signals::Dataset& simulation) {
+NominalModel identified(const signals::Dataset& simulation, const Holds holds) {
   NominalModel model;
   model.readout = readout_of(simulation);
   model.readout_is_given =
       !simulation.records.empty() && simulation.records.front().readout_is_given;
   const auto base = choose(simulation, true, false);
-  if (!base.empty()) identify_base_path(model, base);
+  if (!base.empty()) identify_base_path(model, base, holds);
   set_wind_path(model, simulation);
   if (!model.has_base && !model.has_wind)
     throw signals::UserError(
@@ -177,12 +176,22 @@ NominalModel identify_nominal(const signals::Dataset& simulation) {
   return model;
 }
 
+}  // namespace
+
+NominalModel identify_nominal(const signals::Dataset& simulation) {
+  // Simulations hold their input, interpolate it linearly or sample a continuous motion.
+  constexpr std::array holds{separation::Hold::band_limited, separation::Hold::first_order,
+                             separation::Hold::zero_order};
+  return identified(simulation, holds);
+}
+
 std::vector<StructuralMode> measured_modes(signals::Dataset real) {
   std::erase_if(real.records, [](const signals::DatasetRecord& entry) {
     return entry.split != signals::Split::fit;
   });
   try {
-    return identify_nominal(real).modes;
+    constexpr std::array continuous{separation::Hold::band_limited};
+    return identified(real, continuous).modes;
   } catch (const signals::UserError&) {
     return {};
   }

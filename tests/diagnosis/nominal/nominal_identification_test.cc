@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Dense>
+#include <unsupported/Eigen/MatrixFunctions>
+
 #include "diagnosis/records/experiment.h"
 #include "signals/base/error.h"
 #include "tests/diagnosis/one_mode_rig.h"
@@ -94,6 +97,47 @@ TEST(IdentifyNominal, IsAsExactWithoutPeriods) {
     EXPECT_LT(std::abs(found.base_response(s) / truth.base_response(s) - 1.), 2e-4) << f;
   }
   EXPECT_LT(found.base_misfit, 1e-3);
+}
+
+/// Two periods of a steady simulation that holds its input, by the exponential of its matrix.
+signals::DatasetRecord held_record(const double frequency_rad_s, const double damping_ratio,
+                                   const std::size_t period, const double rate_hz) {
+  Eigen::Matrix2d a;
+  a << 0., 1., -frequency_rad_s * frequency_rad_s, -2. * damping_ratio * frequency_rad_s;
+  const Eigen::Matrix2d step = (a / rate_hz).exp();
+  const Eigen::Vector2d input =
+      a.inverse() * (step - Eigen::Matrix2d::Identity()) * Eigen::Vector2d(0., -1.);
+  std::vector<double> lines;
+  for (int k = 7; k * rate_hz / static_cast<double>(period) < 200.; k += 2)
+    lines.push_back(k * rate_hz / static_cast<double>(period));
+  const auto motion = test::sines(lines, 1., 3);
+  Eigen::Vector2d state = Eigen::Vector2d::Zero();
+  std::vector<double> base, moment;
+  for (std::size_t i = 0; i < 12 * period; ++i) {
+    const double now = motion(static_cast<double>(i) / rate_hz);
+    if (i >= 10 * period) {
+      base.push_back(now);
+      moment.push_back(6e-5 * frequency_rad_s * frequency_rad_s * state(0));
+    }
+    state = step * state + input * now;
+  }
+  signals::Record record(rate_hz, base.size());
+  record.set_channel(signals::channel::base_acceleration, std::move(base));
+  record.set_channel(signals::channel::base_moment, std::move(moment));
+  return {"held", std::move(record), {true, false}, period, Split::fit};
+}
+
+TEST(IdentifyNominal, TellsThatAPeriodicSimulationHoldsItsInput) {
+  const double w = 2. * std::numbers::pi * 35.;
+  signals::Dataset simulation;
+  simulation.records = {held_record(w, 0.05, 1024, 500.)};
+  const NominalModel found = identify_nominal(simulation);
+  ASSERT_EQ(found.modes.size(), 1u);
+  EXPECT_NEAR(found.modes[0].frequency_rad_s / w, 1., 1e-4);
+  EXPECT_NEAR(found.modes[0].damping_ratio, 0.05, 1e-4);
+  EXPECT_LT(found.base_misfit, 1e-3);
+  const Complex s(0., w);
+  EXPECT_LT(std::abs(found.base_response(s) / Complex(0., 6e-5 / 0.1) - 1.), 1e-2);
 }
 
 TEST(IdentifyNominal, RefusesASimulationThatDeterminesNothing) {
