@@ -31,6 +31,7 @@ Parameter of_mode(const std::string& name, const std::size_t mode) {
   Parameter out = ratio_near_one(name + std::to_string(mode), 0.05, 0.4, 2.5);
   out.prior.kind = Prior::Kind::student;
   out.prior.degrees_of_freedom = 1.;
+  out.relative_to.clear();
   out.mode = mode;
   return out;
 }

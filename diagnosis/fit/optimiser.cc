@@ -110,8 +110,8 @@ void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_para
         posterior.log_likelihood(state.x, state.predictions) + posterior.log_prior(state.x);
     const bool is_new = !state.derivatives;
     if (is_new) {
-      const bool is_climbing = n_computed > 0 && last_gain > worth_going_on;
-      if (n_computed >= (is_climbing ? most_times_longer * n_iterations : n_iterations)) return;
+      const bool is_gaining = n_computed > 0 && last_gain > worth_going_on;
+      if (n_computed >= (is_gaining ? most_times_longer * n_iterations : n_iterations)) return;
       ++n_computed;
       state.derivatives = posterior.derivatives(state.x, state.predictions);
       ++state.n_iterations;

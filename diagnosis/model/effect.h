@@ -40,7 +40,7 @@ struct Parameter {
   bool logarithmic = false;
   Prior prior{};
   double neutral = 0.;   // value (not x) at which the effect vanishes
-  std::size_t mode = 1;  // acts only where the simulation has this mode (and those below it)
+  std::size_t mode = 0;  // acts only where the simulation has at least so many modes
   double step = 1e-4;    // step of x for derivatives
   /// Largest change of x in one iteration of a fit, because basins of attraction may be narrow.
   double largest_step = std::numeric_limits<double>::infinity();

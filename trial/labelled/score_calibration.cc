@@ -112,7 +112,7 @@ signals::Dataset further_inputs(const signals::Dataset& inputs) {
     if (entry.split != Split::held_out) continue;
     for (int i = 0; i < n_copies; ++i) {
       signals::DatasetRecord copy = entry;
-      copy.name += "_" + std::to_string(i);
+      copy.name.append("_").append(std::to_string(i));
       for (const std::string& name : entry.record.channel_names())
         if (name != channel::base_moment)
           copy.record.set_channel(name, another_of_its_kind(entry.record.channel(name), random));

@@ -33,7 +33,8 @@ UpdatedModel soft_model(bool wind) {
                       .static_gain = 6e-5,
                       .moment_rms_n_m = 3e-4};
   return {nominal_of(OneModeRig{}, wind),
-          {{"stiffness", {0.8, 0., 0.5}, scales}, {"damping", {1.2, 0.5, 0.5}, scales}}};
+          {{"stiffness", {0.8, 0., 0.5, 1.05, 1., 0.95, 1.}, scales},
+           {"damping", {1.2, 0.5, 0.5, 0.4, 0.6}, scales}}};
 }
 
 double relative_error(std::span<const double> x, std::span<const double> truth) {
