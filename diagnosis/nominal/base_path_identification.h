@@ -12,9 +12,9 @@ using Holds = std::span<const separation::Hold>;
 
 /// Identifies the base path of a model (modes and direct term) from a simulation's records: from
 /// the excited lines of periodic records, if any, by frequency-domain fits of rising order;
-/// otherwise, and where no such fit is exact, by output-error fits, which start from that or
-/// Welch's response, under the given behaviours of the input between samples. The order is the
-/// lowest whose misfit is not halved by more poles. A simulation without dynamics has
+/// otherwise, and where an input that is held or interpolated fits better, by output-error fits,
+/// which start from Welch's response, under the given behaviours of the input between samples. The
+/// order is the lowest whose misfit is not halved by more poles. A simulation without dynamics has
 /// a direct term only. Leaves the model unchanged when no order can be fitted. Throws UserError for
 /// records that are too short. Proven by tests/diagnosis/nominal/nominal_identification_test.cc.
 void identify_base_path(NominalModel& model, std::span<const signals::DatasetRecord* const> base,
