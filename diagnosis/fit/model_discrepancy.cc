@@ -38,35 +38,22 @@ std::vector<double> block_edges(const Experiment& experiment) {
   return edges;
 }
 
-/// One hat function for each octave, at a frequency [Hz] between edges. Their sum is one.
-Eigen::VectorXd octave_hats(const std::vector<double>& edges, const double hz) {
+/// One hat function for each octave, without their mean, which is a gain: at a frequency [Hz]
+/// between edges.
+Eigen::VectorXd wide_forms(const std::vector<double>& edges, const double hz) {
   const double octaves = std::log2(edges.back() / edges.front()),
                x = std::clamp(std::log2(hz / edges.front()), 0., octaves);
   Eigen::VectorXd out(static_cast<Eigen::Index>(std::ceil(octaves)) + 1);
   for (Eigen::Index m = 0; m < out.size(); ++m)
     out(m) = std::max(0., 1. - std::abs(x - static_cast<double>(m)));
-  return out;
+  return out.array() - out.mean();
 }
 
-/// Share of each octave's hat in the measured power of the records of one kind.
-Eigen::VectorXd power_of_octaves(const Experiment& experiment, const std::size_t kind,
-                                 const std::vector<double>& edges) {
-  Eigen::VectorXd out = Eigen::VectorXd::Constant(octave_hats(edges, edges.front()).size(), 1e-300);
-  for (const PreparedRecord& record : experiment.records)
-    for (std::size_t b = 0; record_kind(record) == kind && b < record.n_bins(); ++b)
-      out += std::norm(record.moment[b]) *
-             octave_hats(edges, record.bin_hz() * static_cast<double>(b + 1));
-  return out / out.sum();
-}
-
-/// The wide forms as constant and slope within a block: the hats without their mean over the
-/// power, which is a gain.
-Eigen::MatrixXd wide_forms_of_block(const std::vector<double>& edges, const std::size_t above,
-                                    const Eigen::VectorXd& mean) {
-  const std::size_t last = edges.size() - 1, low = std::min(above == 0 ? 0 : above - 1, last),
-                    high = std::min(above, last);
-  const Eigen::VectorXd left = octave_hats(edges, edges[low]) - mean,
-                        right = octave_hats(edges, edges[high]) - mean;
+/// The wide forms as constant and slope within a block.
+Eigen::MatrixXd wide_forms_of_block(const std::vector<double>& edges, const std::size_t above) {
+  const std::size_t last = edges.size() - 1;
+  const Eigen::VectorXd left = wide_forms(edges, edges[std::min(above == 0 ? 0 : above - 1, last)]),
+                        right = wide_forms(edges, edges[std::min(above, last)]);
   Eigen::MatrixXd out(n_of_prediction, left.size());
   out.row(0) = 0.5 * (left + right);
   out.row(1) = 0.5 / slope_share * (right - left);
@@ -82,9 +69,6 @@ std::size_t record_kind(const PreparedRecord& record) {
 
 ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment) {
   const std::vector<double> edges = block_edges(experiment);
-  std::vector<Eigen::VectorXd> means;
-  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
-    means.push_back(power_of_octaves(experiment, kind, edges));
   std::map<std::pair<std::size_t, std::size_t>, int> known;  // (kind, interval) -> block
   for (const PreparedRecord& record : experiment.records) {
     const std::size_t kind = record_kind(record);
@@ -99,7 +83,7 @@ ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment) {
           known.try_emplace({kind, above}, static_cast<int>(kind_of_block_.size()));
       if (is_new) {
         kind_of_block_.push_back(kind);
-        wide_.push_back(wide_forms_of_block(edges, above, means[kind]));
+        wide_.push_back(wide_forms_of_block(edges, above));
       }
       block_.back() = found->second;
       if (above > 0 && above < edges.size())

@@ -334,13 +334,8 @@ class Searcher {
     return out;
   }
 
-  /// Does the recalibrated simulation leave something that an unknown cause explains?
-  bool leaves_something() const {
-    return fits_[known_.at(outside_catalogue)].log_evidence > fits_.front().log_evidence;
-  }
-
   /// Single effects: those that the residual of the recalibrated simulation resembles, and those
-  /// that calibration parameters may have absorbed in part.
+  /// that calibration parameters may have absorbed.
   std::vector<Task> single_effects() {
     std::vector<Task> tasks = extended(0, fits_.front(), 0.);
     if (!has_recalibrated(fits_.front())) return tasks;
@@ -351,7 +346,6 @@ class Searcher {
                        .start = 0,
                        .effect = *mass,
                        .hoped = std::numeric_limits<double>::infinity()});
-    if (!leaves_something()) return tasks;
     const HypothesisFit as_simulated = fit_as_simulated(experiment_);
     for (Task& task :
          extended(0, as_simulated, fits_.front().log_posterior - as_simulated.log_posterior)) {
