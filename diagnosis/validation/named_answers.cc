@@ -137,7 +137,7 @@ class Reduction {
       if (result_.fits[without].hypothesis.effects().empty())
         left = std::min(left, nominal_power_[records]);
       returned += left - with + more;
-      worth += std::max({least_share * gap, any_error(), form_error_of_recalibration(records)});
+      worth += std::max(least_share * gap, any_error());
     }
     return returned / worth;
   }
@@ -180,12 +180,6 @@ class Reduction {
       worth += has_effects ? std::max(part, any_error()) : usual;
     }
     return returned < worth;
-  }
-
-  /// A true change of a calibration differs from its equation by a share of its influence.
-  double form_error_of_recalibration(const Experiment* records) {
-    static const double share = find_effect("stiffness").model_form_error;
-    return share * share * std::max(0., nominal_power_[records] - floor_[records]);
   }
 
   double any_error() const { return least_error_power(experiment_.simulation_accuracy); }
