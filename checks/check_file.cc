@@ -87,7 +87,6 @@ CheckResult check_file(const fs::path& source, const signals::ReadOptions& optio
                          signals::read_dataset(is_description ? parent : source, options));
   }
   signals::ReadOptions used = options;
-  used.gaps = options.gaps;
   used.takes_all_columns = options.columns.empty();
   const signals::Recording recording = signals::read_recording(source, used);
   if (recording.pieces.size() == 1)

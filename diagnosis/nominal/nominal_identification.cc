@@ -172,7 +172,6 @@ NominalModel identified(const signals::Dataset& simulation, const Holds holds) {
     throw signals::UserError(
         "the simulation's records determine neither the base nor the wind response: at least one "
         "needs excitation \"base\" with base_acceleration_m_s2 or \"wind\" with wind_speed_m_s");
-  set_misfits(model, simulation);
   return model;
 }
 
@@ -182,7 +181,9 @@ NominalModel identify_nominal(const signals::Dataset& simulation) {
   // Simulations hold their input, interpolate it linearly or sample a continuous motion.
   constexpr std::array holds{separation::Hold::band_limited, separation::Hold::first_order,
                              separation::Hold::zero_order};
-  return identified(simulation, holds);
+  NominalModel model = identified(simulation, holds);
+  set_misfits(model, simulation);
+  return model;
 }
 
 std::vector<StructuralMode> measured_modes(signals::Dataset real) {

@@ -84,7 +84,6 @@ def from_arrays(
     columns: Mapping[str, Any],
     units: Optional[Mapping[str, str]] = ...,
     *,
-    columns: Mapping[str, str] = ...,
     sampling_rate_hz: Optional[float] = ...,
     remove_mean: Sequence[str] = ...,
     gaps: str = ...,
