@@ -22,10 +22,13 @@ struct FitParameter {
 };
 
 /// Indices of the parameters that belong to no effect; the levels of an unknown cause come last.
-/// The discrepancy (model_discrepancy.h) has two levels for each kind of record.
+/// The discrepancy (model_discrepancy.h) has two levels for each kind of record. The residual is
+/// the error of the static gain of all modes above the band, relative to the whole static gain, as
+/// of a truncated modal base (Ewins, Modal Testing, 2nd ed., 2000, residuals of high modes).
 inline constexpr std::size_t index_of_moment_noise = 0, index_of_acceleration_noise = 1,
                              index_of_joint_share = 2, index_of_joint_loss = 3,
-                             index_of_discrepancy = 4, n_noise_parameters = 2,
+                             index_of_residual = 4, index_of_discrepancy = 5,
+                             n_noise_parameters = 2,
                              index_of_incoherence = index_of_discrepancy + n_discrepancy_levels,
                              n_common_parameters = index_of_incoherence + 1;
 

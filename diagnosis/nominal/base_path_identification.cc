@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "diagnosis/nominal/mode_above_sampling.h"
 #include "separation/identification/identify_frequency.h"
 #include "separation/identification/output_error.h"
 #include "signals/base/error.h"
@@ -193,7 +194,8 @@ void identify_base_path(NominalModel& model, std::span<const signals::DatasetRec
   if (const std::optional<PathCandidate> best =
           periodic ? best_of_periodic(response, entries, holds)
                    : best_candidate(response, entries, holds, /*periodic=*/false)) {
-    set_modes(model, best->model);
+    set_modes(model, with_modes_above_sampling(best->model, best->hold,
+                                               entries.front()->record.sampling_rate_hz()));
     model.has_base = true;
     model.base_misfit = best->misfit;
   }

@@ -1,5 +1,6 @@
 #include "diagnosis/unknown/unknown_cause.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>

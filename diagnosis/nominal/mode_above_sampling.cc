@@ -1,0 +1,79 @@
+#include "diagnosis/nominal/mode_above_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/model/nominal_model.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using separation::ModalTerm;
+
+/// A mode that oscillates, as r / (s - p) and the conjugate.
+struct Pole {
+  Complex p, r;
+};
+
+Pole pole_of(const ModalTerm& mode) {
+  const Complex p(-0.5 * mode.a1, std::sqrt(mode.a0 - 0.25 * mode.a1 * mode.a1));
+  return {p, (mode.b1 * p + mode.b0) / (p - std::conj(p))};
+}
+
+ModalTerm term_of(const Pole& pole) {
+  return {.b1 = 2. * pole.r.real(),
+          .b0 = -2. * (pole.r * std::conj(pole.p)).real(),
+          .a1 = -2. * pole.p.real(),
+          .a0 = std::norm(pole.p)};
+}
+
+/// Logarithm of the factor by which the damping ratio is outside its usual range.
+double strangeness(const ModalTerm& mode, const ModalTerm& strongest) {
+  return std::max(0., std::abs(std::log(mode.damping_ratio() / strongest.damping_ratio())) -
+                          std::abs(std::log(mode.frequency_hz() / strongest.frequency_hz())));
+}
+
+/// The same samples with the pole at q.
+Pole moved(const Pole& pole, const Complex q, const separation::Hold hold) {
+  const Complex ratio = q / pole.p;
+  return {q, pole.r * (hold == separation::Hold::zero_order ? ratio : ratio * ratio)};
+}
+
+/// The lowest alias whose damping is the most usual.
+ModalTerm most_usual_alias(const ModalTerm& mode, const ModalTerm& strongest,
+                           const separation::Hold hold, const double sampling_rate_hz) {
+  constexpr int n_multiples = 4;
+  const Pole pole = pole_of(mode), conjugate{std::conj(pole.p), std::conj(pole.r)};
+  ModalTerm best = mode;
+  for (int n = 1; n <= n_multiples; ++n)
+    for (const Pole& from : {conjugate, pole}) {
+      const Complex shift(0., 2. * std::numbers::pi * n * sampling_rate_hz);
+      const ModalTerm alias = term_of(moved(from, from.p + shift, hold));
+      if (strangeness(alias, strongest) < strangeness(best, strongest)) best = alias;
+    }
+  return best;
+}
+
+}  // namespace
+
+separation::Bvrm with_modes_above_sampling(const separation::Bvrm& model,
+                                           const separation::Hold hold,
+                                           const double sampling_rate_hz) {
+  const double strange = std::log(2.);
+  separation::Bvrm out = model;
+  if (hold == separation::Hold::band_limited || model.modes.empty()) return out;
+  const ModalTerm strongest =
+      *std::ranges::max_element(model.modes, {}, [](const ModalTerm& mode) {
+        return std::abs(mode.static_gain_kg_m());
+      });
+  for (ModalTerm& mode : out.modes) {
+    if (mode.damping_ratio() >= 1. || strangeness(mode, strongest) <= strange) continue;
+    const double static_gain = mode.static_gain_kg_m();
+    mode = most_usual_alias(mode, strongest, hold, sampling_rate_hz);
+    out.direct_term_kg_m += static_gain - mode.static_gain_kg_m();
+  }
+  return out;
+}
+
+}  // namespace vibrissa::diagnosis
