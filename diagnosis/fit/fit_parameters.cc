@@ -66,10 +66,8 @@ std::vector<FitParameter> common_parameters(const Experiment& experiment) {
   out[index_of_joint_loss].description =
       normal("joint_loss_factor", "1", experiment.nominal.joint_loss_factor, 0.05, 0.7,
              most_joint_loss(experiment.nominal), 1.);
-  const double accuracy = experiment.simulation_accuracy, most_residual = 5. * accuracy,
+  const double accuracy = experiment.simulation_accuracy,
                without_cause = std::sqrt(power_without_cause(accuracy));
-  out[index_of_residual].description =
-      normal("static_gain_of_higher_modes", "1", 0., accuracy, -most_residual, most_residual, 0.);
   for (std::size_t i = 0; i < n_discrepancy_levels; ++i)
     out[index_of_discrepancy + i].description =
         level("discrepancy", "1", accuracy, accuracy_spread, 1e-5,
@@ -136,9 +134,6 @@ Chain make_chain(const Experiment& experiment, const std::vector<FitParameter>& 
   Chain chain = experiment.nominal_chain();
   chain.joint_share = x(index_of_joint_share);
   chain.joint_loss_factor = x(index_of_joint_loss);
-  chain.parallel.push_back([gain = x(index_of_residual) * experiment.scales.static_gain](Complex) {
-    return Complex(gain);
-  });
   for (std::size_t i = n_common_parameters; i < fit_parameters.size();) {
     const Effect* effect = fit_parameters[i].effect;
     if (effect == nullptr) break;  // form errors and the unknown cause come last

@@ -27,7 +27,6 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
   x(index_of_acceleration_noise) = std::log(experiment.acceleration_noise);
   x(index_of_joint_share) = experiment.nominal.joint_share;
   x(index_of_joint_loss) = 1.;
-  x(index_of_residual) = 0.;
   x.segment(index_of_discrepancy, n_discrepancy_levels)
       .setConstant(std::log(experiment.simulation_accuracy));
   x(index_of_incoherence) = fit_parameters[index_of_incoherence].description.prior.centre;

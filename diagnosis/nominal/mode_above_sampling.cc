@@ -63,10 +63,8 @@ separation::Bvrm with_modes_above_sampling(const separation::Bvrm& model,
   const double strange = std::log(2.);
   separation::Bvrm out = model;
   if (hold == separation::Hold::band_limited || model.modes.empty()) return out;
-  const ModalTerm strongest =
-      *std::ranges::max_element(model.modes, {}, [](const ModalTerm& mode) {
-        return std::abs(mode.static_gain_kg_m());
-      });
+  const ModalTerm strongest = *std::ranges::max_element(
+      model.modes, {}, [](const ModalTerm& mode) { return std::abs(mode.static_gain_kg_m()); });
   for (ModalTerm& mode : out.modes) {
     if (mode.damping_ratio() >= 1. || strangeness(mode, strongest) <= strange) continue;
     const double static_gain = mode.static_gain_kg_m();
