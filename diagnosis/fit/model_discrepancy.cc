@@ -65,12 +65,24 @@ Eigen::MatrixXd wide_forms_of_block(const std::vector<double>& edges, const std:
   return out;
 }
 
-/// The quasi-static moment of the base motion at the evaluated bins.
-std::vector<Complex> quasi_static(const PreparedRecord& record, const double static_gain) {
-  if (record.acceleration.empty()) return std::vector<Complex>(record.n_bins());
-  std::vector<Complex> out =
-      evaluated_bins(record, samples_of(record.acceleration, record.n_samples));
-  for (Complex& value : out) value *= static_gain;
+/// The quasi-static moment of the base motion at the evaluated bins of all records; in each kind
+/// with the power of the measured moment.
+std::vector<Complex> quasi_static(const Experiment& experiment) {
+  std::array<double, n_record_kinds + 1> moment{}, motion{};
+  std::vector<Complex> out;
+  std::vector<std::size_t> kinds;
+  for (const PreparedRecord& record : experiment.records) {
+    const std::size_t kind = record_kind(record);
+    std::vector<Complex> bins(record.n_bins());
+    if (!record.acceleration.empty())
+      bins = evaluated_bins(record, samples_of(record.acceleration, record.n_samples));
+    moment[kind] += total_power(record.moment);
+    motion[kind] += total_power(bins);
+    out.insert(out.end(), bins.begin(), bins.end());
+    kinds.insert(kinds.end(), bins.size(), kind);
+  }
+  for (std::size_t row = 0; row < out.size(); ++row)
+    if (motion[kinds[row]] > 0.) out[row] *= std::sqrt(moment[kinds[row]] / motion[kinds[row]]);
   return out;
 }
 
@@ -81,13 +93,12 @@ std::size_t record_kind(const PreparedRecord& record) {
   return base && wind ? 2 : wind ? 1 : base ? 0 : n_record_kinds;
 }
 
-ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment) {
+ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment)
+    : quasi_static_(quasi_static(experiment)) {
   const std::vector<double> edges = block_edges(experiment);
   std::map<std::pair<std::size_t, std::size_t>, int> known;  // (kind, interval) -> block
   for (const PreparedRecord& record : experiment.records) {
     const std::size_t kind = record_kind(record);
-    const std::vector<Complex> statics = quasi_static(record, experiment.scales.static_gain);
-    quasi_static_.insert(quasi_static_.end(), statics.begin(), statics.end());
     for (std::size_t b = 0; b < record.n_bins(); ++b) {
       position_.push_back(0.);
       block_.push_back(-1);
