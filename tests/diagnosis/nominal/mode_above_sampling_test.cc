@@ -1,0 +1,99 @@
+#include "diagnosis/nominal/mode_above_sampling.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <numbers>
+#include <random>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "diagnosis/nominal/nominal_identification.h"
+
+namespace vibrissa::diagnosis {
+namespace {
+
+using separation::Hold;
+
+constexpr double rate_hz = 500.;
+
+/// Two modes: base moment of each = static gain, damping ratio, frequency.
+NominalModel two_modes(const double second_hz, const double second_ratio) {
+  NominalModel out;
+  const double first = 2. * std::numbers::pi * 37., second = 2. * std::numbers::pi * second_hz;
+  out.modes = {{.frequency_rad_s = first, .damping_ratio = 0.05, .base_gain = -2e-5},
+               {.frequency_rad_s = second, .damping_ratio = second_ratio, .base_gain = -2e-6}};
+  out.has_base = true;
+  return out;
+}
+
+/// Exact samples of a simulation that holds its input or interpolates it: the matrix exponential of
+/// state, input and slope of the input.
+signals::Dataset simulated(const NominalModel& truth, const Hold hold) {
+  constexpr std::size_t n = 8000;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<double> input(n + 1), moment(n, 0.);
+  for (double& value : input) value = normal(random);
+  for (const StructuralMode& mode : truth.modes) {
+    const double w = mode.frequency_rad_s;
+    Eigen::Matrix4d a = Eigen::Matrix4d::Zero();
+    a(0, 1) = 1.;
+    a.row(1) << -w * w, -2. * mode.damping_ratio * w, mode.base_gain * w * w, 0.;
+    a(2, 3) = 1.;
+    const Eigen::Matrix4d step = (a / rate_hz).exp();
+    Eigen::Vector4d state = Eigen::Vector4d::Zero();
+    for (std::size_t i = 0; i < n; ++i) {
+      moment[i] += state(0);
+      state(2) = input[i];
+      state(3) = hold == Hold::zero_order ? 0. : (input[i + 1] - input[i]) * rate_hz;
+      state = step * state;
+    }
+  }
+  input.pop_back();
+  signals::Record record(rate_hz, n);
+  record.set_channel(signals::channel::base_acceleration, std::move(input));
+  record.set_channel(signals::channel::base_moment, std::move(moment));
+  signals::Dataset out;
+  out.records = {{"simulated", record, {true, false}, 0, signals::Split::fit}};
+  return out;
+}
+
+void expect_response(const NominalModel& found, const NominalModel& truth) {
+  for (const double f : {2., 20., 37., 60., 110., 150.}) {
+    const Complex s(0., 2. * std::numbers::pi * f);
+    EXPECT_LT(std::abs(found.base_response(s) / truth.base_response(s) - 1.), 2e-2) << f;
+  }
+}
+
+TEST(ModeAboveSampling, AModeAboveTheSamplingOfAHeldSimulationIsFoundThere) {
+  for (const double hz : {470., 530., 700.}) {
+    const NominalModel truth = two_modes(hz, 0.05);
+    expect_response(identify_nominal(simulated(truth, Hold::zero_order)), truth);
+  }
+}
+
+TEST(ModeAboveSampling, AndThatOfOneThatInterpolates) {
+  const NominalModel truth = two_modes(470., 0.05);
+  expect_response(identify_nominal(simulated(truth, Hold::first_order)), truth);
+}
+
+TEST(ModeAboveSampling, AModeOfTheBandStays) {
+  for (const double ratio : {0.02, 0.05, 0.14}) {
+    const NominalModel truth = two_modes(110., ratio);
+    expect_response(identify_nominal(simulated(truth, Hold::zero_order)), truth);
+  }
+}
+
+TEST(ModeAboveSampling, MovesNothingThatIsSampledFromAContinuousMotion) {
+  separation::Bvrm model;
+  model.modes = {separation::make_modal_term(37., 0.05, -2e-5),
+                 separation::make_modal_term(40., 0.65, -2e-6)};
+  const separation::Bvrm same = with_modes_above_sampling(model, Hold::band_limited, rate_hz);
+  EXPECT_EQ(same.modes[1].a0, model.modes[1].a0);
+  const separation::Bvrm moved = with_modes_above_sampling(model, Hold::zero_order, rate_hz);
+  EXPECT_GT(moved.modes[1].frequency_hz(), rate_hz / 2.);
+  EXPECT_NEAR(moved.modes[1].static_gain_kg_m(), -2e-6, 1e-12);
+}
+
+}  // namespace
+}  // namespace vibrissa::diagnosis
