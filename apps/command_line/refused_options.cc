@@ -15,8 +15,8 @@ void refuse_given(const CLI::App& command, const std::vector<std::string>& optio
 
 const std::vector<std::string>& record_option_names() {
   static const std::vector<std::string> names = {
-      "--column", "--rate",     "--rows",      "--remove-mean", "--gaps",
-      "--join",   "--resample", "--separator", "--decimal",     "--header-lines"};
+      "--column", "--rate",     "--rows",      "--remove-mean", "--gaps",        "--join",
+      "--align",  "--resample", "--separator", "--decimal",     "--header-lines"};
   return names;
 }
 
