@@ -85,7 +85,8 @@ void diagnose_records(const DiagnoseCommand& options) {
   options.simulation.check_one_is_given();
   const signals::Dataset real = signals::read_dataset(*options.real, options.record.read_options());
   if (show)
-    for (const std::string& reading : real.readings) std::cerr << reading << std::endl;
+    for (const std::string& reading : signals::short_readings(real.readings))
+      std::cerr << reading << std::endl;
   const NominalInput::Simulation simulation = options.simulation.read(show);
   refuse_the_same(simulation.dataset, real);
   // About forty single effects and combinations are fitted.

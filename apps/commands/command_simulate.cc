@@ -6,6 +6,7 @@
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
 #include "apps/command_line/results.h"
+#include "apps/jobs/fault_warnings.h"
 #include "case/inputs.h"
 #include "case/rig.h"
 #include "case/sensor_model.h"
@@ -80,6 +81,7 @@ void simulate(const SimulateOptions& options) {
   sensor_case::check_reduced_wind(parameters);
   sensor_case::refuse_gravity(parameters, "the reduced model");
   const sensor_case::Inputs inputs = sensor_case::make_inputs(parameters);
+  if (!options.common.quiet && fem::is_first_process()) report_recorded_inputs(parameters);
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
   const auto model =

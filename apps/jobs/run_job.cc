@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "apps/jobs/fault_warnings.h"
 #include "apps/jobs/full_order_check.h"
 #include "case/inputs.h"
 #include "case/rig.h"
@@ -208,6 +209,7 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
   sensor_case::check_reduced_wind(parameters);
   sensor_case::refuse_gravity(parameters, "the job's model");
   const sensor_case::Inputs inputs = sensor_case::make_inputs(parameters);
+  if (!quiet && fem::is_first_process()) report_recorded_inputs(parameters);
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
 
