@@ -17,9 +17,10 @@ void check_options(const ReadOptions& options, const std::string& name) {
   if (options.sampling_rate_hz)
     throw UserError(name + ": states a rate for each channel; leave --rate out");
   if (options.first_row != 1 || options.n_rows)
-    throw UserError(name +
-                    ": its channels have several rates, so a row is not one time; leave --rows out, "
-                    "or choose rows of what 'vibrissa convert' writes");
+    throw UserError(
+        name +
+        ": its channels have several rates, so a row is not one time; leave --rows out, "
+        "or choose rows of what 'vibrissa convert' writes");
 }
 
 bool is_read(const ColumnChoice& choice, const std::vector<Recording>& recordings) {
@@ -35,9 +36,8 @@ void check_all_are_read(const formats::RecordTable& table, const ReadOptions& op
   for (const ColumnChoice& choice : options.columns) {
     if (is_read(choice, recordings)) continue;
     // A column may have its unit behind the name.
-    const bool is_there = std::ranges::any_of(table.columns(), [&](const std::string& name) {
-      return name.starts_with(choice.column);
-    });
+    const bool is_there = std::ranges::any_of(
+        table.columns(), [&](const std::string& name) { return name.starts_with(choice.column); });
     if (failure && is_there) std::rethrow_exception(failure);
     throw UserError(table.place(0) + unknown_name("column", choice.column, table.columns()));
   }

@@ -28,9 +28,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto one = signals::read_recording(first.path(), options);
     const auto other = signals::read_recording(second.path(), options);
     if (const auto shared = signals::shared_channel(one, other))
-      check(signals::joined(one, other,
-                            signals::clocks_of(one, *shared, other, *shared,
-                                               signals::SharedMotion::quantity)));
+      check(signals::joined(
+          one, other,
+          signals::clocks_of(one, *shared, other, *shared, signals::SharedMotion::quantity)));
     else
       check(signals::joined(one, other));
   } catch (const signals::UserError&) {
