@@ -115,65 +115,51 @@ std::vector<Bvrm> one_more_mode(const FrequencyProblem& problem, const FittedBvr
   return starts;
 }
 
-/// Whether data that were not fitted still gain, as the order rises. An order with a mode that does
-/// not decay within the record is no candidate, but a higher one may be.
+/// Whether data that were not fitted still gain, as the order rises.
 class Growth {
  public:
-  Growth(std::span<const Segment> held_out, double rate_hz, const OrderOptions& options,
-         double rounding)
-      : held_out_(held_out), rate_hz_(rate_hz), options_(options), rounding_(rounding) {
+  Growth(std::span<const Segment> fitting, std::span<const Segment> held_out, double rate_hz,
+         const OrderOptions& options, double rounding)
+      : held_out_(held_out),
+        are_hits_(are_hits(fitting)),
+        rate_hz_(rate_hz),
+        options_(options),
+        rounding_(rounding) {
     for (const Segment& segment : held_out)
       duration_s_ += static_cast<double>(segment.base_moment.size()) / rate_hz /
                      options.held_out_share * (1. - options.held_out_share);
   }
 
   bool hear(const FittedBvrm& fit, const OutputErrorOptions& fit_options) {
-    const std::optional<double> lasting_hz = lasting_mode_hz(fit.model, duration_s_);
-    if (lasting_hz && !squares_.empty()) {
-      refused_.push_back(fit.model.order());
-      lasting_hz_ = lasting_hz;
-      return ++fruitless_ < options_.fruitless_orders;
-    }
+    lasting_hz_ = are_hits_ ? std::nullopt : lasting_mode_hz(fit.model, duration_s_);
+    if (lasting_hz_ && !squares_.empty()) return false;
     squares_.push_back(squares(output_errors(fit.model, held_out_, rate_hz_, fit_options)));
-    candidates_.push_back(fit);
     constexpr double significant = 2.;  // standard deviations
-    const bool gains =
-        mean_difference_significance(squares_[gained_], squares_.back()) > significant;
-    if (gains) gained_ = squares_.size() - 1;
-    if (gains || squares_.size() == 1)
-      fruitless_ = 0;
-    else
-      ++fruitless_;
-    return mean(squares_.back()) > rounding_ && fruitless_ < options_.fruitless_orders;
+    if (mean_difference_significance(squares_[gained_], squares_.back()) > significant)
+      gained_ = squares_.size() - 1;
+    return mean(squares_.back()) > rounding_ &&
+           squares_.size() - 1 - gained_ < options_.fruitless_orders;
   }
 
-  /// The fits that may be selected, ascending, and their squared errors on held-out data.
-  const std::vector<FittedBvrm>& candidates() const { return candidates_; }
   const std::vector<std::vector<double>>& held_out_squares() const { return squares_; }
+  bool still_gains() const { return gained_ + 1 == squares_.size() && gained_ > 0; }
 
   std::string words() const {
-    if (refused_.empty()) return {};
-    std::string orders;
-    for (const std::size_t order : refused_)
-      orders += (orders.empty() ? "" : ", ") + std::to_string(order);
-    const bool is_one = refused_.size() == 1;
-    return std::string("; ") + (is_one ? "order " : "orders ") + orders +
-           (is_one ? " was not considered, because its mode at "
-                   : " were not considered, because the mode of the last one at ") +
+    if (!lasting_hz_ || squares_.empty()) return {};
+    return "; order " + std::to_string(2 * squares_.size() + 2) +
+           " was not considered, because its mode at " +
            signals::to_text(std::round(10. * *lasting_hz_) / 10.) +
            " Hz does not decay within the record";
   }
 
  private:
   std::span<const Segment> held_out_;
+  bool are_hits_;
   double rate_hz_;
   const OrderOptions& options_;
   double rounding_, duration_s_ = 0.;
-  std::vector<FittedBvrm> candidates_;
-  std::vector<std::vector<double>> squares_;  // of each candidate
-  std::size_t gained_ = 0;                    // place of the last candidate that gained
-  std::size_t fruitless_ = 0;                 // orders since then
-  std::vector<std::size_t> refused_;
+  std::vector<std::vector<double>> squares_;  // of each order
+  std::size_t gained_ = 0;                    // place of the last order that gained
   std::optional<double> lasting_hz_;
 };
 
@@ -189,18 +175,19 @@ class Comparison {
     for (const Segment& segment : fitting)
       moment = std::max(moment, mean_square(segment.base_moment));
     rounding_ = 1e-20 * moment;
-    growth_.emplace(held_out, rate_hz, options, rounding_);
-    fit_orders(
+    growth_.emplace(fitting, held_out, rate_hz, options, rounding_);
+    fits_ = fit_orders(
         response_of(fitting, rate_hz, options.period_samples), fitting, rate_hz, max_order,
         options.delay_s, fit, [&](const FittedBvrm& found) { return growth_->hear(found, fit); },
         starts);
-    if (fits().empty())
+    if (fits_.empty())
       throw UserError(
           "order selection: the frequency response of the fitting parts does not determine even "
           "two poles; excite more lines");
+    fits_.resize(growth_->held_out_squares().size());
   }
 
-  const std::vector<FittedBvrm>& fits() const { return growth_->candidates(); }
+  const std::vector<FittedBvrm>& fits() const { return fits_; }
   const Growth& growth() const { return *growth_; }
   double rounding() const { return rounding_; }
   std::vector<double> errors_of(const FittedBvrm& fit) const {
@@ -209,8 +196,8 @@ class Comparison {
 
   std::vector<OrderTrial> trials() const {
     std::vector<OrderTrial> trials;
-    for (std::size_t i = 0; i < fits().size(); ++i) {
-      OrderTrial trial{.order = fits()[i].model.order(), .fit = fits()[i]};
+    for (std::size_t i = 0; i < fits_.size(); ++i) {
+      OrderTrial trial{.order = fits_[i].model.order(), .fit = fits_[i]};
       const std::vector<double> error = errors_of(trial.fit);
       const auto n = static_cast<double>(error.size());
       trial.fitted_mean_square = mean_square(error);
@@ -229,6 +216,7 @@ class Comparison {
   OutputErrorOptions fit_options_;
   double rounding_ = 0.;
   std::optional<Growth> growth_;
+  std::vector<FittedBvrm> fits_;
 };
 
 /// Comparisons of raw segments under every hold; the best hold first.
@@ -253,14 +241,12 @@ Comparison with_best_hold(const Parts& raw, double rate_hz, const OrderOptions& 
   return std::move(*best);
 }
 
-/// Nothing unless every segment begins with one hit.
+/// Nothing unless they are hits.
 std::optional<signals::FrequencyResponse> response_to_hits(std::span<const Segment> segments,
                                                            double rate_hz) {
+  if (!are_hits(segments)) return std::nullopt;
   std::size_t length = std::numeric_limits<std::size_t>::max();
-  for (const Segment& segment : segments) {
-    if (hits_of(segment.base_acceleration).size() != 1) return std::nullopt;
-    length = std::min(length, segment.base_moment.size());
-  }
+  for (const Segment& segment : segments) length = std::min(length, segment.base_moment.size());
   constexpr std::size_t longest = 8192;
   length = std::min(length, longest);
   signals::RealFft fft(length);
@@ -299,6 +285,12 @@ std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
   return lasting->frequency_hz();
 }
 
+bool are_hits(std::span<const Segment> segments) {
+  return std::ranges::all_of(segments, [](const Segment& segment) {
+    return hits_of(segment.base_acceleration).size() == 1;
+  });
+}
+
 signals::FrequencyResponse response_of(std::span<const Segment> segments, double rate_hz,
                                        std::size_t period_samples) {
   if (period_samples == 0)
@@ -332,8 +324,7 @@ std::vector<FittedBvrm> fit_orders(const signals::FrequencyResponse& response,
     if (!fits.empty())
       for (Bvrm& warm : one_more_mode(problem, fits.back(), options.direct_term))
         starts.push_back(std::move(warm));
-    for (const FittedBvrm& further : further_starts)
-      if (further.model.order() == start->model.order()) starts.push_back(further.model);
+    if (fits.size() < further_starts.size()) starts.push_back(further_starts[fits.size()].model);
     std::optional<FittedBvrm> best;
     for (const Bvrm& model : starts) {
       FittedBvrm fit = refine_output_error(model, segments, sampling_rate_hz, options);

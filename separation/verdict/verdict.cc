@@ -126,7 +126,7 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
       [&](std::size_t k) -> std::optional<std::string> {
         Bvrm alone;
         alone.modes = {fit.model.modes[k]};
-        if (!lasting_mode_hz(alone, duration_s)) return std::nullopt;
+        if (identification.n_hits > 0 || !lasting_mode_hz(alone, duration_s)) return std::nullopt;
         return "it does not decay within the record";
       },
       verdict);
