@@ -100,13 +100,42 @@ void refuse_unread(const CaseFile& file, const std::vector<std::string>& texts,
   }
 }
 
-void set_entry(CaseFile& file, const std::string& text) {
+/// One replacement of an entry.
+struct Setting {
+  std::string section, entry, value;
+  std::string path() const { return section + "/" + entry; }
+};
+
+Setting parse_setting(const std::string& text) {
   const auto [path, value] = split(text, "--set");
   const auto slash = path.rfind('/');
   if (slash == std::string::npos) {
     throw UserError("--set: '" + path + "' has no '/'; write SECTION/ENTRY=VALUE");
   }
-  file.set(path.substr(0, slash), path.substr(slash + 1), value, "--set");
+  return {path.substr(0, slash), path.substr(slash + 1), value};
+}
+
+bool changes_resonances(const Setting& setting) {
+  return setting.path().starts_with("Geometry/") || setting.path().starts_with("Materials/") ||
+         setting.path() == "Model/Mesh file" || setting.path() == "Transient/Gravity";
+}
+
+void set_entries(CaseFile& file, const std::vector<std::string>& texts) {
+  bool is_changed = false, is_noted = false;
+  for (const std::string& text : texts) {
+    const Setting setting = parse_setting(text);
+    file.set(setting.section, setting.entry, setting.value, "--set");
+    is_noted = is_noted || setting.path() == "Model/Calibration note";
+    is_changed = is_changed || changes_resonances(setting);
+  }
+  if (is_changed && !is_noted) file.set("Model", "Calibration note", "", "--set");
+}
+
+void refuse_unused(const CaseUse use, const CaseFile& file, const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) {
+    const std::string reason = why_unused(use, file, parse_setting(text).path());
+    if (!reason.empty()) throw UserError("--set " + text + ": " + reason + "; leave it out");
+  }
 }
 
 }  // namespace
@@ -137,7 +166,8 @@ CaseFile CaseOverrides::load() const {
   }
   if (duration_s) file.set("Records", "Duration", *duration_s, "--duration");
   if (output_folder) file.set("Output", "Folder", *output_folder, "--output");
-  for (const auto& text : settings) set_entry(file, text);
+  set_entries(file, settings);
+  if (use) refuse_unused(*use, file, settings);
   refuse_unread(file, columns, "--column");
   refuse_unread(file, rates, "--rate");
   refuse_unread(file, rows, "--rows");

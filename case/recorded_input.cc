@@ -2,13 +2,11 @@
 
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
-#include "signals/files/record_io.h"
 #include "signals/spectra/resample.h"
 
 namespace vibrissa::sensor_case {
 
-std::vector<double> load_input(const RecordedInput& input, const std::string& channel,
-                               const double sampling_rate_hz, const std::size_t n_samples) {
+signals::Recording read_input(const RecordedInput& input, const std::string& channel) {
   signals::ReadOptions options;
   options.columns = {signals::parse_column_choice(channel + "=" +
                                                   (input.column.empty() ? channel : input.column))};
@@ -17,7 +15,13 @@ std::vector<double> load_input(const RecordedInput& input, const std::string& ch
   options.sampling_rate_hz = input.sampling_rate_hz;
   options.first_row = input.first_row;
   options.n_rows = input.n_rows;
-  const signals::Record record = signals::read_record(input.file, options);
+  return signals::read_recording(input.file, options);
+}
+
+std::vector<double> load_input(const RecordedInput& input, const std::string& channel,
+                               const double sampling_rate_hz, const std::size_t n_samples) {
+  const signals::Recording recording = read_input(input, channel);
+  const signals::Record& record = recording.pieces[recording.longest()];
   const auto values = record.channel(channel);
   std::vector<double> samples(values.begin(), values.end());
   if (input.remove_mean) samples = signals::remove_mean(samples);

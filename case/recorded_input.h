@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "signals/files/record_io.h"
+
 namespace vibrissa::sensor_case {
 
 /// One recorded channel as an input of a run: file, column and rows, and the operations in this
@@ -21,6 +23,10 @@ struct RecordedInput {
   bool remove_mean = false;
   std::optional<std::pair<double, double>> range;  // smallest and largest value after scaling
 };
+
+/// The rows of the channel as they were recorded, scaled, before the other operations. Throws
+/// UserError as read_recording does.
+signals::Recording read_input(const RecordedInput& input, const std::string& channel);
 
 /// Samples of the channel at the sampling rate of the run. Throws UserError as read_record and
 /// resample do, and when there are fewer than n_samples; a longer input is cut. n_samples = 0

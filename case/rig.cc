@@ -1,5 +1,7 @@
 #include "case/rig.h"
 
+#include <algorithm>
+
 #include "signals/base/error.h"
 #include "signals/model/measuring_chain.h"
 
@@ -47,6 +49,16 @@ void check_reduced_wind(const Case& parameters) {
         "Wind/Relative velocity is true, but the wind load of the reduced model does not depend on "
         "the motion of the whisker; use the full-order solid (vibrissa transient), or set "
         "Wind/Relative velocity = false");
+}
+
+void refuse_gravity(const Case& parameters, const std::string& user) {
+  const auto& gravity = parameters.transient.gravity_m_s2;
+  if (std::ranges::all_of(gravity, [](const double g) { return g == 0.; })) return;
+  throw signals::UserError(
+      "Transient/Gravity is not zero, but " + user +
+      " does not contain gravity, which changes the resonances of a sensor that stands or hangs: "
+      "'vibrissa modes' and 'vibrissa transient' do; to go on without it set Transient/Gravity = "
+      "0, 0, 0");
 }
 
 RigRecords measure_on_rig(const signals::ReducedModel& model, const Case& parameters,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "case/case_file.h"
@@ -21,6 +22,9 @@ struct RigRecords {
 /// Throws UserError when the case has drag of relative velocity, which a reduced model does not
 /// support.
 void check_reduced_wind(const Case& parameters);
+/// Throws UserError when the case has gravity, which the solid at rest does not know. `user`: who
+/// asks, for the message.
+void refuse_gravity(const Case& parameters, const std::string& user);
 
 /// Passes base motion, wind and both through the measuring chain of the case
 /// (signals/model/measuring_chain.h); each record has its own noise.

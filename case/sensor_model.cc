@@ -14,9 +14,7 @@ signals::ReducedModel make_reduced_model(const fem::Sensor& sensor,
   model.name = parameters.geometry.fin == meshes::FinShape::none ? "whisker sensor" : "flow sensor";
   model.provenance["program_revision"] = signals::program_revision();
   model.provenance["mesh_sha256"] = sensor.mesh_sha256();
-  if (parameters.model.calibration_note) {
-    model.provenance["calibration"] = *parameters.model.calibration_note;
-  }
+  if (const auto note = sensor.calibration_note()) model.provenance["calibration"] = *note;
   if (parameters.model.sensitivities) {
     signals::Progress progress("sensitivities", fem::n_sensitivity_solutions(parameters),
                                show_progress);

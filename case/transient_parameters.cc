@@ -33,9 +33,11 @@ void TransientParameters::declare(dealii::ParameterHandler& prm) {
   prm.declare_entry("Spectral radius", "0.9", Patterns::Double(0., 1.),
                     "Spectral radius of the integrator at infinite frequency [1]: the factor by "
                     "which one time step multiplies the amplitude there; 1: no numerical damping.");
-  prm.declare_entry("Gravity", "0, 0, 0", Patterns::List(Patterns::Double(), 3, 3),
-                    "Gravity along x, y and z of the base [m/s^2]; the sensor starts in static "
-                    "equilibrium under it. Finite strain only.");
+  prm.declare_entry(
+      "Gravity", "0, 0, 0", Patterns::List(Patterns::Double(), 3, 3),
+      "Gravity along x, y and z of the base [m/s^2]; the sensor starts in static "
+      "equilibrium under it. Finite strain only. 'vibrissa modes' vibrates about that "
+      "equilibrium; the other commands refuse gravity.");
   prm.declare_entry("Force tolerance", "1e-7", Patterns::Double(1e-13, 1e-3),
                     "Newton's iteration ends when the out-of-balance force is at most this share "
                     "of the forces in equilibrium [1].");

@@ -137,7 +137,9 @@ ChannelFacts channel_facts(const signals::Record& record, const std::string& nam
 }
 
 void find_channel_faults(const ChannelFacts& facts, std::vector<Finding>& findings) {
-  const auto with_unit = [&](double value) { return three_digits(value) + " " + facts.unit; };
+  const auto with_unit = [&](double value) {
+    return three_digits(value) + (facts.unit.empty() ? "" : " " + facts.unit);
+  };
   if (facts.drift_per_s) {
     // Above it a model of the response explains less than it leaves (separation/verdict/verdict.h).
     const bool is_most = facts.drift_share > 0.5;

@@ -131,7 +131,10 @@ std::vector<Finding> recording_faults(const signals::DatasetRecord& entry) {
   if (std::ranges::any_of(out, [](const Finding& f) { return f.kind == FindingKind::not_finite; }))
     return out;
   std::vector<diagnosis::Finding> found;
-  if (entry.record.has(channel::base_moment)) diagnosis::check_recording(entry, found);
+  if (entry.record.has(channel::base_moment))
+    diagnosis::check_recording(entry, found);
+  else
+    diagnosis::check_samples(entry, found);
   for (const diagnosis::Finding& finding : found) {
     const std::string name = channel_in(entry.record, finding.message);
     if (!is_found(out, finding.kind, name))

@@ -112,6 +112,7 @@ class ResponseCheck {
   bool check_coherence();
   void check_gain();
   void check_sign();
+  bool is_coherent_above() const;
   void check_aliasing();
   void check_model();
   void report_delay(const separation::Estimate& delay_s);
@@ -213,7 +214,22 @@ void ResponseCheck::check_sign() {
         Severity::limits);
 }
 
-/// Behind a low-pass, the power at half the rate is far below that of the excited band.
+/// What is folded into the upper half of the band does not belong to the response there: the
+/// coherence falls by its share.
+bool ResponseCheck::is_coherent_above() const {
+  constexpr double from = 0.5, to = 0.8, folded = 0.1;  // close to half the rate both are alike
+  const double half_hz = record_.sampling_rate_hz() / 2.;
+  std::vector<double> coherence;
+  for (std::size_t i = 0; i < found_.response.frequency_hz.size(); ++i) {
+    const double f = found_.response.frequency_hz[i] / half_hz;
+    if (f > from && f < to && i < found_.response.coherence.size())
+      coherence.push_back(found_.response.coherence[i]);
+  }
+  return !coherence.empty() && signals::median(coherence) > 1. / (1. + folded);
+}
+
+/// Behind a low-pass, the power at half the rate is far below that of the excited band. A drive
+/// that is white up to there looks the same, but the moment follows it.
 void ResponseCheck::check_aliasing() {
   const double half_hz = record_.sampling_rate_hz() / 2.;
   constexpr double top = 0.95, low_pass = 0.1;
@@ -237,11 +253,12 @@ void ResponseCheck::check_aliasing() {
     if (highest.empty()) return;
     share = signals::median(highest) * power / weighted;
   }
-  if (share > low_pass)
+  if (share > low_pass && !is_coherent_above())
     add(FindingKind::possible_aliasing, channel::base_acceleration, share, "1",
         "base_acceleration_m_s2 has power up to half the sampling rate (" + three_digits(half_hz) +
-            " Hz), so no low-pass acted before sampling: what lies above is folded into the "
-            "record; sample faster or filter before",
+            " Hz), and base_moment_N_m does not follow all of it: no low-pass acted before "
+            "sampling, so what lies above may be folded into the record; sample faster or filter "
+            "before",
         Severity::limits);
 }
 

@@ -29,6 +29,7 @@ sensor_case::Case read_case(const std::string& file, const std::vector<std::stri
   sensor_case::CaseOverrides options;
   options.case_file = file;
   options.settings = settings;
+  options.use = sensor_case::CaseUse::record;
   return options.load().read();
 }
 
@@ -36,6 +37,7 @@ sensor_case::Case read_case(const std::string& file, const std::vector<std::stri
 py::tuple simulate(const std::string& file, const std::vector<std::string>& settings) {
   const sensor_case::Case parameters = read_case(file, settings);
   sensor_case::check_reduced_wind(parameters);
+  sensor_case::refuse_gravity(parameters, "the reduced model");
   const sensor_case::Inputs inputs = sensor_case::make_inputs(parameters);
   if (!session()) session().emplace();
   const fem::Sensor sensor(parameters.sensor);
@@ -53,6 +55,7 @@ py::tuple simulate(const std::string& file, const std::vector<std::string>& sett
 void write_model(const std::string& file, const std::vector<std::string>& settings,
                  const std::string& to) {
   const sensor_case::Case parameters = read_case(file, settings);
+  sensor_case::refuse_gravity(parameters, "the reduced model");
   if (!session()) session().emplace();
   signals::write_reduced_model(to, sensor_case::make_reduced_model(fem::Sensor(parameters.sensor),
                                                                    parameters.sensor, false));

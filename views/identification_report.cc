@@ -1,5 +1,7 @@
 #include "views/identification_report.h"
 
+#include <cmath>
+
 namespace vibrissa::views {
 
 namespace {
@@ -47,7 +49,9 @@ std::string verdict_text(const separation::FittedBvrm& fit, const separation::Ve
   if (!modes.empty()) text += table_of(modes).to_text();
   for (const auto& other : verdict.undetermined) {
     const auto& mode = fit.modes[other.mode];
+    const double deviation = mode.frequency_hz.standard_deviation;
     text += "not determined: " + report::Cell(mode.frequency_hz.value).rounded(6) +
+            (std::isfinite(deviation) ? " ± " + report::Cell(deviation).rounded(2) : "") +
             " Hz, damping ratio " + report::Cell(mode.damping_ratio.value).rounded(4) + ": " +
             other.reason + "\n";
   }

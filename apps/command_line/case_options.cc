@@ -2,18 +2,19 @@
 
 namespace vibrissa::apps {
 
-void CaseOptions::add_settings_to(CLI::App& command) {
+void CaseOptions::add_settings_to(CLI::App& command, const sensor_case::CaseUse used_for) {
+  use = used_for;
   command.add_option("--set", settings,
                      "Sets an entry of the case file: SECTION/ENTRY=VALUE; repeatable");
 }
 
-void CaseOptions::add_case_to(CLI::App& command) {
+void CaseOptions::add_case_to(CLI::App& command, const sensor_case::CaseUse used_for) {
   command.add_option("case", case_file, "Case file (.prm)")->required();
-  add_settings_to(command);
+  add_settings_to(command, used_for);
 }
 
-void CaseOptions::add_to(CLI::App& command) {
-  add_case_to(command);
+void CaseOptions::add_to(CLI::App& command, const sensor_case::CaseUse used_for) {
+  add_case_to(command, used_for);
   command.add_option("--base-acceleration", base_acceleration_file,
                      "File with a recorded base acceleration (CSV, .mat, .h5, .npy, .uff, .wav)");
   command.add_option("--wind", wind_file, "File with a recorded wind speed");

@@ -1,5 +1,6 @@
 #include "apps/command_line/record_options.h"
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -7,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "separation/clocks/joined_by_response.h"
 #include "signals/base/error.h"
 #include "signals/files/joined_recording.h"
 #include "signals/files/row_range.h"
@@ -63,9 +65,17 @@ void add_layout_options(CLI::App& command, RecordOptions& options) {
       .add_option("--decimal", options.decimal,
                   "Decimal mark of a text table (default: recognised)")
       ->check(CLI::IsMember({"point", "comma"}));
-  command.add_option("--join", options.join,
-                     "Further file of another device with the same time; its channels are joined "
-                     "at the sampling times of the slower device");
+  command.add_option(
+      "--join", options.join,
+      "Further file of another device; its channels are joined at the sampling times "
+      "of the slower device");
+  command
+      .add_option(
+          "--align", options.align,
+          "How --join puts both on one clock: stamps, as both have them; motion, offset and "
+          "drift from a channel in both, or from acceleration and moment (default: motion "
+          "where a channel is in both or only one file has dates)")
+      ->check(CLI::IsMember({"stamps", "motion"}));
   command.add_option("--resample", options.resample_hz,
                      "For uneven sampling: even rate [Hz] at which a band-limited signal is "
                      "estimated; its error is said");
@@ -137,6 +147,50 @@ signals::ReadOptions RecordOptions::options_of_each() const {
   return options;
 }
 
+namespace {
+
+/// Where each clock begins at zero, equal stamps prove nothing: the motion is asked.
+void warn_of_other_offset(const signals::Recording& one, const signals::Recording& other) {
+  if (one.epoch_s != 0. || !separation::has_response_between(one, other)) return;
+  try {
+    const signals::ClockRelation clocks = separation::clocks_by_response(one, other).clocks;
+    constexpr double significant = 4., of_a_hold = 1.5;  // deviations, samples
+    const double sample_s = 1. / one.pieces.front().sampling_rate_hz();
+    if (std::abs(clocks.offset_s) > significant * clocks.offset_deviation_s + of_a_hold * sample_s)
+      std::cerr << "warning: --join: by the motion, " << signals::clock_words(clocks)
+                << "; --align motion uses this, --align stamps is what was done" << std::endl;
+  } catch (const signals::UserError&) {
+    // The motion does not tell.
+  }
+}
+
+signals::Recording joined_by_motion(const signals::Recording& one, const signals::Recording& other,
+                                    const std::optional<std::string>& shared) {
+  if (!shared && separation::has_response_between(one, other))
+    return separation::joined_by_response(one, other);
+  if (!shared)
+    throw signals::UserError(
+        "--align motion: the files share no channel; name one that both measured, such as "
+        "base_acceleration, or base_acceleration of one and base_moment of the other (--column)");
+  signals::Recording both = signals::joined(
+      one, other,
+      signals::clocks_of(one, *shared, other, *shared, signals::SharedMotion::quantity));
+  both.words += "; by " + *shared + " in both";
+  return both;
+}
+
+}  // namespace
+
+signals::Recording RecordOptions::join_clocks(const signals::Recording& one,
+                                              const signals::Recording& other) const {
+  const auto shared = signals::shared_channel(one, other);
+  const bool has_one_dates = (one.epoch_s == 0.) != (other.epoch_s == 0.);
+  if (align ? *align == "motion" : shared || has_one_dates)
+    return joined_by_motion(one, other, shared);
+  if (!align) warn_of_other_offset(one, other);
+  return signals::joined(one, other);
+}
+
 // Each file gives the chosen columns that it has; every choice must be in one of them.
 signals::Recording RecordOptions::read_joined(const std::string& file) const {
   signals::ReadOptions options = options_of_each();
@@ -152,10 +206,11 @@ signals::Recording RecordOptions::read_joined(const std::string& file) const {
     say_how_read(file, one.words);
     say_how_read(*join, other.words);
   }
-  return signals::joined(one, other);
+  return join_clocks(one, other);
 }
 
 signals::Recording RecordOptions::read_pieces(const std::string& file) const {
+  if (align && !join) throw signals::UserError("--align needs --join; leave it out");
   signals::Recording recording =
       join ? read_joined(file) : signals::read_recording(file, options_of_each());
   if (!is_quiet()) say_how_read(file, recording.words);

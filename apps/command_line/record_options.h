@@ -23,7 +23,7 @@ struct RecordOptions {
   std::optional<std::string> separator, decimal;
   std::optional<std::size_t> header_lines;
   std::optional<double> resample_hz;
-  std::optional<std::string> join;
+  std::optional<std::string> join, align;
 
   void add_to(CLI::App& command);
   /// The longest piece. Says on standard error how the file was read, which piece this is, and
@@ -41,6 +41,8 @@ struct RecordOptions {
   bool is_quiet() const;
   signals::ReadOptions options_of_each() const;
   signals::Recording read_joined(const std::string& file) const;
+  signals::Recording join_clocks(const signals::Recording& one,
+                                 const signals::Recording& other) const;
 
   const CLI::App* command_ = nullptr;
 };

@@ -6,6 +6,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/refused_options.h"
 #include "report/files/run_folder.h"
 #include "report/pictures.h"
 #include "reproduction/paper_rig.h"
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SuiteOptions {
+  const CLI::App* command = nullptr;
   CommonOptions common;
   std::string flow_case = "cases/flow_sensor.prm";
   std::string recordings;
@@ -60,6 +62,10 @@ std::string report_text(const std::vector<suite::ScenarioResult>& results,
 
 void benchmark_separation(const SuiteOptions& options) {
   report::RunFolder::refuse_taken(options.folder);
+  if (options.datasets.empty()) {
+    refuse_given(*options.command, {"--truth-column"}, "needs --dataset");
+    refuse_given(*options.command, record_option_names(), "needs --dataset");
+  }
   const bool quiet = options.common.quiet || options.common.json;
   std::vector<std::string> left_out;
   const auto scenarios = scenarios_of(options, !quiet, left_out);
@@ -100,6 +106,7 @@ void add_benchmark_command(CLI::App& app) {
   auto* command = benchmark->add_subcommand(
       "separation",
       "Runs all separation methods on all scenarios; writes one table and one picture");
+  options->command = command;
   command->add_option("--flow-case", options->flow_case, "Case of the flow sensor")
       ->capture_default_str();
   command->add_option("--recordings", options->recordings,

@@ -6,8 +6,10 @@
 #include "apps/command_line/case_options.h"
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/refused_options.h"
 #include "apps/command_line/results.h"
 #include "apps/jobs/measured_response.h"
+#include "case/rig.h"
 #include "fem/linalg/solver_session.h"
 #include "fem/sensor/reduction.h"
 #include "report/pictures.h"
@@ -21,6 +23,7 @@ namespace vibrissa::apps {
 namespace {
 
 struct BodeOptions {
+  const CLI::App* command = nullptr;
   CommonOptions common;
   RecordOptions record;
   std::string input;
@@ -46,6 +49,7 @@ views::BodeCurve of_case(const BodeOptions& options) {
   CaseOptions chosen = options.chosen;
   chosen.case_file = options.input;
   const sensor_case::Case parameters = chosen.load().read();
+  sensor_case::refuse_gravity(parameters, "the reduced model");
   const fem::SolverSession session;
   auto model = fem::reduce(fem::Sensor(parameters.sensor));
   model.name = "simulated sensor";
@@ -65,12 +69,16 @@ MeasuredResponse make_response(const BodeOptions& options) {
   const auto extension = std::filesystem::path(options.input).extension();
   if (extension != ".prm" && !options.chosen.is_plain())
     throw signals::UserError("--set is for case files (.prm), which " + options.input + " is not");
-  if (extension != ".prm" && extension != ".json") return of_record(options);
-  if (options.response.method || options.response.period_samples > 0 ||
-      !options.realisations.empty()) {
-    throw signals::UserError("--method, --period and --realisation are for records, and " +
-                             options.input + " is a model");
+  if (extension != ".prm" && extension != ".json") {
+    refuse_given(*options.command, {"--low", "--high"},
+                 "is for the diagram of a model, and " + options.input + " is a record");
+    if (options.response.method.value_or("welch") != "welch" || options.response.period_samples > 0)
+      refuse_given(*options.command, {"--segment"}, "is for --method welch");
+    return of_record(options);
   }
+  const std::string reason = "is for records, and " + options.input + " is a model";
+  refuse_given(*options.command, {"--method", "--period", "--realisation", "--segment"}, reason);
+  refuse_given(*options.command, record_option_names(), reason);
   return {extension == ".prm" ? of_case(options)
                               : of_model(signals::read_reduced_model(options.input), options),
           {},
@@ -129,7 +137,8 @@ void add_bode_command(CLI::App& app) {
       ->add_option("input", options->input,
                    "Case file (.prm), reduced model (model.json of 'vibrissa run') or record")
       ->required();
-  options->chosen.add_settings_to(*command);
+  options->command = command;
+  options->chosen.add_settings_to(*command, sensor_case::CaseUse::response);
   command->add_option(
       "-o,--output,--out", options->folder,
       "New folder for plot, picture and response.csv (default: results/bode, or results/bode-2, "

@@ -5,6 +5,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/refused_options.h"
 #include "signals/base/error.h"
 #include "signals/files/file_format.h"
 #include "signals/files/record_io.h"
@@ -15,6 +16,7 @@ namespace vibrissa::apps {
 namespace {
 
 struct ConvertOptions {
+  const CLI::App* command = nullptr;
   CommonOptions common;
   RecordOptions record;
   std::string from, to;
@@ -24,9 +26,9 @@ struct ConvertOptions {
 };
 
 void convert_response(const ConvertOptions& options) {
-  if (options.mat_version != "5")
-    throw signals::UserError("--mat-version " + options.mat_version +
-                             " is for records; frequency responses are written as version 5");
+  const std::string reason = "is for records; --frequency-response reads none";
+  refuse_given(*options.command, {"--mat-version"}, reason);
+  refuse_given(*options.command, record_option_names(), reason);
   const auto response = signals::formats::read_response(options.from, {options.response_as});
   signals::formats::write_response(options.to, response,
                                    std::filesystem::path(options.from).stem().string());
@@ -52,6 +54,8 @@ std::string file_of_piece(const std::string& file, const std::size_t piece) {
 }
 
 void convert(const ConvertOptions& options) {
+  if (signals::formats::extension_of(options.to) != ".mat")
+    refuse_given(*options.command, {"--mat-version"}, "is for files that end in .mat");
   const signals::Recording recording = options.record.read_pieces(options.from);
   nlohmann::json written = nlohmann::json::array();
   const bool is_one = recording.pieces.size() == 1;
@@ -75,6 +79,7 @@ void add_convert_command(CLI::App& app) {
       "convert",
       "Converts a record from one file format to another, units to SI; where samples are lost, "
       "each piece becomes a file (OUT_1, OUT_2, ...)");
+  options->command = command;
   command
       ->add_option("from", options->from,
                    "Record: .csv, .mat (MATLAB 4, 5, 7.3), .h5, .hdf5, .npy, .uff, .unv, .uf58 "

@@ -5,6 +5,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/refused_options.h"
 #include "apps/commands/resonance_diagnosis.h"
 #include "apps/jobs/nominal_input.h"
 #include "diagnosis/diagnosis_json.h"
@@ -22,6 +23,7 @@ namespace vibrissa::apps {
 namespace {
 
 struct DiagnoseCommand {
+  const CLI::App* command = nullptr;
   CommonOptions common;
   NominalInput simulation;
   ResonanceInput figures;  // in place of records
@@ -83,7 +85,8 @@ void diagnose_records(const DiagnoseCommand& options) {
   options.simulation.check_one_is_given();
   const signals::Dataset real = signals::read_dataset(*options.real, options.record.read_options());
   if (show)
-    for (const std::string& reading : real.readings) std::cerr << reading << std::endl;
+    for (const std::string& reading : signals::short_readings(real.readings))
+      std::cerr << reading << std::endl;
   const NominalInput::Simulation simulation = options.simulation.read(show);
   refuse_the_same(simulation.dataset, real);
   // About forty single effects and combinations are fitted.
@@ -111,6 +114,10 @@ void diagnose(const DiagnoseCommand& options) {
     throw signals::UserError(
         "--resonance, --damping and --example compare resonances, --real and --sim compare "
         "records; give either resonances or records");
+  const std::string reason = "is for records, and two resonances are compared";
+  refuse_given(*options.command, record_option_names(), reason);
+  refuse_given(*options.command,
+               {"--simulation-accuracy", "--time-limit", "--max-effects", "--bench-can"}, reason);
   diagnose_resonances(options.figures, options.simulation, options.common, options.folder);
 }
 
@@ -134,6 +141,7 @@ void add_diagnose_command(CLI::App& app) {
       app.add_subcommand("diagnose",
                          "Finds why records differ from the simulation: the cause, where the gap "
                          "lies, and the improvement once the cause is added");
+  options->command = command;
   command->add_option(
       "--model", options->simulation.model,
       "The simulation as a case file (.prm), a reduced model or an updated model (.json); this "

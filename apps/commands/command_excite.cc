@@ -12,6 +12,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/refused_options.h"
 #include "apps/command_line/results.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
@@ -47,6 +48,7 @@ const std::map<std::string, WavFormat> formats{{"float32", WavFormat::float32},
                                                {"pcm24", WavFormat::pcm24}};
 
 struct ExciteOptions {
+  const CLI::App* command = nullptr;
   CommonOptions common;
   signals::ExcitationDesign design;
   std::string kind = "multisine", grid = "random-odd", phase = "optimised", sweep = "logarithmic",
@@ -196,8 +198,20 @@ void print_text(const ExciteOptions& options, const signals::DesignedExcitation&
   std::cout << "written to " << folder.string() << "\n";
 }
 
+void refuse_unused(const ExciteOptions& options) {
+  const auto refuse = [&](const std::vector<std::string>& names, const std::string& reason) {
+    refuse_given(*options.command, names, reason);
+  };
+  if (options.kind != "multisine") refuse({"--grid", "--group", "--phase"}, "is for a multisine");
+  if (options.kind != "sweep") refuse({"--sweep", "--fade"}, "is for --kind sweep");
+  if (options.kind == "sweep") refuse({"--seed"}, "is for random drives, which a sweep is not");
+  if (options.grid != "random-odd") refuse({"--group"}, "is for --grid random-odd");
+  if (!options.wav) refuse({"--wav-format"}, "needs --wav");
+}
+
 void excite(const ExciteOptions& options) {
   check_options(options);
+  refuse_unused(options);
   const auto excitation = signals::design_excitation(resolved(options));
   nlohmann::json document = signals::to_json(excitation);
   std::optional<fs::path> folder;
@@ -257,6 +271,7 @@ void add_excite_command(CLI::App& app) {
       app.add_subcommand("excite",
                          "Designs the wanted motion of the base (the shaker's own response is not "
                          "corrected): multisine with detection lines, sweep or noise");
+  options->command = command;
   add_signal_options(*command, *options);
   auto& design = options->design;
   command->add_option("--periods", design.n_periods, "Number of periods to be recorded")

@@ -6,6 +6,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/refused_options.h"
 #include "apps/command_line/results.h"
 #include "apps/jobs/fault_warnings.h"
 #include "separation/identification/identify.h"
@@ -25,6 +26,7 @@ namespace {
 constexpr int highest_order = 40;
 
 struct IdentifyCommandOptions {
+  const CLI::App* command = nullptr;
   CommonOptions common;
   RecordOptions record;
   std::string record_file;
@@ -38,21 +40,11 @@ struct IdentifyCommandOptions {
   std::string response_as;
 };
 
-using GivenOptions = std::vector<std::pair<bool, std::string>>;
-
-void refuse(const GivenOptions& given, const std::string& reason) {
-  for (const auto& [is_given, name] : given)
-    if (is_given) throw signals::UserError(name + reason + "; leave one of them out");
-}
-
 /// Those that only a record of acceleration and moment has a use for.
-GivenOptions options_of_records(const IdentifyCommandOptions& options) {
-  return {{options.held_out_file.has_value(), "--held-out"},
-          {options.c_header_file.has_value(), "--c-header"},
-          {options.hold.has_value(), "--hold"},
-          {options.cross_validation, "--cross-validation"},
-          {options.identify.period_samples > 0, "--period"},
-          {options.method != "output-error", "--method"}};
+const std::vector<std::string>& options_of_records() {
+  static const std::vector<std::string> names = {"--held-out",         "--c-header", "--hold",
+                                                 "--cross-validation", "--period",   "--method"};
+  return names;
 }
 
 /// The model is written unless only JSON was asked for.
@@ -65,27 +57,29 @@ void say_written(const IdentifyCommandOptions& options, const std::optional<std:
   if (file && !options.common.quiet) std::cout << "model: " << *file << "\n";
 }
 
-void refuse_what_needs_an_input(const IdentifyCommandOptions& options) {
-  const std::string reason = " needs the base acceleration; --output-only does not use it";
-  refuse(options_of_records(options), reason);
-  refuse({{options.model_file.has_value(), "-o"},
-          {options.no_direct_term, "--no-direct-term"},
-          {options.frequency_response, "--frequency-response"}},
-         reason);
+void refuse_what_needs_an_input(const CLI::App& command) {
+  const std::string reason = "needs the base acceleration; --output-only does not use it";
+  refuse_given(command, options_of_records(), reason);
+  refuse_given(command, {"-o", "--no-direct-term", "--frequency-response", "--response-as"},
+               reason);
+  refuse_given(command, {"--max-order"}, "is not used by --output-only, whose highest is --order");
 }
 
-void refuse_what_needs_a_record(const IdentifyCommandOptions& options) {
-  const std::string reason = " is for records; --frequency-response reads none";
-  refuse(options_of_records(options), reason);
-  refuse({{!options.record.columns.empty(), "--column"},
-          {options.record.rate_hz.has_value(), "--rate"},
-          {options.record.rows.has_value(), "--rows"},
-          {!options.record.remove_mean.empty(), "--remove-mean"}},
-         reason);
+void refuse_what_needs_a_record(const CLI::App& command) {
+  const std::string reason = "is for records; --frequency-response reads none";
+  refuse_given(command, options_of_records(), reason);
+  refuse_given(command, record_option_names(), reason);
+}
+
+void refuse_unused(const CLI::App& command, const IdentifyCommandOptions& options) {
+  if (!options.output_only) refuse_given(command, {"--lags"}, "is for --output-only");
+  if (options.identify.order && !options.output_only)
+    refuse_given(command, {"--max-order", "--cross-validation"},
+                 "chooses an order, and --order states it");
 }
 
 void identify_from_response(const IdentifyCommandOptions& options) {
-  refuse_what_needs_a_record(options);
+  refuse_what_needs_a_record(*options.command);
   const signals::FrequencyResponse response =
       signals::formats::read_response(options.record_file, {options.response_as});
   if (response.coherence.empty() && response.standard_deviation.empty())
@@ -114,7 +108,7 @@ void identify_from_response(const IdentifyCommandOptions& options) {
 }
 
 void identify_from_output(const IdentifyCommandOptions& options) {
-  refuse_what_needs_an_input(options);
+  refuse_what_needs_an_input(*options.command);
   const signals::Record record = options.record.read(options.record_file);
   separation::OutputOnlyOptions output_only;
   output_only.max_lags = options.max_lags;
@@ -212,6 +206,7 @@ void add_other_inputs(CLI::App& command, IdentifyCommandOptions& options) {
 void identify_what_is_given(IdentifyCommandOptions options) {
   refuse_overwriting({options.record_file, options.held_out_file},
                      {options.model_file, options.c_header_file});
+  refuse_unused(*options.command, options);
   if (!options.response_as.empty()) options.frequency_response = true;
   if (options.output_only)
     identify_from_output(options);
@@ -228,6 +223,7 @@ void add_identify_command(CLI::App& app) {
   auto* command = app.add_subcommand("identify",
                                      "Identifies the base vibration response model (BVRM) from a "
                                      "record of base acceleration and moment");
+  options->command = command;
   command->add_option("record", options->record_file, "Record, or frequency response")->required();
   command->add_option(
       "--held-out", options->held_out_file,

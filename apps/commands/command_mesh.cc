@@ -86,7 +86,7 @@ void add_mesh_command(CLI::App& app) {
   const auto options = std::make_shared<MeshOptions>();
   auto* command =
       app.add_subcommand("mesh", "Checks a sensor's mesh: volumes, masses, areas, cell quality");
-  options->chosen.add_case_to(*command);
+  options->chosen.add_case_to(*command, sensor_case::CaseUse::mesh);
   command->add_option(
       "--calculix", options->calculix_file,
       "Also writes the mesh as a CalculiX/Abaqus input file (.inp) for a modal analysis");

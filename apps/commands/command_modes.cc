@@ -6,6 +6,7 @@
 #include "apps/command_line/case_options.h"
 #include "apps/command_line/command.h"
 #include "fem/linalg/solver_session.h"
+#include "signals/base/error.h"
 #include "views/mode_table.h"
 
 namespace vibrissa::apps {
@@ -53,16 +54,30 @@ void print_convergence(const nlohmann::json& document) {
   }
 }
 
+void say_gravity(const std::array<double, 3>& gravity_m_s2) {
+  if (gravity_m_s2 == std::array<double, 3>{}) return;
+  std::cout << "Vibration about the equilibrium under gravity of " << gravity_m_s2[0] << ", "
+            << gravity_m_s2[1] << ", " << gravity_m_s2[2] << " m/s^2 (x, y, z)\n";
+}
+
 void show_modes(const ModesOptions& options) {
-  const sensor_case::Case parameters = options.chosen.load().read();
+  sensor_case::Case parameters = options.chosen.load().read();
+  parameters.sensor.gravity_m_s2 = parameters.transient.gravity_m_s2;
+  const bool has_mesh_file = parameters.sensor.model.mesh_file.has_value();
+  if (options.first_resolution && (!options.convergence || has_mesh_file))
+    throw signals::UserError(std::string("--refine-from changes nothing, because ") +
+                             (has_mesh_file ? "the case has a Mesh file, which is not refined"
+                                            : "--no-convergence leaves the refinement out") +
+                             "; leave it out");
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
   nlohmann::json document = views::modes_json(sensor);
-  const bool refined = options.convergence && !parameters.sensor.model.mesh_file;
+  document["gravity_m_s2"] = parameters.sensor.gravity_m_s2;
+  const bool refined = options.convergence && !has_mesh_file;
   const unsigned int own = parameters.sensor.model.mesh_resolution;
   const unsigned int first = options.first_resolution.value_or(own);
   if (refined) document["convergence"] = convergence_json(views::refine(sensor, first));
-  const auto& note = parameters.sensor.model.calibration_note;
+  const auto note = sensor.calibration_note();
   if (note) document["calibration_note"] = *note;
   if (options.common.json) {
     print_json(document);
@@ -73,6 +88,7 @@ void show_modes(const ModesOptions& options) {
             << " kg\n";
   if (refined) print_convergence(document["convergence"]);
   if (note) std::cout << "Calibrated: " << *note << "\n";
+  say_gravity(parameters.sensor.gravity_m_s2);
 }
 
 }  // namespace
@@ -82,7 +98,7 @@ void add_modes_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "modes",
       "Computes resonances of a sensor, with damping, effective masses and mesh convergence");
-  options->chosen.add_case_to(*command);
+  options->chosen.add_case_to(*command, sensor_case::CaseUse::modes);
   command->add_flag_callback(
       "--no-convergence", [options] { options->convergence = false; },
       "Leaves out the finer meshes of the refinement table");
@@ -95,7 +111,8 @@ void add_modes_command(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  vibrissa modes sensor.prm\n"
-      "  vibrissa modes sensor.prm --no-convergence --set Materials/Silicone/c1=2.4e5 --json");
+      "  vibrissa modes sensor.prm --no-convergence --set Materials/Silicone/c1=2.4e5 --json\n"
+      "  vibrissa modes sensor.prm --set 'Transient/Gravity=0, 0, -9.81'     (standing upright)");
   command->callback([options] { show_modes(*options); });
 }
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "apps/command_line/command.h"
+#include "apps/command_line/refused_options.h"
 #include "apps/jobs/nominal_input.h"
 #include "diagnosis/planning/experiment_plan_json.h"
 #include "report/files/run_folder.h"
@@ -18,6 +19,7 @@ namespace vibrissa::apps {
 namespace {
 
 struct PlanCommand {
+  const CLI::App* command = nullptr;
   CommonOptions common;
   NominalInput nominal;
   std::optional<std::string> records;
@@ -78,6 +80,10 @@ NominalInput::Simulation simulation_of(const PlanCommand& options, bool show) {
 
 void plan(const PlanCommand& options) {
   report::RunFolder::refuse_taken(options.folder);
+  if (options.records || options.nominal.simulation)
+    refuse_given(*options.command, {"--rate"},
+                 std::string("is for planned records, and ") +
+                     (options.records ? "--records" : "--sim") + " gives records with their rate");
   const bool show = options.common.is_talkative();
   const NominalInput::Simulation simulation = simulation_of(options, show);
   const diagnosis::NominalModel& nominal = simulation.model.nominal;
@@ -132,6 +138,7 @@ void add_plan_command(CLI::App& app) {
   auto* command = app.add_subcommand("plan",
                                      "Tells, before there are data, which effects an experiment "
                                      "can detect and distinguish, and what to measure first");
+  options->command = command;
   add_options(*command, *options);
   add_common_options(*command, options->common);
   command->footer(

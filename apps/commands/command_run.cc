@@ -42,7 +42,7 @@ void add_run_command(CLI::App& app) {
   auto* command = app.add_subcommand("run",
                                      "Simulates a sensor, identifies its vibration response, "
                                      "separates wind from vibration; writes a results folder");
-  options->chosen.add_to(*command);
+  options->chosen.add_to(*command, sensor_case::CaseUse::whole_job);
   options->chosen.add_folder_to(*command);
   add_common_options(*command, options->common);
   command->footer(

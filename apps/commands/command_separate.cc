@@ -6,6 +6,7 @@
 
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
+#include "apps/command_line/refused_options.h"
 #include "apps/command_line/results.h"
 #include "apps/jobs/fault_warnings.h"
 #include "apps/jobs/model_advice.h"
@@ -29,6 +30,7 @@ namespace vibrissa::apps {
 namespace {
 
 struct SeparateOptions {
+  const CLI::App* command = nullptr;
   CommonOptions common;
   RecordOptions record;
   std::string record_file;
@@ -152,7 +154,32 @@ std::optional<std::string> written_file(const SeparateOptions& options) {
   return given_or_result(options.output_file, "separate", "separated.csv");
 }
 
+bool uses_any(const SeparateOptions& options, const std::vector<std::string>& methods) {
+  return std::ranges::any_of(options.methods, [&](const std::string& name) {
+    return std::ranges::count(methods, name) > 0;
+  });
+}
+
+void refuse_unused(const SeparateOptions& options) {
+  const CLI::App& command = *options.command;
+  if (!options.model_file || diagnosis::is_updated_model(*options.model_file))
+    refuse_given(command, {"--hold"}, "needs --model with a model of 'vibrissa identify'");
+  if (!uses_any(options, {"fdaf", "kalman"}))
+    refuse_given(command, {"--block"}, "needs --method fdaf or kalman");
+  if (!uses_any(options, {"fdaf", "kalman", "nlms"}))
+    refuse_given(command, {"--taps"}, "needs --method fdaf, kalman or nlms");
+  if (!uses_any(options, {"fdaf"})) refuse_given(command, {"--step"}, "needs --method fdaf");
+  if (!options.sensor_model_file)
+    refuse_given(command, {"--moment-deviation"}, "needs --sensor-model");
+  if (options.stream)
+    refuse_given(command, {"--settling"}, "is for scores, which --stream does not give");
+  if (options.record.join)
+    refuse_given(command, {"--truth", "--stream"},
+                 "reads one file: join the files first by 'vibrissa convert --join'");
+}
+
 void separate(const SeparateOptions& options) {
+  refuse_unused(options);
   refuse_overwriting({options.record_file, options.model_file, options.sensor_model_file},
                      {options.output_file, options.dtw_path_file});
   if (options.stream) return separate_as_stream(options);
@@ -220,6 +247,7 @@ void add_separate_command(CLI::App& app) {
   auto* command = app.add_subcommand(
       "separate",
       "Separates the wind part of a record's base moment, by a BVRM or by an adaptive filter");
+  options->command = command;
   command
       ->add_option(
           "record", options->record_file,

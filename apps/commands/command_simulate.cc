@@ -6,6 +6,7 @@
 #include "apps/command_line/command.h"
 #include "apps/command_line/record_options.h"
 #include "apps/command_line/results.h"
+#include "apps/jobs/fault_warnings.h"
 #include "case/inputs.h"
 #include "case/rig.h"
 #include "case/sensor_model.h"
@@ -78,7 +79,9 @@ void simulate(const SimulateOptions& options) {
   const sensor_case::Case parameters = options.chosen.load().read();
   refuse_overwriting(recordings_of(parameters), outputs);
   sensor_case::check_reduced_wind(parameters);
+  sensor_case::refuse_gravity(parameters, "the reduced model");
   const sensor_case::Inputs inputs = sensor_case::make_inputs(parameters);
+  if (!options.common.quiet && fem::is_first_process()) report_recorded_inputs(parameters);
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
   const auto model =
@@ -95,7 +98,7 @@ void add_simulate_command(CLI::App& app) {
   const auto options = std::make_shared<SimulateOptions>();
   auto* command = app.add_subcommand(
       "simulate", "Simulates a record: base moment under base vibration and wind, with noise");
-  options->chosen.add_to(*command);
+  options->chosen.add_to(*command, sensor_case::CaseUse::record);
   command->get_option("case")->description(
       "Case file (.prm), or updated_model.json of a diagnosis together with --inputs");
   command->add_option("-o,--output,--out,--record", options->record_file,

@@ -9,6 +9,7 @@
 #include "apps/command_line/command.h"
 #include "apps/jobs/steady_curves.h"
 #include "case/case_file.h"
+#include "case/rig.h"
 #include "fem/linalg/solver_session.h"
 #include "report/files/run_folder.h"
 #include "report/pictures.h"
@@ -65,8 +66,11 @@ std::vector<SteadyCurves> make_curves(const StaticCommandOptions& options) {
   const auto base = logarithmic(options.base_g, "acceleration", reproduction::paper::g_m_s2);
   const auto names = names_of(options.case_files);
   std::vector<fem::SensorParameters> sensors;
-  for (const auto& file : options.case_files)
-    sensors.push_back(sensor_case::CaseFile(file).read().sensor);
+  for (const auto& file : options.case_files) {
+    const sensor_case::Case parameters = sensor_case::CaseFile(file).read();
+    sensor_case::refuse_gravity(parameters, "the steady curve");
+    sensors.push_back(parameters.sensor);
+  }
   const fem::SolverSession session;
   signals::Progress progress("equilibria", sensors.size() * (wind.size() + base.size()),
                              options.common.is_talkative());

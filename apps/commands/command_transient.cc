@@ -77,7 +77,7 @@ void add_transient_command(CLI::App& app) {
       app.add_subcommand("transient",
                          "Integrates the whole solid in time at finite or small strain: base "
                          "moment, energies, fields; an interrupted run can be resumed");
-  options->chosen.add_to(*command);
+  options->chosen.add_to(*command, sensor_case::CaseUse::transient);
   options->chosen.add_folder_to(*command);
   command->get_option("case")->required(false);
   command->add_option("--strain", options->strain,

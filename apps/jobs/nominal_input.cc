@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "case/case_file.h"
+#include "case/rig.h"
 #include "case/sensor_model.h"
 #include "diagnosis/model/updated_model_json.h"
 #include "diagnosis/nominal/nominal_from_model.h"
@@ -14,7 +15,8 @@ namespace vibrissa::apps {
 namespace {
 
 signals::ReducedModel solve_case(const std::string& file, bool show_progress) {
-  sensor_case::Case parameters = sensor_case::CaseFile(file).read();
+  const sensor_case::Case parameters = sensor_case::CaseFile(file).read();
+  sensor_case::refuse_gravity(parameters, "the reduced model");
   const fem::SolverSession session;
   return sensor_case::make_reduced_model(fem::Sensor(parameters.sensor), parameters.sensor,
                                          show_progress);

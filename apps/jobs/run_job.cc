@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "apps/jobs/fault_warnings.h"
 #include "apps/jobs/full_order_check.h"
 #include "case/inputs.h"
 #include "case/rig.h"
@@ -166,7 +167,7 @@ views::RunPageParts do_signals_part(const report::RunFolder& folder, const fem::
   views::RunPageParts parts{.modes = views::modes_table(sensor),
                             .resonance_hz = sensor.modes()[0].frequency_hz,
                             .damping_ratio = sensor.damping_ratios()[0],
-                            .calibration_note = parameters.sensor.model.calibration_note,
+                            .calibration_note = sensor.calibration_note(),
                             .identified = results.identified,
                             .separated = results.separated,
                             .settling_s = parameters.separation.settling_s,
@@ -206,7 +207,9 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
   const sensor_case::Case parameters = file.read();
   check_settling(parameters);
   sensor_case::check_reduced_wind(parameters);
+  sensor_case::refuse_gravity(parameters, "the job's model");
   const sensor_case::Inputs inputs = sensor_case::make_inputs(parameters);
+  if (!quiet && fem::is_first_process()) report_recorded_inputs(parameters);
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
 
@@ -219,8 +222,7 @@ RunOutcome run_job(const CaseOptions& chosen, const std::vector<std::string>& co
 
   const auto model = sensor_case::make_reduced_model(sensor, parameters.sensor, !quiet);
   outcome.summary = views::modes_json(sensor);
-  if (parameters.sensor.model.calibration_note)
-    outcome.summary["calibration_note"] = *parameters.sensor.model.calibration_note;
+  if (const auto note = sensor.calibration_note()) outcome.summary["calibration_note"] = *note;
   std::optional<views::RunPageParts> page;  // of the first process
   if (folder) page = do_signals_part(*folder, sensor, parameters, inputs, model, outcome);
   if (parameters.output.vtk) {

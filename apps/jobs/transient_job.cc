@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "apps/jobs/fault_warnings.h"
 #include "case/case_file.h"
 #include "case/inputs.h"
 #include "fem/linalg/processes.h"
@@ -265,6 +266,7 @@ TransientOutcome run_transient(const CaseOptions& chosen,
   sensor_case::CaseFile file = chosen.load();
   const sensor_case::Case parameters = file.read();
   const sensor_case::Inputs inputs = sensor_case::make_inputs(parameters);
+  if (show_progress && fem::is_first_process()) report_recorded_inputs(parameters);
   const fem::SolverSession session;
   const fem::Sensor sensor(parameters.sensor);
   const fs::path path = fem::from_first_process(

@@ -184,6 +184,10 @@ void check_recording(const DatasetRecord& entry, std::vector<Finding>& findings)
   check_dead_channels(entry, findings);
   check_axes(entry, findings);
   check_period(entry, findings);
+  check_samples(entry, findings);
+}
+
+void check_samples(const DatasetRecord& entry, std::vector<Finding>& findings) {
   check_clipping(entry, findings);
   check_repeats(entry, findings);
 }

@@ -12,6 +12,8 @@ namespace vibrissa::diagnosis {
 /// What a record shows without a simulation: missing, clipped, constant, stuck and repeating
 /// channels, spikes, exchanged axes, a period that the record does not have.
 void check_recording(const signals::DatasetRecord& entry, std::vector<Finding>& findings);
+/// Of these the ones that need one channel: clipping and repeated samples.
+void check_samples(const signals::DatasetRecord& entry, std::vector<Finding>& findings);
 
 /// Paths of the sensor that a diagnosis is to decide on.
 struct WantedPaths {

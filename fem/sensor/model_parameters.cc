@@ -41,6 +41,10 @@ void ModelParameters::declare(dealii::ParameterHandler& prm) {
       "Calibration note", "", Patterns::Anything(),
       "Which parameter was set to give a measured or published resonance; the text is shown with "
       "every resonance, because a calibrated resonance is not a prediction.");
+  prm.declare_entry("Calibrated frequency", "", Patterns::List(Patterns::Double(1e-3), 0, 1),
+                    "First frequency for which the calibration note holds [Hz]; where the first "
+                    "mode is more than 1 % away, geometry or material was changed since, and the "
+                    "note is not shown; empty: not known.");
   prm.leave_subsection();
 }
 
@@ -59,6 +63,9 @@ void ModelParameters::parse(dealii::ParameterHandler& prm) {
   sensitivities = prm.get_bool("Sensitivities");
   const std::string note = prm.get("Calibration note");
   calibration_note = note.empty() ? std::nullopt : std::optional<std::string>(note);
+  const auto calibrated = dealii::Utilities::string_to_double(
+      dealii::Utilities::split_string_list(prm.get("Calibrated frequency"), ','));
+  if (!calibrated.empty()) calibrated_frequency_hz = calibrated.front();
   prm.leave_subsection();
 }
 

@@ -21,7 +21,8 @@ struct ModelParameters {
   double axial_angle_deg = 0.;  // of base motion and wind in the xy-plane, from x towards y
   bool wind_on_wire = true, wind_on_fin = true;
   bool sensitivities = true;
-  std::optional<std::string> calibration_note;  // shown with every resonance
+  std::optional<std::string> calibration_note;    // shown with every resonance
+  std::optional<double> calibrated_frequency_hz;  // first mode that the note speaks of
 
   static void declare(dealii::ParameterHandler& prm);
   void parse(dealii::ParameterHandler& prm);

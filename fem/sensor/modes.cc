@@ -8,7 +8,6 @@
 
 #include "fem/factors/cholesky_solver.h"
 #include "fem/solvers/block_lanczos.h"
-#include "fem/solvers/eigenpair_refinement.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::fem {
@@ -104,10 +103,10 @@ std::array<double, 3> Mode::effective_mass_kg() const {
 }
 
 std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& operators,
-                              const unsigned int n_modes,
+                              const ModeStiffness& given, const unsigned int n_modes,
                               const std::array<double, 3>& axial_direction) {
   if (n_modes == 0) throw signals::UserError("the number of modes must be at least 1");
-  const CholeskySolver stiffness(*operators.clamped_stiffness);
+  const CholeskySolver stiffness(given.matrix);
   // One mode more, so that the last requested mode is not separated from its pair.
   auto pairs = smallest_eigenpairs(stiffness, *operators.clamped_mass, n_modes, 1);
   if (pairs.size() < n_modes) {
@@ -115,10 +114,7 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
                              std::to_string(n_modes) +
                              " requested modes; request fewer modes or refine the mesh");
   }
-  const auto product = [&](const Vector& x, Vector& force) {
-    clamped_internal_force(space, operators, x, force);
-  };
-  refine(pairs, stiffness, product, *operators.clamped_mass);
+  refine(pairs, stiffness, given.product, *operators.clamped_mass);
   std::vector<Mode> modes;
   for (const auto& pair : pairs) {
     auto& mode = modes.emplace_back();
@@ -138,6 +134,16 @@ std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& ope
   const Momenta momenta = sign_momenta(space, operators);
   for (auto& mode : modes) fix_sign(mode, momenta);
   return modes;
+}
+
+std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& operators,
+                              const unsigned int n_modes,
+                              const std::array<double, 3>& axial_direction) {
+  const auto product = [&](const Vector& x, Vector& force) {
+    clamped_internal_force(space, operators, x, force);
+  };
+  return solve_modes(space, operators, {*operators.clamped_stiffness, product}, n_modes,
+                     axial_direction);
 }
 
 }  // namespace vibrissa::fem

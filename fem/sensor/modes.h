@@ -6,6 +6,7 @@
 #include "fem/linalg/linear_algebra.h"
 #include "fem/solid/solid_operators.h"
 #include "fem/solid/solid_space.h"
+#include "fem/solvers/eigenpair_refinement.h"
 
 namespace vibrissa::fem {
 
@@ -27,5 +28,15 @@ struct Mode {
 std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& operators,
                               unsigned int n_modes,
                               const std::array<double, 3>& axial_direction = {1., 0., 0.});
+
+/// The same for any symmetric stiffness with unit rows at the clamp, whose product is exact enough
+/// for the refinement of the eigenpairs (eigenpair_refinement.h).
+struct ModeStiffness {
+  const Matrix& matrix;
+  StiffnessProduct product;
+};
+std::vector<Mode> solve_modes(const SolidSpace& space, const SolidOperators& operators,
+                              const ModeStiffness& stiffness, unsigned int n_modes,
+                              const std::array<double, 3>& axial_direction);
 
 }  // namespace vibrissa::fem

@@ -1,5 +1,8 @@
 #include "fem/sensor/sensor.h"
 
+#include <cmath>
+
+#include "fem/sensor/prestressed_modes.h"
 #include "meshes/distributed_mesh.h"
 #include "meshes/gmsh_file.h"
 #include "meshes/mesh_audit.h"
@@ -55,8 +58,8 @@ Sensor::Sensor(const SensorParameters& parameters, MPI_Comm communicator)
   space_ = std::make_unique<SolidSpace>(*mesh_);
   const auto materials = parameters.materials.by_region();
   operators_ = assemble_operators(*space_, materials);
-  modes_ = solve_modes(*space_, operators_, parameters.model.n_modes,
-                       parameters.model.axial_direction());
+  modes_ = solve_modes_under(parameters.gravity_m_s2, *space_, operators_, parameters.model.n_modes,
+                             parameters.model.axial_direction());
   damping_ratios_ = fem::damping_ratios(parameters.model.damping, parameters.model.damping_ratios,
                                         *space_, materials, modes_);
   wind_surface_ = std::make_unique<WindSurface>(*space_, exposure(parameters));
@@ -66,6 +69,15 @@ Sensor::Sensor(const SensorParameters& parameters, MPI_Comm communicator)
 std::string Sensor::mesh_sha256() const {
   const bool is_whole = dealii::Utilities::MPI::n_mpi_processes(mesh_->get_communicator()) == 1;
   return meshes::mesh_sha256(is_whole ? *mesh_ : *make_whole_mesh(parameters_));
+}
+
+std::optional<std::string> Sensor::calibration_note() const {
+  constexpr double largest_change = 0.01;
+  const auto& calibrated_hz = parameters_.model.calibrated_frequency_hz;
+  const double first_hz = modes_.front().frequency_hz;
+  if (calibrated_hz && std::abs(first_hz / *calibrated_hz - 1.) > largest_change)
+    return std::nullopt;
+  return parameters_.model.calibration_note;
 }
 
 double Sensor::mass_kg() const {

@@ -3,7 +3,9 @@
 #include <deal.II/grid/tria.h>
 #include <mpi.h>
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,8 @@ struct SensorParameters {
   materials::SensorMaterials materials;
   ModelParameters model;
   flow::WindParameters wind;
+  /// Under which the modes vibrate: about the equilibrium (prestressed_modes.h); zero: at rest.
+  std::array<double, 3> gravity_m_s2{};
 };
 
 /// The meshed sensor with its operators at rest and its damped modes, for the reduced and the
@@ -46,6 +50,9 @@ class Sensor {
   const std::vector<double>& damping_ratios() const { return damping_ratios_; }
   const WindSurface& wind_surface() const { return *wind_surface_; }
   double mass_kg() const;
+  /// The case's note, unless the first mode is more than 1 % (ten times the mesh error at the
+  /// default resolution) from the frequency for which it holds.
+  std::optional<std::string> calibration_note() const;
 
  private:
   SensorParameters parameters_;

@@ -142,14 +142,24 @@ def from_arrays(time, columns, units=None, **options):
     columns are kept as they are. Options as `read_record`. Raises UserError for values that are not
     finite and for uneven sampling (see `resample_hz`).
     """
-    named = [(str(name), _numpy.asarray(columns[name], dtype=float)) for name in columns]
+    named = [(str(name), _numbers(columns[name])) for name in columns]
     if time is not None:
-        time = _seconds(_numpy.asarray(time))
+        time = _seconds(time)
     return _longest(_core.recording_of(time, named, dict(units or {}),
                                        _core.FileOptions(**options)), "arrays")
 
 
+def _numbers(values):
+    """A missing value of pandas is not a number."""
+    if hasattr(values, "to_numpy") and values.dtype != float:
+        return values.to_numpy(dtype=float, na_value=_numpy.nan)
+    return _numpy.asarray(values, dtype=float)
+
+
 def _seconds(time):
+    if getattr(getattr(time, "dtype", None), "tz", None) is not None:
+        time = time.to_numpy(dtype="datetime64[ns]")  # pandas, with a time zone
+    time = _numpy.asarray(time)
     if _numpy.issubdtype(time.dtype, _numpy.datetime64):
         return (time - time[0]) / _numpy.timedelta64(1, "s")
     if _numpy.issubdtype(time.dtype, _numpy.timedelta64):

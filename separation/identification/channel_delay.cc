@@ -55,16 +55,17 @@ ElasticFit elastic_fit(const FrequencyProblem& problem, const std::vector<ModalT
   return fit;
 }
 
-ElasticFit best_whole_delay(const signals::FrequencyResponse& response, double rate_hz, Hold hold,
-                            std::ptrdiff_t most_samples) {
-  ElasticFit best;
+/// The best one for each number of modes, from one on.
+std::vector<ElasticFit> best_whole_delays(const signals::FrequencyResponse& response,
+                                          double rate_hz, Hold hold, std::ptrdiff_t most_samples) {
+  std::vector<ElasticFit> best(most_modes);
   for (std::ptrdiff_t samples = -most_samples; samples <= most_samples; ++samples) {
     const FrequencyProblem problem(response, std::nullopt, true,
                                    static_cast<double>(samples) / rate_hz);
     for (std::size_t n_modes = 1; n_modes <= most_modes; ++n_modes) {
       ElasticFit fit = elastic_fit(problem, vector_fitting_poles(problem, n_modes),
                                    highest_rad_s(hold, rate_hz));
-      if (fit.criterion < best.criterion) best = std::move(fit);
+      if (fit.criterion < best[n_modes - 1].criterion) best[n_modes - 1] = std::move(fit);
     }
   }
   return best;
@@ -89,6 +90,7 @@ class Profile {
   }
 
   double n_samples() const { return n_samples_; }
+  const Bvrm& model() const { return model_; }
 
  private:
   Bvrm model_;
@@ -132,27 +134,60 @@ double deviation(Profile& profile, double delay_s, double step_s) {
                         : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
-
-std::optional<Estimate> estimate_delay(std::span<const Segment> segments, double sampling_rate_hz,
-                                       const OutputErrorOptions& fit) {
+/// Of the frequency response; none where the record is too short.
+std::vector<ElasticFit> rough_fits(std::span<const Segment> segments, double rate_hz,
+                                   const OutputErrorOptions& fit) {
   const Segment& longest = *std::ranges::max_element(
       segments, {}, [](const Segment& segment) { return segment.base_moment.size(); });
   const std::size_t window = window_of(longest.base_moment.size());
-  if (longest.base_moment.size() < 4 * window) return std::nullopt;
+  if (longest.base_moment.size() < 4 * window) return {};
   const auto response = signals::welch_response(longest.base_acceleration, longest.base_moment,
-                                                sampling_rate_hz, {.segment_samples = window});
-  const ElasticFit rough = best_whole_delay(response, sampling_rate_hz, fit.hold,
-                                            static_cast<std::ptrdiff_t>(window / 4));
-  if (!std::isfinite(rough.criterion)) return std::nullopt;
-  const double sample_s = 1. / sampling_rate_hz;
-  Profile profile(rough.model, segments, sampling_rate_hz, fit);
-  const double from = rough.model.delay_s;
+                                                rate_hz, {.segment_samples = window});
+  return best_whole_delays(response, rate_hz, fit.hold, static_cast<std::ptrdiff_t>(window / 4));
+}
+
+struct Refined {
+  ElasticDelay found;
+  double criterion = 0.;  // of the samples, which have no leakage
+};
+
+Refined refine(const ElasticFit& rough, std::span<const Segment> segments, double rate_hz,
+               const OutputErrorOptions& fit) {
+  const double sample_s = 1. / rate_hz, from = rough.model.delay_s;
+  Profile profile(rough.model, segments, rate_hz, fit);
   const double delay_s = minimum(profile, from - 1.5 * sample_s, from + 1.5 * sample_s);
-  const Estimate found{delay_s, deviation(profile, delay_s, 0.1 * sample_s)};
+  const double deviation_s = deviation(profile, delay_s, 0.1 * sample_s);
+  const double n = profile.n_samples(), variance = profile(delay_s);
+  const auto n_unknowns = static_cast<double>(3 * rough.model.modes.size() + 2);
+  return {{{delay_s, deviation_s}, profile.model()},
+          n * std::log(variance) + n_unknowns * std::log(n)};
+}
+
+}  // namespace
+
+std::optional<ElasticDelay> elastic_delay(std::span<const Segment> segments,
+                                          double sampling_rate_hz, const OutputErrorOptions& fit) {
+  std::optional<ElasticDelay> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const ElasticFit& rough : rough_fits(segments, sampling_rate_hz, fit)) {
+    if (!std::isfinite(rough.criterion)) continue;
+    const Refined refined = refine(rough, segments, sampling_rate_hz, fit);
+    if (!(refined.criterion < least)) continue;
+    least = refined.criterion;
+    best = refined.found;
+  }
+  return best;
+}
+
+std::optional<Estimate> estimate_delay(std::span<const Segment> segments, double sampling_rate_hz,
+                                       const OutputErrorOptions& fit) {
+  const std::vector<ElasticFit> rough = rough_fits(segments, sampling_rate_hz, fit);
+  const auto best = std::ranges::min_element(rough, {}, &ElasticFit::criterion);
+  if (best == rough.end() || !std::isfinite(best->criterion)) return std::nullopt;
+  const Estimate found = refine(*best, segments, sampling_rate_hz, fit).found.delay_s;
   constexpr double significant = 4.;  // standard deviations
   constexpr double of_a_hold = 1.5;   // samples
-  if (std::abs(found.value) < of_a_hold * sample_s ||
+  if (std::abs(found.value) < of_a_hold / sampling_rate_hz ||
       !(std::abs(found.value) > significant * found.standard_deviation))
     return std::nullopt;
   return found;

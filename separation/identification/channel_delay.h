@@ -16,9 +16,17 @@ namespace vibrissa::separation {
 /// with one to three modes (vector fitting, gains by least squares); the smallest information
 /// criterion is refined in time by the profile of the output error over the delay (explicit
 /// time-delay parameter, Bjoerklund & Ljung 2003). Its deviation is from the curvature of that
-/// profile. Nothing when it is less than one sample and a half: the holds of input and
-/// output explain as much.
+/// profile. Less than one sample and a half is explained as well by the holds of input and output.
 /// Proven by tests/separation/identification/channel_delay_test.cc.
+struct ElasticDelay {
+  Estimate delay_s;
+  Bvrm model;  // elastic, with the delay
+};
+/// Whatever its size, with the number of modes that the samples choose after the refinement;
+/// nothing where the record is too short or no elastic model fits.
+std::optional<ElasticDelay> elastic_delay(std::span<const Segment> segments,
+                                          double sampling_rate_hz, const OutputErrorOptions& fit);
+/// Nothing, too, when it is less than one sample and a half.
 std::optional<Estimate> estimate_delay(std::span<const Segment> segments, double sampling_rate_hz,
                                        const OutputErrorOptions& fit);
 

@@ -198,6 +198,10 @@ class Identifier {
     return selected;
   }
 
+  bool has_lasting_mode(const FittedBvrm& fit) const {
+    return !are_hits(segments_) && lasting_mode_hz(fit.model, n_samples_ / rate_);
+  }
+
   /// The model of the order asked for, fitted to the whole records; when that does not converge or
   /// decay, of the lower order with the smallest criterion, then of a higher one; of the order
   /// asked for when none does.
@@ -212,7 +216,7 @@ class Identifier {
     for (const OrderTrial* trial : trials) {
       FittedBvrm fit =
           refine_output_error(trial->fit.model, segments_, rate_, fit_options(selection.hold));
-      const bool decays = !lasting_mode_hz(fit.model, n_samples_ / rate_);
+      const bool decays = !has_lasting_mode(fit);
       if (fit.end == FitEnd::converged && decays)
         return {std::move(fit), selection.hold, selection.words};
       if (!first) first = std::move(fit);
@@ -236,8 +240,7 @@ class Identifier {
         const std::size_t order = fit.model.order();
         if (options_.order && order != *options_.order) continue;
         const auto unknowns = static_cast<double>(n_unknowns(order, records_.size(), options_));
-        const std::pair rank(fit.end != FitEnd::converged ||
-                                 lasting_mode_hz(fit.model, n_samples_ / rate_).has_value(),
+        const std::pair rank(fit.end != FitEnd::converged || has_lasting_mode(fit),
                              information_criterion(fit, n_samples_, unknowns, mean_square_moment));
         if (best && !(rank < least)) continue;
         least = rank;

@@ -13,6 +13,10 @@
 
 namespace vibrissa::separation {
 
+/// Share of the moment below which an error is too small to tell about delay, order or hold: no
+/// accelerometer is calibrated that well (ISO 16063-21 reaches 0.5 %).
+inline constexpr double exact_share = 1e-3;
+
 /// Criterion for the order: see OrderSelection.
 enum class OrderRule { information, cross_validation };
 

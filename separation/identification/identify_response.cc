@@ -123,7 +123,28 @@ bool has_other_convention(const FrequencyResponse& measured,
   return of_conjugate < of_the_error && of_conjugate < of_the_error * error_of(measured);
 }
 
+/// The noise of the lines says nothing of their window.
+void widen_unresolved(const FrequencyResponse& response, FittedBvrm& fit) {
+  for (ModeEstimate& mode : fit.modes) {
+    if (is_resolved(mode, response)) continue;
+    double& deviation = mode.frequency_hz.standard_deviation;
+    deviation =
+        std::hypot(deviation, line_spacing_hz(response, mode.frequency_hz.value) / std::sqrt(12.));
+  }
+}
+
 }  // namespace
+
+double line_spacing_hz(const FrequencyResponse& response, const double at_hz) {
+  const auto& f = response.frequency_hz;
+  const auto above = std::upper_bound(f.begin() + 1, f.end() - 1, at_hz);
+  return *above - *(above - 1);
+}
+
+bool is_resolved(const ModeEstimate& mode, const FrequencyResponse& response) {
+  const double f = mode.frequency_hz.value, width = 2. * mode.damping_ratio.value * f;
+  return width >= 2. * line_spacing_hz(response, f);
+}
 
 IdentifiedResponse identify_response(const FrequencyResponse& response,
                                      const IdentifyResponseOptions& options) {
@@ -140,6 +161,7 @@ IdentifiedResponse identify_response(const FrequencyResponse& response,
   found.order = fit.order;
   found.held_out_fit_percent =
       100. * (1. - relative_error(held_out, identify_frequency(known, fit).model));
+  if (found.held_out_fit_percent < 100. * (1. - exact_share)) widen_unresolved(measured, found.fit);
   if (!options.order && fit.order == options.max_order)
     found.order_words =
         "this is the highest order that was tried, so more modes may be there: allow more "

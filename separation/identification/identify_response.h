@@ -39,4 +39,11 @@ struct IdentifiedResponse {
 IdentifiedResponse identify_response(const signals::FrequencyResponse& response,
                                      const IdentifyResponseOptions& options = {});
 
+/// Distance of the lines at a frequency [Hz].
+double line_spacing_hz(const signals::FrequencyResponse& response, double at_hz);
+/// Whether the peak of a mode is at least two lines wide at half power. Otherwise its lines are
+/// those of the spectral window; the deviation of its frequency is then at least that of an equal
+/// distribution over one line, unless the response is exact (exact_share).
+bool is_resolved(const ModeEstimate& mode, const signals::FrequencyResponse& response);
+
 }  // namespace vibrissa::separation

@@ -118,16 +118,20 @@ std::vector<Bvrm> one_more_mode(const FrequencyProblem& problem, const FittedBvr
 /// Whether data that were not fitted still gain, as the order rises.
 class Growth {
  public:
-  Growth(std::span<const Segment> held_out, double rate_hz, const OrderOptions& options,
-         double rounding)
-      : held_out_(held_out), rate_hz_(rate_hz), options_(options), rounding_(rounding) {
+  Growth(std::span<const Segment> fitting, std::span<const Segment> held_out, double rate_hz,
+         const OrderOptions& options, double rounding)
+      : held_out_(held_out),
+        are_hits_(are_hits(fitting)),
+        rate_hz_(rate_hz),
+        options_(options),
+        rounding_(rounding) {
     for (const Segment& segment : held_out)
       duration_s_ += static_cast<double>(segment.base_moment.size()) / rate_hz /
                      options.held_out_share * (1. - options.held_out_share);
   }
 
   bool hear(const FittedBvrm& fit, const OutputErrorOptions& fit_options) {
-    lasting_hz_ = lasting_mode_hz(fit.model, duration_s_);
+    lasting_hz_ = are_hits_ ? std::nullopt : lasting_mode_hz(fit.model, duration_s_);
     if (lasting_hz_ && !squares_.empty()) return false;
     squares_.push_back(squares(output_errors(fit.model, held_out_, rate_hz_, fit_options)));
     constexpr double significant = 2.;  // standard deviations
@@ -150,6 +154,7 @@ class Growth {
 
  private:
   std::span<const Segment> held_out_;
+  bool are_hits_;
   double rate_hz_;
   const OrderOptions& options_;
   double rounding_, duration_s_ = 0.;
@@ -170,7 +175,7 @@ class Comparison {
     for (const Segment& segment : fitting)
       moment = std::max(moment, mean_square(segment.base_moment));
     rounding_ = 1e-20 * moment;
-    growth_.emplace(held_out, rate_hz, options, rounding_);
+    growth_.emplace(fitting, held_out, rate_hz, options, rounding_);
     fits_ = fit_orders(
         response_of(fitting, rate_hz, options.period_samples), fitting, rate_hz, max_order,
         options.delay_s, fit, [&](const FittedBvrm& found) { return growth_->hear(found, fit); },
@@ -236,14 +241,12 @@ Comparison with_best_hold(const Parts& raw, double rate_hz, const OrderOptions& 
   return std::move(*best);
 }
 
-/// Nothing unless every segment begins with one hit.
+/// Nothing unless they are hits.
 std::optional<signals::FrequencyResponse> response_to_hits(std::span<const Segment> segments,
                                                            double rate_hz) {
+  if (!are_hits(segments)) return std::nullopt;
   std::size_t length = std::numeric_limits<std::size_t>::max();
-  for (const Segment& segment : segments) {
-    if (hits_of(segment.base_acceleration).size() != 1) return std::nullopt;
-    length = std::min(length, segment.base_moment.size());
-  }
+  for (const Segment& segment : segments) length = std::min(length, segment.base_moment.size());
   constexpr std::size_t longest = 8192;
   length = std::min(length, longest);
   signals::RealFft fft(length);
@@ -280,6 +283,12 @@ std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
       model.modes, [&](const ModalTerm& mode) { return 0.5 * mode.a1 * duration_s < 1.; });
   if (lasting == model.modes.end()) return std::nullopt;
   return lasting->frequency_hz();
+}
+
+bool are_hits(std::span<const Segment> segments) {
+  return std::ranges::all_of(segments, [](const Segment& segment) {
+    return hits_of(segment.base_acceleration).size() == 1;
+  });
 }
 
 signals::FrequencyResponse response_of(std::span<const Segment> segments, double rate_hz,

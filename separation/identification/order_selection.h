@@ -36,6 +36,10 @@ std::vector<FittedBvrm> fit_orders(const signals::FrequencyResponse& response,
 /// at rest it would oscillate without end. Nothing: all modes decay.
 std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s);
 
+/// Whether each segment begins with one hit (hits_of()). A pulse has no lines that a mode could
+/// fit, and what rings after it tells a mode that lasts longer than the record.
+bool are_hits(std::span<const Segment> segments);
+
 /// The response of the longest segment, from whole periods or by Welch's method. Where the input is
 /// a hit (hits_of()), of all segments: sum Y conj(X) / sum |X|^2 over the hits, each one block
 /// without averaging over silence, X of the pulse alone.

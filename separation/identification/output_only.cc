@@ -22,7 +22,7 @@ using signals::UserError;
 using Pole = std::complex<double>;
 using PolesByOrder = std::vector<std::vector<Pole>>;
 
-constexpr std::size_t n_pieces = 20;
+constexpr std::size_t n_pieces = 20, fewest_orders = 3;
 
 // Residual of a linear fit.
 std::vector<double> without_line(std::span<const double> x) {
@@ -134,7 +134,7 @@ Pole centre(const std::vector<Pole>& poles) {
 
 // The chains over at least a third of the orders; the longest of several near the same pole.
 std::vector<Chain> standing_chains(const PolesByOrder& by_order) {
-  const std::size_t fewest = std::max<std::size_t>(3, by_order.size() / 3);
+  const std::size_t fewest = std::max(fewest_orders, by_order.size() / 3);
   std::vector<Chain> chains = chains_of(by_order), long_chains;
   std::ranges::stable_sort(chains, std::greater<>(),
                            [](const Chain& chain) { return chain.poles.size(); });
@@ -243,7 +243,10 @@ struct OneRate {
 OneRate at_one_rate(std::span<const double> moment, double rate_hz, std::size_t n_rows,
                     std::size_t max_order) {
   const LagSums sums(without_line(moment), 2 * n_rows - 1);
-  const std::size_t highest = std::min(max_order, (n_rows - 1) / 2 * 2);
+  // Whether a pole stands is seen over three orders at least, of which the last ones may be above
+  // the highest order that gives modes.
+  const std::size_t highest =
+      std::min(std::max(max_order, 2 * fewest_orders), (n_rows - 1) / 2 * 2);
   const auto poles = [&](std::optional<std::size_t> without) {
     return covariance_poles(sums.covariances(without), highest, rate_hz);
   };
@@ -255,6 +258,7 @@ OneRate at_one_rate(std::span<const double> moment, double rate_hz, std::size_t 
                 .rate_hz = rate_hz,
                 .longest_lag_s = 2. * static_cast<double>(n_rows) / rate_hz};
   for (const Chain& chain : standing_chains(poles(std::nullopt))) {
+    if (2 * (chain.first_order + 1) > max_order) continue;
     const OutputOnlyMode mode = mode_of(chain, without_piece);
     if (is_determined(mode, found.longest_lag_s))
       found.modes.push_back(mode);

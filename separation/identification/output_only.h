@@ -23,7 +23,7 @@ std::vector<std::vector<std::complex<double>>> covariance_poles(std::span<const 
                                                                 double sampling_rate_hz);
 
 struct OutputOnlyOptions {
-  std::size_t max_order = 20;  // orders 2, 4, ... as far as the record allows
+  std::size_t max_order = 20;  // of a mode; orders 2, 4, ... as far as the record allows
   /// Rows of the Hankel matrix, as far as the record allows: lags up to twice as many samples
   /// are used. They should span a few periods of the lowest resonance; more only add noise.
   /// Nothing: lags from the data, see identify_output_only().
@@ -47,18 +47,18 @@ struct OutputOnlyIdentification {
 
 /// Resonances and damping from the moment alone, under an unmeasured excitation that is assumed
 /// white. Offset and linear drift are removed. A pole is stable when it moves by less than half its
-/// decay rate from one order to the next, over a third of the orders; its estimate is the median
-/// over these orders. Deviations: jackknife over 20 parts of the record. A mode is returned when
-/// its deviations are below half of zeta f and half of zeta, and the lags span one of its periods.
-/// Without max_lags the record is also taken at the rate divided by 2, 4, 8, ..., as far as it is
-/// long enough, each with 40 rows: a resonance is looked for where the lags span 8 to 16 of its
-/// periods (the highest octaves: at the full rate, the lowest: at the lowest), and one that decays
-/// by less than a factor e within them where they span twice as many, if its damping is better
-/// determined there.
-/// Gain and direct term cannot be identified, and a coloured excitation looks like a resonance of
-/// the structure. Throws UserError for fewer than 400 samples, a constant record, a value that is
-/// not finite, an odd order. Proven by tests/separation/identification/output_only_test.cc: exact
-/// covariances, the Cramer-Rao bound, coverage, white noise without any mode, a line.
+/// decay rate from one order to the next, over a third of the orders and at least three, the first
+/// of which is at most max_order; its estimate is the median over these orders. Deviations:
+/// jackknife over 20 parts of the record. A mode is returned when its deviations are below half of
+/// zeta f and half of zeta, and the lags span one of its periods. Without max_lags the record is
+/// also taken at the rate divided by 2, 4, 8, ..., as far as it is long enough, each with 40 rows:
+/// a resonance is looked for where the lags span 8 to 16 of its periods (the highest octaves: at
+/// the full rate, the lowest: at the lowest), and one that decays by less than a factor e within
+/// them where they span twice as many, if its damping is better determined there. Gain and direct
+/// term cannot be identified, and a coloured excitation looks like a resonance of the structure.
+/// Throws UserError for fewer than 400 samples, a constant record, a value that is not finite, an
+/// odd order. Proven by tests/separation/identification/output_only_test.cc: exact covariances, the
+/// Cramer-Rao bound, coverage, white noise without any mode, a line.
 OutputOnlyIdentification identify_output_only(std::span<const double> moment,
                                               double sampling_rate_hz,
                                               const OutputOnlyOptions& options = {});

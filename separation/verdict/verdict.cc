@@ -24,13 +24,18 @@ std::string hertz(double value) {
   return rounded(value, 4) + " Hz";
 }
 
-/// Why this pair of poles is no mode; nothing when it is one.
-std::optional<std::string> reason_against(const ModeEstimate& mode, const Band& band) {
+/// Why this pair of poles cannot be a mode of the band; nothing when it can.
+std::optional<std::string> reason_of_place(const ModeEstimate& mode, const Band& band) {
   const double f = mode.frequency_hz.value, zeta = mode.damping_ratio.value;
   if (zeta >= 1.) return "two real poles, no oscillation";
   if (f * (1. + zeta) < band.low_hz || f * (1. - zeta) > band.high_hz)
     return "outside the band that was excited, " + hertz(band.low_hz) + " to " +
            hertz(band.high_hz);
+  return std::nullopt;
+}
+
+std::optional<std::string> reason_of_damping(const ModeEstimate& mode) {
+  const double zeta = mode.damping_ratio.value;
   const double deviation = mode.damping_ratio.standard_deviation;
   if (!std::isfinite(deviation)) return "the data do not determine the damping";
   if (!(zeta > 2. * deviation))
@@ -42,8 +47,9 @@ std::optional<std::string> reason_against(const ModeEstimate& mode, const Band& 
 template <typename FurtherReason>
 void sort_modes(const FittedBvrm& fit, const FurtherReason& further, Verdict& verdict) {
   for (std::size_t k = 0; k < fit.modes.size(); ++k) {
-    std::optional<std::string> reason = reason_against(fit.modes[k], verdict.band);
+    std::optional<std::string> reason = reason_of_place(fit.modes[k], verdict.band);
     if (!reason) reason = further(k);
+    if (!reason) reason = reason_of_damping(fit.modes[k]);
     // A mode at the border of stability ends a fit as unstable; it is not told from zero damping.
     if (!reason && fit.end != FitEnd::converged && fit.end != FitEnd::unstable)
       reason = "the fit did not converge (" + to_string(fit.end) + ")";
@@ -88,10 +94,24 @@ std::string delay_sentence(const Estimate& delay_s, double rate_hz) {
          "; the model has this delay.";
 }
 
-double line_spacing(const signals::FrequencyResponse& response, double at_hz) {
-  const auto& f = response.frequency_hz;
-  const auto above = std::upper_bound(f.begin() + 1, f.end() - 1, at_hz);
-  return *above - *(above - 1);
+/// A peak that is narrower than the lines has the shape of the spectral window: what lies on it
+/// beside the mode is this shape.
+std::optional<std::string> reason_of_lines(const FittedBvrm& fit, const std::size_t k,
+                                           const signals::FrequencyResponse& response) {
+  const ModeEstimate& mode = fit.modes[k];
+  const double f = mode.frequency_hz.value;
+  const double half_width = mode.damping_ratio.value * f, step = line_spacing_hz(response, f);
+  if (!is_resolved(mode, response))
+    return "the damping is not resolved: the peak is " + rounded(2. * half_width, 2) +
+           " Hz wide at half power, the lines are " + rounded(step, 3) +
+           " Hz apart; the frequency is found to +- " +
+           rounded(mode.frequency_hz.standard_deviation, 2) + " Hz";
+  for (const ModeEstimate& other : fit.modes)
+    if (!is_resolved(other, response) &&
+        std::abs(other.frequency_hz.value - f) < half_width + 2. * step)
+      return "it lies on the peak at " + hertz(other.frequency_hz.value) +
+             ", which is narrower than the lines and so has the shape of the spectral window";
+  return std::nullopt;
 }
 
 }  // namespace
@@ -106,7 +126,7 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
       [&](std::size_t k) -> std::optional<std::string> {
         Bvrm alone;
         alone.modes = {fit.model.modes[k]};
-        if (!lasting_mode_hz(alone, duration_s)) return std::nullopt;
+        if (identification.n_hits > 0 || !lasting_mode_hz(alone, duration_s)) return std::nullopt;
         return "it does not decay within the record";
       },
       verdict);
@@ -126,13 +146,8 @@ Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResp
   sort_modes(
       fit,
       [&](std::size_t k) -> std::optional<std::string> {
-        const double f = fit.modes[k].frequency_hz.value;
-        const double width = 2. * fit.modes[k].damping_ratio.value * f;
-        const double step = line_spacing(response, f);
-        if (exact || width >= 2. * step) return std::nullopt;
-        return "the damping is not resolved: the peak is " + rounded(width, 2) +
-               " Hz wide at half power, the lines are " + rounded(step, 3) +
-               " Hz apart; the frequency is found";
+        if (exact) return std::nullopt;
+        return reason_of_lines(fit, k, response);
       },
       verdict);
   const double left = 1. - identified.held_out_fit_percent / 100.;

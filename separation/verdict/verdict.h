@@ -25,10 +25,6 @@ struct Verdict {
   std::vector<UndeterminedMode> undetermined;
 };
 
-/// Share of the moment below which an error is too small to tell about delay, order or hold: no
-/// accelerometer is calibrated that well (ISO 16063-21 reaches 0.5 %).
-inline constexpr double exact_share = 1e-3;
-
 /// A pair of poles is a mode when the fit converged, it lies within the band, oscillates, decays
 /// within the record, and its damping ratio is above twice its deviation. A model is usable when it
 /// has a mode and explains more of the variance of unseen data than it leaves. Proven by

@@ -299,6 +299,24 @@ std::string to_string(const Excitation& excitation) {
   return excitation.wind ? "wind" : "none";
 }
 
+std::vector<std::string> short_readings(const std::vector<std::string>& readings) {
+  const std::string read_as = ": read as: ";
+  // Without the part "4096 samples, 8.192 s".
+  const auto layout_of = [&](const std::string& reading) {
+    std::string words = reading.substr(std::min(reading.size(), reading.find(read_as)));
+    const std::size_t at = words.find(" samples, ");
+    if (at == std::string::npos) return words;
+    const std::size_t begin = words.rfind("; ", at), end = words.find("; ", at);
+    return words.substr(0, begin) + (end == std::string::npos ? "" : words.substr(end));
+  };
+  if (readings.size() < 2) return readings;
+  const std::string layout = layout_of(readings.front());
+  for (const std::string& reading : readings)
+    if (layout_of(reading) != layout) return readings;
+  const std::string first = readings.front().substr(0, readings.front().find(read_as));
+  return {std::to_string(readings.size()) + " files (" + first + ", ...)" + layout.substr(1)};
+}
+
 Dataset read_dataset(const fs::path& source, const ReadOptions& options) {
   if (!fs::exists(source)) throw UserError(source.string() + ": does not exist");
   const fs::path description = source / "dataset.json";

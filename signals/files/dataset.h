@@ -53,6 +53,11 @@ struct Dataset {
 /// white acceleration below 0.1 m/s2 rms is noise. Proven by tests/signals/files/dataset_test.cc.
 Excitation guessed_excitation(const Record& record);
 
+/// The readings of a dataset, in one line where all files were read alike but for their lengths:
+/// "8 files (bench/a.csv, ...) read as: commas, ...". Proven by
+/// tests/signals/files/dataset_test.cc.
+std::vector<std::string> short_readings(const std::vector<std::string>& readings);
+
 /// Reads FOLDER/dataset.json ("vibrissa-dataset-1") and its records. Without dataset.json it reads
 /// every record file of the folder, or the one given file; the excitation is guessed from the
 /// channels that vary (a white acceleration below 0.1 m/s2 rms is noise), and the last third of

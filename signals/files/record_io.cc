@@ -9,6 +9,7 @@
 #include "signals/files/file_format.h"
 #include "signals/files/record_rows.h"
 #include "signals/files/record_sources.h"
+#include "signals/files/several_rates.h"
 #include "signals/record/channel_name.h"
 #include "signals/spectra/resample.h"
 
@@ -55,6 +56,7 @@ Recording read_recording(const std::filesystem::path& file, const ReadOptions& o
 Recording read_recording(formats::RecordTable& table, const std::string& name,
                          const ReadOptions& options) {
   check(options);
+  if (!table.rate_groups().empty()) return read_several_rates(table, name, options);
   for (const ColumnChoice& choice : options.columns) table.take_rows_of(choice.column);
   const Sources sources = find_sources(table, options);
   const std::size_t n_rows = number_of_rows(table, options);

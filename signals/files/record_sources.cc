@@ -232,6 +232,7 @@ std::string without_number(const std::string& name) {
 
 /// Columns whose first row is a number, but times.
 void SourceFinder::add_all_numbers(Sources& sources) const {
+  if (file_.n_rows() == 0) return;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const bool is_time = sources.time && sources.time->column == i;
     if (columns_[i].name.empty() || is_time || is_time_name(without_number(columns_[i].name)))

@@ -12,6 +12,7 @@
 
 #include "signals/base/error.h"
 #include "signals/base/lower_case.h"
+#include "signals/base/median.h"
 #include "signals/base/number_text.h"
 #include "signals/base/scaled_name.h"
 #include "signals/base/trimmed.h"
@@ -196,10 +197,12 @@ Values coherence_of(const Columns& columns) {
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (lower_case(columns.name(i)).find("coh") != std::string::npos) similar.push_back(i);
   if (similar.size() != 1) return {};
-  const Values values = columns.values(similar.front());
-  const bool is_coherence =
-      std::all_of(values.begin(), values.end(), [](const double c) { return c >= 0. && c <= 1.; });
-  return is_coherence ? values : Values();
+  Values values = columns.values(similar.front());
+  // An analyser may print more than 1 where it had no signal, which is no coherence.
+  if (median(values) > 1.) return {};
+  constexpr double rounding = 1e-3;
+  for (double& c : values) c = c >= 0. && c <= 1. + rounding ? std::min(c, 1.) : 0.;
+  return values;
 }
 
 FrequencyResponse from_table(const std::filesystem::path& file, const ScaledName& choice) {

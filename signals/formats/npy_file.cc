@@ -4,14 +4,18 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <ostream>
 #include <regex>
+#include <span>
 #include <string_view>
 
 #include "signals/base/error.h"
 #include "signals/formats/matrix_columns.h"
 #include "signals/formats/number_bytes.h"
 #include "signals/formats/record_columns.h"
+#include "signals/record/channel_name.h"
 #include "signals/system/file_bytes.h"
+#include "signals/system/output_file.h"
 
 namespace vibrissa::signals::formats {
 namespace {
@@ -195,29 +199,42 @@ std::unique_ptr<RecordTable> read_npy(const std::filesystem::path& file) {
   return parse_npy(read_bytes(file), file.string());
 }
 
-void write_npy(const std::filesystem::path& file, const Record& record) {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> columns;
-  for_each_array(record, [&](const std::string& name, const std::span<const double> values) {
-    if (values.size() != record.n_samples()) return;
-    names.push_back(name);
-    columns.emplace_back(values.begin(), values.end());
-  });
+namespace {
+
+std::string npy_header(const std::vector<std::string>& names, const std::size_t n_rows) {
   std::string header = "{'descr': [";
   for (const std::string& name : names) header.append("('").append(name).append("', '<f8'), ");
-  header += "], 'fortran_order': False, 'shape': (" + std::to_string(record.n_samples()) + ",), }";
+  header += "], 'fortran_order': False, 'shape': (" + std::to_string(n_rows) + ",), }";
   constexpr std::size_t alignment = 64, before = 10;
   header.resize((before + header.size() + alignment) / alignment * alignment - before, ' ');
   header.back() = '\n';
   std::string bytes = magic;
   bytes +=
       {'\1', '\0', static_cast<char>(header.size() & 0xff), static_cast<char>(header.size() >> 8)};
-  bytes += header;
+  return bytes + header;
+}
+
+}  // namespace
+
+// Row by row, so that no second copy of a long record is held.
+void write_npy(const std::filesystem::path& file, const Record& record) {
+  std::vector<std::string> names{time_channel};
+  std::vector<std::span<const double>> columns;
+  for (const std::string& name : channels_in_writing_order(record)) {
+    names.push_back(name);
+    columns.push_back(record.channel(name));
+  }
   static_assert(std::endian::native == std::endian::little);
-  for (std::size_t i = 0; i < record.n_samples(); ++i)
-    for (const auto& column : columns)
-      bytes.append(reinterpret_cast<const char*>(&column[i]), sizeof(double));
-  write_bytes(file, bytes);
+  write_file(file, [&](std::ostream& out) {
+    out << npy_header(names, record.n_samples());
+    std::vector<double> row(names.size());
+    for (std::size_t i = 0; i < record.n_samples(); ++i) {
+      row[0] = record.time_s(i);
+      for (std::size_t c = 0; c < columns.size(); ++c) row[c + 1] = columns[c][i];
+      out.write(reinterpret_cast<const char*>(row.data()),
+                static_cast<std::streamsize>(row.size() * sizeof(double)));
+    }
+  });
 }
 
 }  // namespace vibrissa::signals::formats

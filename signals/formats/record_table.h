@@ -23,6 +23,13 @@ struct ColumnValues {
   TimeDigits time_digits;  // resolution of the printed time column
 };
 
+/// Columns of one rate in a file that has several.
+struct RateGroup {
+  std::vector<std::size_t> columns;
+  TimeAxis clock{};
+  std::size_t n_rows = 0;
+};
+
 /// Named columns of numbers of a file of any format.
 class RecordTable {
  public:
@@ -44,6 +51,8 @@ class RecordTable {
   virtual std::optional<TimeAxis> clock() const { return std::nullopt; }
   /// Whether that rate is only nominal, such as in a comment, so that time stamps are better.
   virtual bool clock_is_nominal() const { return false; }
+  /// The columns by rate, where the file states several; empty: all columns have one.
+  virtual std::vector<RateGroup> rate_groups() const { return {}; }
   /// First rows of the recordings in the file.
   virtual std::vector<std::size_t> block_starts() const { return {1}; }
   /// Takes the rows of this column where columns of several lengths are in the file.

@@ -90,6 +90,7 @@ std::string unit_at_the_end(const std::string& name) {
 }
 
 std::string unit_of_ending(const std::string& ending) {
+  if (ending.empty()) return {};
   const auto found = std::find_if(unit_endings.begin(), unit_endings.end(),
                                   [&](const auto& known) { return known.first == ending; });
   assert(found != unit_endings.end());

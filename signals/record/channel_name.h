@@ -27,7 +27,7 @@ bool ends_with_unit(const std::string& name);
 
 /// The ending behind the last underscores that is a unit: "mN_m" of "moment_mN_m"; empty: none.
 std::string unit_at_the_end(const std::string& name);
-/// Such an ending in the spelling of UDUNITS: "mN_m" -> "mN m", "m_s2" -> "m/s2".
+/// Such an ending in the spelling of UDUNITS: "mN_m" -> "mN m", "m_s2" -> "m/s2"; of none, none.
 std::string unit_of_ending(const std::string& ending);
 
 }  // namespace vibrissa::signals

@@ -176,7 +176,7 @@ TEST(Bode, RefusesWhatAMethodCannotTake) {
   }
   const auto model = vibrissa("bode '" + case_file("flow_sensor.prm") + "' --method welch");
   EXPECT_EQ(model.status, 2);
-  EXPECT_THAT(model.errors, HasSubstr("are for records"));
+  EXPECT_THAT(model.errors, HasSubstr("is for records"));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <regex>
 
 #include "signals/files/record_io.h"
@@ -17,6 +19,24 @@ std::string second_example() {
   const auto from = text.find(start);
   if (from == std::string::npos) return "";
   return text.substr(from + start.size(), text.find("```", from) - from - start.size());
+}
+
+// A recording that a simulation takes as its base motion is said and checked like any other.
+TEST(RealInput, IsEchoedAndCheckedForFaults) {
+  const Folder folder;
+  std::string text = "time_s,az\n";
+  for (int i = 0; i < 2000; ++i)
+    text += std::to_string(0.002 * i) + "," +
+            std::to_string(std::clamp(3. * std::sin(0.3 * i) + std::sin(0.071 * i), -2., 2.)) +
+            "\n";
+  const auto result = vibrissa(
+      "simulate '" + case_file("flow_sensor.prm") + "' --base-acceleration '" +
+      folder.write("clipped.csv", text) + "' --column base_acceleration=az --duration 3 -o '" +
+      folder.file("out.csv") +
+      "' --set 'Model/Mesh resolution=1' --set Model/Sensitivities=false --set Wind/Kind=none");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.errors, testing::HasSubstr("clipped.csv: read as: commas"));
+  EXPECT_THAT(result.errors, testing::ContainsRegex("warning: .*clipped.csv: .*clip"));
 }
 
 TEST(RealInput, SecondExampleOfTheReadmeSeparatesWindFromBusVibration) {

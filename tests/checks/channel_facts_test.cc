@@ -32,6 +32,14 @@ ChannelFacts facts_of(std::vector<double> x) {
   return channel_facts(record_of(std::move(x)), moment_name);
 }
 
+TEST(ChannelFacts, OfAColumnWithoutUnitHaveNone) {
+  signals::Record record(channel_rate_hz, 1000);
+  record.set_channel("ax", std::vector<double>(1000, 1.));
+  record.set_channel("moment_mN_m", std::vector<double>(1000, 1.));
+  EXPECT_EQ(channel_facts(record, "ax").unit, "");
+  EXPECT_NE(channel_facts(record, "moment_mN_m").unit, "");
+}
+
 TEST(ChannelFacts, AreThoseOfAKnownSignal) {
   std::vector<double> x(n_of_channel);
   for (std::size_t i = 0; i < n_of_channel; ++i)

@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "checks/serves.h"
+#include "separation/model/simulation.h"
 #include "tests/checks/record_generator.h"
+#include "tests/separation/test_signals.h"
 
 namespace vibrissa::checks {
 namespace {
@@ -61,6 +63,27 @@ std::size_t n_wrong_of_120(const std::uint64_t first_seed) {
   }
   std::cout << n_good + n_bad - n_wrong << " of " << n_good + n_bad << " right\n";
   return n_wrong;
+}
+
+/// White up to half the rate, held between samples, as a digital drive is; its moment has noise.
+signals::Record white_record(const std::uint64_t seed, const double noise) {
+  const auto a = separation::test::white_noise(15000, 3., seed);
+  const auto m = separation::simulate(separation::test::sensor(2, -2e-5), a,
+                                      separation::test::rate_hz, separation::Hold::zero_order);
+  signals::Record record(separation::test::rate_hz, a.size());
+  record.set_channel(signals::channel::base_acceleration, a);
+  record.set_channel(signals::channel::base_moment,
+                     separation::test::plus_noise(m, noise * separation::test::rms(m), seed + 1));
+  return record;
+}
+
+TEST(CheckRecord, AWhiteDriveUpToHalfTheRateIsNotAliased) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const RecordReport report = check_record(white_record(seed, 1e-3));
+    EXPECT_TRUE(std::ranges::none_of(report.findings, [](const Finding& f) {
+      return f.kind == diagnosis::FindingKind::possible_aliasing;
+    })) << words_of(report);
+  }
 }
 
 // The seeds are the numbers of the records: none was chosen.

@@ -98,6 +98,27 @@ class Module(unittest.TestCase):
             with self.assertRaises(vibrissa.UserError):
                 vibrissa.from_arrays(time, columns, units, **options)
 
+    def test_takes_pandas(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("pandas is not installed")
+        random = np.random.default_rng(3)
+        even = np.arange(2000) / 500
+        table = pandas.DataFrame({"base_moment": random.normal(size=2000),
+                                  "base_acceleration": random.normal(size=2000)})
+        stamps = pandas.Timestamp("2024-01-02T10:11:12") + pandas.to_timedelta(even, unit="s")
+        for time in (pandas.Series(even), stamps, stamps.tz_localize("Europe/Vienna"),
+                     pandas.Series(stamps.tz_localize("UTC")), stamps - stamps[0]):
+            record = vibrissa.from_arrays(time, table, {"base_acceleration": "g"})
+            self.assertEqual(record.sampling_rate_hz, 500)
+            np.testing.assert_allclose(record["base_acceleration_m_s2"],
+                                       9.80665 * table["base_acceleration"])
+        gap = table.convert_dtypes()
+        gap.loc[7, "base_moment"] = pandas.NA
+        with self.assertRaises(vibrissa.UserError):
+            vibrissa.from_arrays(even, gap)
+
     def test_identifies_the_same_model(self):
         found = vibrissa.identify(self.record, order=2)
         said = json.loads(program("identify", str(self.path / "r.csv"), "--order", "2", "-o",

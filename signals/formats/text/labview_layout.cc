@@ -69,33 +69,80 @@ double rate_of_step(const double step_s, const std::string& text) {
   return exact;
 }
 
-std::optional<StatedRate> labview_rate(const std::string& file, const LabviewHeader& header,
-                                       const char decimal) {
+/// What the header states of one channel.
+struct ChannelClock {
+  std::size_t column = 0;
+  double step_s = 0.;
+  std::string step;  // as printed, with a point
+  double start_s = 0.;
+  std::optional<std::size_t> n_samples;
+};
+
+std::string entry_of(const LabviewHeader& header, const std::string& key, const std::size_t i) {
+  const auto found = header.entries.find(key);
+  return found == header.entries.end() || i >= found->second.size() ? "" : found->second[i];
+}
+
+// The key takes the first column, so the entries of a channel stand in its column.
+std::vector<ChannelClock> channel_clocks(const LabviewHeader& header, const char decimal) {
+  std::vector<ChannelClock> clocks;
   const auto found = header.entries.find("Delta_X");
-  if (found == header.entries.end()) return {};
-  const std::size_t line = header.lines.at("Delta_X");
-  std::optional<double> step;
-  std::string first;
-  const auto samples = header.entries.find("Samples");
+  if (found == header.entries.end()) return clocks;
   for (std::size_t i = 0; i < found->second.size(); ++i) {
-    const std::string& text = found->second[i];
-    if (text.empty()) continue;
-    const bool is_unused =
-        samples != header.entries.end() && i < samples->second.size() && samples->second[i] == "0";
+    std::string text = found->second[i];
+    const std::string samples = entry_of(header, "Samples", i);
     const auto value = number_in(text, decimal);
-    if (is_unused || !value || !(*value > 0.)) continue;
-    if (step && *step != *value)
-      throw UserError(file + ":" + std::to_string(line) + ": the channels have different steps (" +
-                      first + " and " + text +
-                      " s); a record has one rate: export each rate to its own file");
-    step = value;
-    first = text;
+    if (text.empty() || samples == "0" || !value || !(*value > 0.)) continue;
+    std::replace(text.begin(), text.end(), ',', '.');
+    ChannelClock clock{i + 1, *value, text, 0., {}};
+    clock.start_s = number_in(entry_of(header, "X0", i), decimal).value_or(0.);
+    if (const auto n = to_number(samples); n && *n >= 1. && *n < 1e12)
+      clock.n_samples = static_cast<std::size_t>(*n);
+    clocks.push_back(clock);
   }
-  if (!step) return {};
-  std::replace(first.begin(), first.end(), ',', '.');
+  return clocks;
+}
+
+bool have_one_step(const std::vector<ChannelClock>& clocks) {
+  return std::all_of(clocks.begin(), clocks.end(), [&](const ChannelClock& clock) {
+    return clock.step_s == clocks.front().step_s;
+  });
+}
+
+std::optional<StatedRate> labview_rate(const LabviewHeader& header,
+                                       const std::vector<ChannelClock>& clocks,
+                                       const char decimal) {
+  if (clocks.empty() || !have_one_step(clocks)) return {};
   const auto start = number_in(header.entry("X0"), decimal);
-  return StatedRate{rate_of_step(*step, first), start.value_or(0.),
-                    "Delta_X in line " + std::to_string(line), header.entry("X_Columns") == "No"};
+  return StatedRate{rate_of_step(clocks.front().step_s, clocks.front().step), start.value_or(0.),
+                    "Delta_X in line " + std::to_string(header.lines.at("Delta_X")),
+                    header.entry("X_Columns") == "No"};
+}
+
+std::vector<RateGroup> rate_groups(const std::string& file, const LabviewHeader& header,
+                                   const std::vector<ChannelClock>& clocks,
+                                   const std::size_t n_columns) {
+  std::vector<RateGroup> groups;
+  if (clocks.empty() || have_one_step(clocks)) return groups;
+  for (const ChannelClock& clock : clocks) {
+    if (clock.column >= n_columns) continue;
+    if (!clock.n_samples)
+      throw UserError(file + ":" + std::to_string(header.lines.at("Delta_X")) +
+                      ": the channels have different steps (" + clocks.front().step +
+                      " s, ...), "
+                      "but no line Samples says how many each has; export each rate to its own "
+                      "file");
+    const TimeAxis axis{clock.start_s, rate_of_step(clock.step_s, clock.step)};
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const RateGroup& group) {
+      return group.clock.sampling_rate_hz == axis.sampling_rate_hz &&
+             group.clock.start_s == axis.start_s && group.n_rows == *clock.n_samples;
+    });
+    if (same == groups.end())
+      groups.push_back({{clock.column}, axis, *clock.n_samples});
+    else
+      same->columns.push_back(clock.column);
+  }
+  return groups;
 }
 
 }  // namespace
@@ -144,9 +191,16 @@ TableLayout labview_layout(const std::string& file, const std::vector<HeadLine>&
   layout.first_line = header.names->number + 1;
   layout.first_at = header.first_row != nullptr ? header.first_row->at
                                                 : header.names->at + header.names->text.size() + 1;
-  layout.rate = labview_rate(file, header, layout.spelling.decimal);
+  const auto clocks = channel_clocks(header, layout.spelling.decimal);
+  layout.rate = labview_rate(header, clocks, layout.spelling.decimal);
+  layout.rate_groups = rate_groups(file, header, clocks, n_columns);
   if (const auto samples = to_number(header.entry("Samples")); samples && *samples >= 1.)
     layout.rows_a_block = static_cast<std::size_t>(std::min(*samples, 1e12));
+  for (const RateGroup& group : layout.rate_groups) {
+    layout.rows_a_block = std::max(layout.rows_a_block, group.n_rows);
+    layout.n_fields = 1;  // slower channels end before the others
+    layout.last_is_optional = false;
+  }
   return layout;
 }
 

@@ -12,9 +12,9 @@ namespace vibrissa::signals::formats {
 bool is_labview(const std::vector<HeadLine>& head);
 
 /// The layout that the headers of a LabVIEW measurement file state: separator, decimal mark,
-/// columns of x (none, one, or one for each channel), units, rate, samples of a block. Delta_X is
+/// columns of x (none, one, or one for each channel), units, rates, samples of a block. Delta_X is
 /// rounded: the rate is the one with the fewest digits that it allows. Throws UserError with the
-/// line for a file without names (X_Value) and for channels of different rates. Proven by
+/// line for a file without names (X_Value). Proven by
 /// tests/signals/formats/labview_file_test.cc.
 TableLayout labview_layout(const std::string& file, const std::vector<HeadLine>& head,
                            const TextOptions& options);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "signals/base/line_reader.h"
+#include "signals/formats/record_table.h"
 #include "signals/formats/text/fields.h"
 
 namespace vibrissa::signals::formats {
@@ -36,6 +37,7 @@ struct TableLayout {
   bool is_labview = false;
   std::size_t rows_a_block = 0;  // 0: not stated
   std::optional<StatedRate> rate = {};
+  std::vector<RateGroup> rate_groups = {};  // where the columns have several rates
 };
 
 /// The lines at the start of a file.

@@ -20,6 +20,7 @@ class TextTable : public RecordTable {
   std::size_t row_number(std::size_t row) const override { return file_.line_of(row); }
   std::optional<TimeAxis> clock() const override;
   bool clock_is_nominal() const override;
+  std::vector<RateGroup> rate_groups() const override;
   std::vector<std::size_t> block_starts() const override { return file_.block_starts(); }
   std::string layout_text() const override { return to_string(file_.layout()); }
   ColumnValues read(const ColumnRange& range) const override;

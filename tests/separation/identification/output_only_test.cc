@@ -119,6 +119,20 @@ TEST(OutputOnly, FindsASlowDecayFromTheDataAlone) {
   }
 }
 
+// Stability is seen over three orders, also where fewer are asked for.
+TEST(OutputOnly, FindsOneModeWithTheOrdersOfOneOrTwo) {
+  const Signal moment = driven(10000, 3, 0.05);
+  for (const std::size_t order : {2u, 4u, 6u}) {
+    const auto found = identify_output_only(moment, rate_hz, {.max_order = order});
+    ASSERT_EQ(found.modes.size(), 1u) << order;
+    EXPECT_NEAR(found.modes[0].frequency_hz.value, 31.47,
+                4. * found.modes[0].frequency_hz.standard_deviation);
+    EXPECT_TRUE(
+        identify_output_only(test::white_noise(10000, 1., 77), rate_hz, {.max_order = order})
+            .modes.empty());
+  }
+}
+
 TEST(OutputOnly, FindsNoModeInWhiteNoise) {
   std::size_t n_found = 0;
   for (int draw = 0; draw < 50; ++draw) {

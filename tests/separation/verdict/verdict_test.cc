@@ -96,6 +96,29 @@ TEST(Verdict, TakesThePeakBetweenTwoLinesForAFrequencyWithoutDamping) {
   EXPECT_FALSE(verdict.usable);
 }
 
+// An analyser's Hann window makes the lines beside a narrow peak, which looks like a second mode.
+TEST(Verdict, TakesTheShapeOfTheWindowForNoMode) {
+  const double spacing_hz = 0.3125, peak_hz = 192.594;
+  std::mt19937_64 random(10);
+  std::normal_distribution<double> normal;
+  signals::FrequencyResponse response;
+  for (double f = 100.; f < 300.; f += spacing_hz) {
+    response.frequency_hz.push_back(f);
+    // Transform of a Hann window at a line's distance from a steady tone, with its phase.
+    const double d = (f - peak_hz) / spacing_hz;
+    const double hann = d == 0. ? 1. : std::sin(M_PI * d) / (M_PI * d * (1. - d * d));
+    response.value.push_back(std::polar(1000. * hann, 0.3 - M_PI * d) +
+                             0.05 * std::complex(normal(random), normal(random)));
+  }
+  const IdentifiedResponse found = identify_response(response, {.order = 6});
+  const Verdict verdict = judge(found, response);
+  EXPECT_TRUE(verdict.determined.empty());
+  const auto at_peak = std::ranges::min_element(found.fit.modes, {}, [&](const auto& mode) {
+    return std::abs(mode.frequency_hz.value - peak_hz);
+  });
+  EXPECT_NEAR(at_peak->frequency_hz.value, peak_hz, 3. * at_peak->frequency_hz.standard_deviation);
+}
+
 // A straight line between the samples of a sum of lines is another motion: a small error that
 // follows the input.
 TEST(Verdict, DoesNotAccuseAFitThatIsExact) {

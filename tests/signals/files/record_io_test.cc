@@ -71,6 +71,15 @@ TEST_F(ReadRecord, TakesRateStartAndChannelsFromTheFile) {
   EXPECT_EQ(record.channel(channel::base_moment)[99], 9900.);
 }
 
+TEST_F(ReadRecord, TakesAllColumnsOfAFileWithoutRowsForNone) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(
+      [&] {
+        read_recording(folder.file("empty.csv", "time_s;base_\n"), {.takes_all_columns = true});
+      },
+      ThrowsMessage<UserError>(HasSubstr("no column has the name of a channel")));
+}
+
 TEST_F(ReadRecord, DoesNotDependOnTheOrderOfColumns) {
   const Record record = read(csv("base_moment_N_m,time_s", [](const std::size_t i) {
     return std::to_string(i) + "," + time_at_500_hz(i);

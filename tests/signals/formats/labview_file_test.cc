@@ -94,13 +94,52 @@ TEST(LabviewFile, TellsBlocksApartByTheirHeaders) {
   EXPECT_THAT(file.block_starts(), ElementsAre(1u, 71u));
 }
 
-TEST(LabviewFile, RefusesChannelsOfDifferentRates) {
+/// a at 1000 Hz and m at 500 Hz, half as many; the third channel is as slow as a thermometer.
+std::string text_of_two_rates() {
+  std::string text = "LabVIEW Measurement\t\nSeparator\tTab\nDecimal_Separator\t.\nX_Columns\tNo\n";
+  text += std::string(end_of_header) + "\t\nChannels\t3\t\t\nSamples\t2000\t1000\t2\t\n";
+  text += "Y_Unit_Label\tm/s^2\tN*m\tdegC\t\nX0\t0\t0\t0\t\nDelta_X\t0.001\t0.002\t1\t\n";
+  text += std::string(end_of_header) + "X_Value\ta\tm\tT\tComment\n";
+  for (int i = 0; i < 2000; ++i) {
+    const auto motion = [](const double t) { return std::sin(2. * M_PI * 31. * t); };
+    text += "\t" + to_text(motion(i / 1000.)) + "\t" + (i < 1000 ? to_text(motion(i / 500.)) : "") +
+            "\t" + (i < 2 ? "21" : "") + "\n";
+  }
+  return text;
+}
+
+TEST(LabviewFile, PutsChannelsOfDifferentRatesOnOneClock) {
   const test::TemporaryFolder folder;
-  std::string text = text_of({});
-  const std::size_t at = text.find("Delta_X\t0.000977\t0.000977");
-  text.replace(at, 25, "Delta_X\t0.000977\t0.001954");
-  EXPECT_THAT([&] { formats::TextFile file(folder.file("r.lvm", text)); },
-              ThrowsMessage<UserError>(HasSubstr("different steps (0.000977 and 0.001954 s)")));
+  const auto file = folder.file("r.lvm", text_of_two_rates());
+  const ReadOptions both{.columns = {parse_column_choice("base_acceleration=a"),
+                                     parse_column_choice("base_moment=m")}};
+  const Recording recording = read_recording(file, both);
+  EXPECT_THAT(recording.words, HasSubstr("channels at 1000, 500 Hz joined"));
+  const Record& record = recording.pieces.front();
+  EXPECT_EQ(record.sampling_rate_hz(), 500.);
+  EXPECT_GT(record.n_samples(), 900u);
+  const auto a = record.channel(channel::base_acceleration);
+  const auto m = record.channel(channel::base_moment);
+  for (std::size_t i = 0; i < record.n_samples(); ++i) {
+    ASSERT_NEAR(m[i], std::sin(2. * M_PI * 31. * record.time_s(i)), 1e-12);
+    ASSERT_NEAR(a[i], m[i], 2e-3);
+  }
+  const Record fast = read_record(file, {.columns = {parse_column_choice("base_acceleration=a")}});
+  EXPECT_EQ(fast.sampling_rate_hz(), 1000.);
+  EXPECT_EQ(fast.n_samples(), 2000u);
+}
+
+TEST(LabviewFile, RefusesOptionsOfOneRateForSeveral) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.file("r.lvm", text_of_two_rates());
+  const auto refuse = [&](const ReadOptions& options, const std::string& words) {
+    EXPECT_THAT([&] { read_recording(file, options); }, ThrowsMessage<UserError>(HasSubstr(words)));
+  };
+  const std::vector<ColumnChoice> a = {parse_column_choice("base_acceleration=a")};
+  refuse({.columns = a, .sampling_rate_hz = 1000.}, "leave --rate out");
+  refuse({.columns = a, .first_row = 5}, "leave --rows out");
+  refuse({.columns = {parse_column_choice("base_acceleration=b")}}, "unknown column 'b'");
+  refuse({.columns = {parse_column_choice("temperature=T")}}, "only 2");
 }
 
 }  // namespace

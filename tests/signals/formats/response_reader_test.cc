@@ -55,6 +55,21 @@ class ResponseReader : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(ResponseReader, ACoherenceAboveOneIsNone) {
+  std::string text = "frequency_hz,response_real,response_imaginary,coh_2\n";
+  for (int i = 1; i <= 20; ++i)
+    text += std::to_string(i) + ",1,0.5," +
+            (i == 1   ? "1.2462"
+             : i == 2 ? "1.0000001"
+                      : "0.9") +
+            "\n";
+  const FrequencyResponse found = read_response(write("above.csv", text), {""});
+  ASSERT_EQ(found.coherence.size(), 20u);
+  EXPECT_EQ(found.coherence[0], 0.);
+  EXPECT_EQ(found.coherence[1], 1.);
+  EXPECT_EQ(found.coherence[2], 0.9);
+}
+
 TEST_F(ResponseReader, GivesBackWhatIsWrittenToTheLastBitOrThirteenDigits) {
   const FrequencyResponse response = sensor_response();
   for (const std::string name : {"r.mat", "r.csv"}) {
