@@ -133,6 +133,30 @@ std::optional<PathCandidate> refined(const Bvrm& start, const Entries& entries, 
   return best;
 }
 
+/// One mode more: strongly damped near the strongest mode, as aliases of modes above the sampling
+/// frequency are.
+Bvrm with_one_mode_more(const Bvrm& model) {
+  constexpr double damping_ratio = 0.6, share = 0.1;
+  const separation::ModalTerm& first = model.modes.front();
+  Bvrm out = model;
+  out.modes.push_back(separation::make_modal_term(first.frequency_hz(), damping_ratio,
+                                                  share * first.static_gain_kg_m()));
+  return out;
+}
+
+/// Simulations that hold or interpolate their input: the lines of the response, which are those of
+/// a continuous motion, miss modes above the sampling frequency.
+std::optional<PathCandidate> with_further_modes(std::optional<PathCandidate> best,
+                                                const Entries& entries, const Holds holds) {
+  while (best && best->misfit > exact_misfit && holds.size() > 1 &&
+         2 * best->model.modes.size() < max_order) {
+    const auto further = refined(with_one_mode_more(best->model), entries, holds);
+    if (!further || further->misfit > worthwhile * best->misfit) break;
+    best = further;
+  }
+  return best;
+}
+
 std::optional<PathCandidate> best_candidate(const signals::FrequencyResponse& response,
                                             const Entries& entries, const Holds holds,
                                             const bool periodic) {
@@ -143,6 +167,7 @@ std::optional<PathCandidate> best_candidate(const signals::FrequencyResponse& re
         periodic ? PathCandidate{fit.model, relative_misfit(fit.model, response)}
                  : refined(fit.model, entries, holds);
     if (candidate && (!best || candidate->misfit <= worthwhile * best->misfit)) best = candidate;
+    if (!periodic) best = with_further_modes(best, entries, holds);
   }
   return best;
 }

@@ -4,10 +4,10 @@
 
 #include <Eigen/Dense>
 #include <numbers>
-#include <random>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "diagnosis/nominal/nominal_identification.h"
+#include "tests/diagnosis/one_mode_rig.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -16,12 +16,13 @@ using separation::Hold;
 
 constexpr double rate_hz = 500.;
 
-/// Two modes: base moment of each = static gain, damping ratio, frequency.
+/// Two modes whose moments have an elastic and a viscous part.
 NominalModel two_modes(const double second_hz, const double second_ratio) {
   NominalModel out;
   const double first = 2. * std::numbers::pi * 37., second = 2. * std::numbers::pi * second_hz;
   out.modes = {{.frequency_rad_s = first, .damping_ratio = 0.05, .base_gain = -2e-5},
                {.frequency_rad_s = second, .damping_ratio = second_ratio, .base_gain = -2e-6}};
+  for (StructuralMode& mode : out.modes) mode.base_rate = 2. * mode.damping_ratio * mode.base_gain;
   out.has_base = true;
   return out;
 }
@@ -30,20 +31,20 @@ NominalModel two_modes(const double second_hz, const double second_ratio) {
 /// state, input and slope of the input.
 signals::Dataset simulated(const NominalModel& truth, const Hold hold) {
   constexpr std::size_t n = 8000;
-  std::mt19937 random(5);
-  std::normal_distribution<double> normal;
-  std::vector<double> input(n + 1), moment(n, 0.);
-  for (double& value : input) value = normal(random);
+  std::vector<double> lines, input, moment(n, 0.);
+  for (double hz = 3.017; hz < 110.; hz += 0.61) lines.push_back(hz);
+  const auto motion = test::sines(lines, 1., 5);
+  for (std::size_t i = 0; i <= n; ++i) input.push_back(motion(static_cast<double>(i) / rate_hz));
   for (const StructuralMode& mode : truth.modes) {
     const double w = mode.frequency_rad_s;
     Eigen::Matrix4d a = Eigen::Matrix4d::Zero();
     a(0, 1) = 1.;
-    a.row(1) << -w * w, -2. * mode.damping_ratio * w, mode.base_gain * w * w, 0.;
+    a.row(1) << -w * w, -2. * mode.damping_ratio * w, w * w, 0.;
     a(2, 3) = 1.;
     const Eigen::Matrix4d step = (a / rate_hz).exp();
     Eigen::Vector4d state = Eigen::Vector4d::Zero();
     for (std::size_t i = 0; i < n; ++i) {
-      moment[i] += state(0);
+      moment[i] += mode.base_gain * state(0) + mode.base_rate / w * state(1);
       state(2) = input[i];
       state(3) = hold == Hold::zero_order ? 0. : (input[i + 1] - input[i]) * rate_hz;
       state = step * state;
@@ -59,14 +60,15 @@ signals::Dataset simulated(const NominalModel& truth, const Hold hold) {
 }
 
 void expect_response(const NominalModel& found, const NominalModel& truth) {
-  for (const double f : {2., 20., 37., 60., 110., 150.}) {
+  const double static_gain = std::abs(truth.base_response(0.));
+  for (const double f : {3., 20., 37., 60., 105.}) {
     const Complex s(0., 2. * std::numbers::pi * f);
-    EXPECT_LT(std::abs(found.base_response(s) / truth.base_response(s) - 1.), 2e-2) << f;
+    EXPECT_LT(std::abs(found.base_response(s) - truth.base_response(s)), 5e-3 * static_gain) << f;
   }
 }
 
 TEST(ModeAboveSampling, AModeAboveTheSamplingOfAHeldSimulationIsFoundThere) {
-  for (const double hz : {470., 530., 700.}) {
+  for (const double hz : {470., 530., 960.}) {
     const NominalModel truth = two_modes(hz, 0.05);
     expect_response(identify_nominal(simulated(truth, Hold::zero_order)), truth);
   }
