@@ -204,8 +204,9 @@ void set_modes(NominalModel& model, const Bvrm& found) {
 
 }  // namespace
 
-void identify_base_path(NominalModel& model, std::span<const signals::DatasetRecord* const> base,
-                        const Holds holds) {
+separation::Hold identify_base_path(NominalModel& model,
+                                    std::span<const signals::DatasetRecord* const> base,
+                                    const Holds holds) {
   Entries entries(base.begin(), base.end());
   const auto is_periodic = [](const auto* entry) { return entry->period_samples > 0; };
   const bool periodic = std::any_of(entries.begin(), entries.end(), is_periodic);
@@ -214,7 +215,7 @@ void identify_base_path(NominalModel& model, std::span<const signals::DatasetRec
   if (const std::optional<double> gain = flat_gain(response)) {
     model.base_direct = *gain;
     model.has_base = true;
-    return;
+    return separation::Hold::band_limited;
   }
   if (const std::optional<PathCandidate> best =
           periodic ? best_of_periodic(response, entries, holds)
@@ -223,7 +224,9 @@ void identify_base_path(NominalModel& model, std::span<const signals::DatasetRec
                                                entries.front()->record.sampling_rate_hz()));
     model.has_base = true;
     model.base_misfit = best->misfit;
+    return best->hold;
   }
+  return separation::Hold::band_limited;
 }
 
 }  // namespace vibrissa::diagnosis

@@ -40,9 +40,20 @@ std::vector<double> signed_squares(std::span<const double> wind) {
   return out;
 }
 
+/// What a simulation that holds or interpolates its samples feels of a line (Franklin, Powell,
+/// Workman, 3rd ed., 1998, 6.3), without its images above half the sampling rate.
+Complex felt(const separation::Hold hold, const Complex s, const double step_s) {
+  if (hold == separation::Hold::band_limited || s == 0.) return 1.;
+  const Complex x = s * step_s, held = (1. - std::exp(-x)) / x;
+  return hold == separation::Hold::zero_order ? held : held * held * std::exp(x);
+}
+
 /// One column for each unknown of the wind path: gain and rate of each mode, direct term.
-Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& record) {
-  const std::vector<Complex> spectrum = spectrum_of(signed_squares(record.wind));
+Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& record,
+                              const separation::Hold hold) {
+  std::vector<Complex> spectrum = spectrum_of(signed_squares(record.wind));
+  for (std::size_t k = 0; k < spectrum.size(); ++k)
+    spectrum[k] *= felt(hold, record.line_s(k), 1. / record.sampling_rate_hz);
   const auto n_modes = static_cast<Eigen::Index>(model.modes.size());
   const auto n_bins = static_cast<Eigen::Index>(record.n_bins());
   Eigen::MatrixXcd columns(n_bins, 2 * n_modes + 1);
@@ -78,7 +89,8 @@ void set_wind_poles(NominalModel& model, const std::vector<const DatasetRecord*>
         {.frequency_rad_s = std::sqrt(term.a0), .damping_ratio = term.damping_ratio()});
 }
 
-void set_wind_path(NominalModel& model, const signals::Dataset& simulation) {
+void set_wind_path(NominalModel& model, const signals::Dataset& simulation,
+                   const separation::Hold hold) {
   const std::vector<const DatasetRecord*> entries = choose(simulation, false, true);
   if (entries.empty()) return;
   if (model.modes.empty()) set_wind_poles(model, entries);
@@ -97,15 +109,18 @@ void set_wind_path(NominalModel& model, const signals::Dataset& simulation) {
   const Eigen::Index n_unknowns = 3;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n_unknowns, n_unknowns);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n_unknowns);
+  double power = 0., measured = 0.;
   Chain base_only{.structure = without};
   for (const PreparedRecord& record : experiment.records) {
-    const Eigen::MatrixXcd columns = wind_columns(in_band, record);
+    const Eigen::MatrixXcd columns = wind_columns(in_band, record, hold);
     const std::vector<Complex> base = simulate_mean(base_only, record);
     Eigen::VectorXcd rest(columns.rows());
     for (Eigen::Index b = 0; b < rest.size(); ++b)
       rest(b) = record.moment[static_cast<std::size_t>(b)] - base[static_cast<std::size_t>(b)];
     normal += (columns.adjoint() * columns).real();
     right += (columns.adjoint() * rest).real();
+    power += rest.squaredNorm();
+    measured += total_power(record.moment);
   }
   const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
   const Eigen::MatrixXd scaled =
@@ -117,6 +132,8 @@ void set_wind_path(NominalModel& model, const signals::Dataset& simulation) {
   model.modes.front().wind_rate = solution(1);
   model.wind_direct = solution(2);
   model.has_wind = true;
+  const double left = power - 2. * solution.dot(right) + solution.dot(normal * solution);
+  if (measured > 0.) model.wind_misfit = std::sqrt(std::max(0., left) / measured);
 }
 
 /// All records must have the same readout, because a model predicts one kind of reading.
@@ -157,7 +174,8 @@ void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
     model.base_misfit = model.base_misfit > 0.
                             ? std::min(model.base_misfit, std::sqrt(base_error / base_power))
                             : std::sqrt(base_error / base_power);
-  if (wind_power > 0.) model.wind_misfit = std::sqrt(wind_error / wind_power);
+  if (wind_power > 0.)
+    model.wind_misfit = std::min(model.wind_misfit, std::sqrt(wind_error / wind_power));
 }
 
 NominalModel identified(const signals::Dataset& simulation, const Holds holds) {
@@ -166,8 +184,9 @@ NominalModel identified(const signals::Dataset& simulation, const Holds holds) {
   model.readout_is_given =
       !simulation.records.empty() && simulation.records.front().readout_is_given;
   const auto base = choose(simulation, true, false);
-  if (!base.empty()) identify_base_path(model, base, holds);
-  set_wind_path(model, simulation);
+  const separation::Hold hold =
+      base.empty() ? separation::Hold::band_limited : identify_base_path(model, base, holds);
+  set_wind_path(model, simulation, hold);
   if (!model.has_base && !model.has_wind)
     throw signals::UserError(
         "the simulation's records determine neither the base nor the wind response: at least one "

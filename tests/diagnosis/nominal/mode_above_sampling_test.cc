@@ -79,6 +79,29 @@ TEST(ModeAboveSampling, AndThatOfOneThatInterpolates) {
   expect_response(identify_nominal(simulated(truth, Hold::first_order)), truth);
 }
 
+/// The wind path of a simulation that holds its input: the first mode's force is held, too.
+TEST(ModeAboveSampling, TheWindOfAHeldSimulationIsHeld) {
+  NominalModel truth = two_modes(470., 0.05);
+  signals::Dataset simulation = simulated(truth, Hold::zero_order);
+  NominalModel by_wind = truth;
+  by_wind.modes.resize(1);
+  const signals::Record driven = simulated(by_wind, Hold::zero_order).records[0].record;
+  const auto force = driven.channel(signals::channel::base_acceleration);
+  std::vector<double> wind(force.begin(), force.end());
+  for (double& value : wind) value = std::copysign(std::sqrt(std::abs(value)), value);
+  signals::Record record(rate_hz, driven.n_samples());
+  record.set_channel(signals::channel::wind_speed, std::move(wind));
+  const auto moment = driven.channel(signals::channel::base_moment);
+  record.set_channel(signals::channel::base_moment, {moment.begin(), moment.end()});
+  simulation.records.push_back({"wind", record, {false, true}, 0, signals::Split::fit});
+  const NominalModel found = identify_nominal(simulation);
+  EXPECT_LT(found.wind_misfit, 5e-3);
+  for (const double f : {3., 20., 37., 60.}) {
+    const Complex s(0., 2. * std::numbers::pi * f);
+    EXPECT_LT(std::abs(found.wind_response(s) / by_wind.base_response(s) - 1.), 5e-3) << f;
+  }
+}
+
 TEST(ModeAboveSampling, AModeOfTheBandStays) {
   for (const double ratio : {0.02, 0.05, 0.14}) {
     const NominalModel truth = two_modes(110., ratio);
