@@ -12,10 +12,10 @@ double evidence_of_feedthrough(const double residue) {
   test::OneModeRig rig = test::noisy_rig();
   rig.extra_hz = 300.;
   rig.extra_residue = residue;
-  const Experiment experiment = prepare_experiment(
-      test::nominal_of(test::OneModeRig{}, true),
-      test::rig_dataset(rig, {.wind = false, .quiet = true, .held_out = false}),
-      signals::Split::fit, InputNoise::reduced);
+  const Experiment experiment =
+      prepare_experiment(test::nominal_of(test::OneModeRig{}, true),
+                         test::rig_dataset(rig, {.wind = false, .quiet = true, .held_out = false}),
+                         signals::Split::fit, InputNoise::reduced);
   const HypothesisFit none = fit_hypothesis(experiment, Hypothesis{});
   const Hypothesis path({&find_effect("coil_feedthrough")});
   return fit_hypothesis(experiment, path, &none).log_evidence - none.log_evidence;
