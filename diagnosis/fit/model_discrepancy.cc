@@ -65,24 +65,17 @@ Eigen::MatrixXd wide_forms_of_block(const std::vector<double>& edges, const std:
   return out;
 }
 
-/// The quasi-static moment of the base motion at the evaluated bins of all records; in each kind
-/// with the power of the measured moment.
+/// The quasi-static moment of the base motion at the evaluated bins of all records; 0 for a
+/// simulation without modes, where it is a gain.
 std::vector<Complex> quasi_static(const Experiment& experiment) {
-  std::array<double, n_record_kinds + 1> moment{}, motion{};
+  const double gain = experiment.nominal.modes.empty() ? 0. : experiment.scales.static_gain;
   std::vector<Complex> out;
-  std::vector<std::size_t> kinds;
   for (const PreparedRecord& record : experiment.records) {
-    const std::size_t kind = record_kind(record);
     std::vector<Complex> bins(record.n_bins());
     if (!record.acceleration.empty())
       bins = evaluated_bins(record, samples_of(record.acceleration, record.n_samples));
-    moment[kind] += total_power(record.moment);
-    motion[kind] += total_power(bins);
-    out.insert(out.end(), bins.begin(), bins.end());
-    kinds.insert(kinds.end(), bins.size(), kind);
+    for (const Complex& value : bins) out.push_back(gain * value);
   }
-  for (std::size_t row = 0; row < out.size(); ++row)
-    if (motion[kinds[row]] > 0.) out[row] *= std::sqrt(moment[kinds[row]] / motion[kinds[row]]);
   return out;
 }
 

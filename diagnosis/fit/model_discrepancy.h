@@ -30,7 +30,7 @@ struct DiscrepancyShapes {
 /// The part of the error that no simulation gets right: in a block k of frequency,
 ///   R = (eps_k + slope_k t / 2 + sum_m h_m(f) w_m) D_0 + (r + r_k / 10) G a + sum_j eps_jk D_j
 ///       + noise,   t = -1 .. 1,
-/// D_0 the predicted moment, G a the base motion times the ratio of both rms values, D_j the form
+/// D_0 the predicted moment, G a its quasi-static value, D_j the form
 /// error of effect j; eps_k, slope_k, r_k ~ CN(0, delta^2), w_m, r ~ CN(0, wide delta^2), eps_jk ~
 /// CN(0, level^2). r is the residual of modes that the simulation lacks or weighs otherwise (Ewins,
 /// Modal Testing, 2nd ed., 2000, residuals of high modes). h_m are the wide forms: a hat function

@@ -22,7 +22,7 @@ double evidence_of_feedthrough(const double residue) {
 }
 
 TEST(ResidualOfHigherModes, IsNoFeedthroughWithinTheAccuracy) {
-  EXPECT_LT(evidence_of_feedthrough(0.02), 3.);
+  EXPECT_LT(evidence_of_feedthrough(0.01), 3.);
 }
 
 TEST(ResidualOfHigherModes, HidesNoFeedthroughFarBeyondIt) {
