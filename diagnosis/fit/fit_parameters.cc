@@ -74,10 +74,6 @@ std::vector<FitParameter> common_parameters(const Experiment& experiment) {
               i < n_record_kinds ? most_inaccurate * accuracy : without_cause);
   out[index_of_incoherence].description =
       level("incoherent_error", "1", usual_incoherence, accuracy_spread, 1e-6, largest_incoherence);
-  out[index_of_flicker].description =
-      level("flicker_noise_at_1_hz", "N m", experiment.moment_noise, unknown_spread,
-            1e-3 * experiment.moment_noise, 30. * experiment.moment_noise);
-  if (experiment.moment_noise_is_measured) out[index_of_flicker].description.prior.fix();
   return out;
 }
 

@@ -23,14 +23,11 @@ struct FitParameter {
 
 /// Indices of the parameters that belong to no effect; the levels of an unknown cause come last.
 /// The discrepancy (model_discrepancy.h) has two levels for each kind of record.
-/// Flicker noise of the moment (density as 1 / f, Keshner 1982) is free where neither rest nor
-/// periods show the noise.
 inline constexpr std::size_t index_of_moment_noise = 0, index_of_acceleration_noise = 1,
                              index_of_joint_share = 2, index_of_joint_loss = 3,
                              index_of_discrepancy = 4, n_noise_parameters = 2,
                              index_of_incoherence = index_of_discrepancy + n_discrepancy_levels,
-                             index_of_flicker = index_of_incoherence + 1,
-                             n_common_parameters = index_of_flicker + 1;
+                             n_common_parameters = index_of_incoherence + 1;
 
 /// Part of the building tolerance within which half of all sensors are: scale of the prior of a
 /// calibration parameter.

@@ -25,16 +25,6 @@ std::vector<double> spread_out(std::vector<double> power) {
   return power;
 }
 
-/// Power of the bins' flicker noise of 1 N m at 1 Hz; 0 where the noise is measured.
-std::vector<double> flicker(const PreparedRecord& record, const Experiment& experiment) {
-  std::vector<double> out(record.n_bins(), 0.);
-  if (experiment.moment_noise_is_measured) return out;
-  const double n = static_cast<double>(record.n_evaluated);
-  for (std::size_t b = 0; b < out.size(); ++b)
-    out[b] = n / (record.bin_hz() * static_cast<double>(b + 1));
-  return out;
-}
-
 double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
   const double misfit = record.excitation.wind ? nominal.wind_misfit : nominal.base_misfit;
   return std::max(misfit, least_misfit);
@@ -78,7 +68,7 @@ Eigen::VectorXcd FitPosterior::change_by(const Effect& effect, const Eigen::Vect
 /// differs from record to record and from bin to bin.
 void FitPosterior::update_slow_variance(const Eigen::VectorXd& x,
                                         const std::vector<Prediction>& at) {
-  for (BinVariances* parts : {&misfit_, &power_, &incoherent_, &flicker_, &form_}) parts->clear();
+  for (BinVariances* parts : {&misfit_, &power_, &incoherent_, &form_}) parts->clear();
   const auto n_effects = static_cast<Eigen::Index>(effects_.size());
   DiscrepancyShapes shapes{.mean = Eigen::VectorXcd(discrepancy_.n_rows()),
                            .changes = Eigen::MatrixXcd(discrepancy_.n_rows(), n_effects)};
@@ -90,7 +80,6 @@ void FitPosterior::update_slow_variance(const Eigen::VectorXd& x,
     misfit_.push_back(power_.back());
     for (double& value : misfit_.back()) value *= share * share;
     incoherent_.push_back(spread_out(power_.back()));
-    flicker_.push_back(flicker(record, experiment_));
     form_.emplace_back(record.n_bins(), 0.);
     for (const Complex& mean : at[r].mean) shapes.mean(row++) = mean;
   }
@@ -134,9 +123,7 @@ std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Predi
              acceleration_variance * prediction.acceleration_noise[b] +
              prediction.process_noise[b] + misfit_[record][b];
   const double incoherent = std::exp(2. * x(index_of_incoherence));
-  const double at_one_hz = std::exp(2. * x(index_of_flicker));
-  for (std::size_t b = 0; b < out.size(); ++b)
-    out[b] += incoherent * incoherent_[record][b] + at_one_hz * flicker_[record][b];
+  for (std::size_t b = 0; b < out.size(); ++b) out[b] += incoherent * incoherent_[record][b];
   if (has_form_errors()) {
     const double level = form_level(x);
     for (std::size_t b = 0; b < out.size(); ++b) out[b] += level * level * form_[record][b];
@@ -249,7 +236,7 @@ void FitPosterior::set_noise_column(const Eigen::VectorXd& x, const std::vector<
   if (!moment) out.acceleration(index) = level / acceleration_variance;
 }
 
-/// Of the level of incoherent errors, of flicker noise, of form errors or of the unknown cause.
+/// Of the level of incoherent errors, of form errors or of the unknown cause.
 void FitPosterior::set_level_column(const Eigen::VectorXd& x, const BinVariances& s,
                                     const Eigen::Index index, Derivatives& out) const {
   const double level = 2. * std::exp(2. * x(index));
@@ -258,8 +245,6 @@ void FitPosterior::set_level_column(const Eigen::VectorXd& x, const BinVariances
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
       if (index == static_cast<Eigen::Index>(index_of_incoherence))
         out.variance(row, index) = level * incoherent_[r][b] / s[r][b];
-      else if (index == static_cast<Eigen::Index>(index_of_flicker))
-        out.variance(row, index) = level * flicker_[r][b] / s[r][b];
       else if (has_form_errors())
         out.variance(row, index) = level * form_[r][b] / s[r][b];
       else if (unknown_index(r, b) == index)

@@ -110,7 +110,7 @@ class FitPosterior {
   const std::vector<FitParameter>& fit_parameters_;
   std::vector<const Effect*> effects_;
   bool unknown_;
-  BinVariances misfit_, power_, incoherent_, flicker_, form_;
+  BinVariances misfit_, power_, incoherent_, form_;
   ModelDiscrepancy discrepancy_;
 };
 

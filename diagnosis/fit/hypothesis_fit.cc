@@ -30,7 +30,6 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
   x.segment(index_of_discrepancy, n_discrepancy_levels)
       .setConstant(std::log(experiment.simulation_accuracy));
   x(index_of_incoherence) = fit_parameters[index_of_incoherence].description.prior.centre;
-  x(index_of_flicker) = fit_parameters[index_of_flicker].description.prior.centre;
   if (start != nullptr)
     x.head(nominal_nuisances ? n_noise_parameters : n_common_parameters) =
         start->x.head(nominal_nuisances ? n_noise_parameters : n_common_parameters);

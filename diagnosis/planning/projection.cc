@@ -18,8 +18,7 @@ Eigen::VectorXd nominal_x(const std::vector<FitParameter>& fit_parameters,
   x(index_of_moment_noise) = std::log(noise.moment_n_m);
   x(index_of_acceleration_noise) = std::log(noise.acceleration_m_s2);
   // The limits are those by noise alone.
-  for (const std::size_t i : {index_of_incoherence, index_of_flicker})
-    x(static_cast<Eigen::Index>(i)) = fit_parameters[i].description.prior.low;
+  x(index_of_incoherence) = fit_parameters[index_of_incoherence].description.prior.low;
   return x;
 }
 

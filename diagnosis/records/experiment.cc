@@ -434,7 +434,6 @@ ChannelNoise channel_noise(const signals::Dataset& dataset) {
   noise.acceleration_m_s2 = n_acceleration > 0. ? std::sqrt(acceleration / n_acceleration)
                                                 : quietest_part_of_drive(dataset);
   noise.acceleration_is_measured = n_acceleration > 0.;
-  noise.moment_is_measured = n_moment > 0.;
   noise.moment_n_m = std::max(noise.moment_n_m, least_noise(dataset, channel::base_moment));
   noise.acceleration_m_s2 =
       std::max(noise.acceleration_m_s2, least_noise(dataset, channel::base_acceleration));
@@ -451,7 +450,6 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
   experiment.moment_noise = noise.moment_n_m;
   experiment.acceleration_noise = noise.acceleration_m_s2;
   experiment.acceleration_noise_is_measured = noise.acceleration_is_measured;
-  experiment.moment_noise_is_measured = noise.moment_is_measured;
   const ExcitedHarmonics excited = excited_harmonics(dataset, split, noise.acceleration_m_s2);
   const ChannelColours colours =
       channel_colours(dataset, nominal.narrowest_mode_hz(), noise.acceleration_m_s2);

@@ -78,7 +78,7 @@ struct Experiment {
   Scales scales;
   double moment_noise = 0.;        // estimate per sample [N m]
   double acceleration_noise = 0.;  // estimate per sample [m/s^2]
-  bool acceleration_noise_is_measured = true, moment_noise_is_measured = true;
+  bool acceleration_noise_is_measured = true;
   bool has_base = false, has_wind = false, has_cross = false, has_repeats = false;
   /// Relative error of its form that a simulation usually has (model_discrepancy.h).
   double simulation_accuracy = usual_simulation_accuracy;
@@ -120,7 +120,7 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
 /// tests/diagnosis/records/experiment_test.cc.
 struct ChannelNoise {
   double moment_n_m = 0., acceleration_m_s2 = 0.;
-  bool acceleration_is_measured = false, moment_is_measured = false;  // at rest or from repeats
+  bool acceleration_is_measured = false;  // at rest or from repeats
 };
 ChannelNoise channel_noise(const signals::Dataset& dataset);
 
