@@ -146,13 +146,12 @@ Bvrm with_one_mode_more(const Bvrm& model) {
 
 /// Simulations that hold or interpolate their input: the lines of the response, which are those of
 /// a continuous motion, miss modes above the sampling frequency.
-std::optional<PathCandidate> with_further_modes(std::optional<PathCandidate> best,
-                                                const Entries& entries, const Holds holds) {
-  while (best && best->misfit > exact_misfit && holds.size() > 1 &&
-         2 * best->model.modes.size() < max_order) {
-    const auto further = refined(with_one_mode_more(best->model), entries, holds);
-    if (!further || further->misfit > worthwhile * best->misfit) break;
-    best = further;
+PathCandidate with_further_modes(PathCandidate best, const Entries& entries, const Holds holds) {
+  while (best.misfit > exact_misfit && holds.size() > 1 &&
+         2 * best.model.modes.size() < max_order) {
+    const auto further = refined(with_one_mode_more(best.model), entries, holds);
+    if (!further || further->misfit > worthwhile * best.misfit) break;
+    best = *further;
   }
   return best;
 }
@@ -166,8 +165,8 @@ std::optional<PathCandidate> best_candidate(const signals::FrequencyResponse& re
     const std::optional<PathCandidate> candidate =
         periodic ? PathCandidate{fit.model, relative_misfit(fit.model, response)}
                  : refined(fit.model, entries, holds);
-    if (candidate && (!best || candidate->misfit <= worthwhile * best->misfit)) best = candidate;
-    if (!periodic) best = with_further_modes(best, entries, holds);
+    if (!candidate || (best && candidate->misfit > worthwhile * best->misfit)) continue;
+    best = periodic ? candidate : with_further_modes(*candidate, entries, holds);
   }
   return best;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "separation/identification/srivc.h"
+#include "separation/model/input_hold.h"
 #include "separation/model/rational_model.h"
 
 namespace vibrissa::diagnosis {

@@ -70,7 +70,7 @@ Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& r
       }
       whole[k] = response * spectrum[k];
     }
-    const std::vector<Complex> bins = evaluated_bins(record, samples_of(whole, record.n_samples));
+    const std::vector<Complex> bins = bins_of_lines(record, whole);
     for (Eigen::Index b = 0; b < n_bins; ++b) columns(b, c) = bins[static_cast<std::size_t>(b)];
   }
   return columns;

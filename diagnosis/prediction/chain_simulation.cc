@@ -35,12 +35,6 @@ Complex reading_of_source(const Chain& chain, const PreparedRecord& record, std:
   return reading + chain.new_sample_share * (record.source_acceleration[k] - reading);
 }
 
-std::vector<Complex> bins_of_lines(const PreparedRecord& record,
-                                   const std::vector<Complex>& whole) {
-  if (record.n_evaluated == record.n_samples) return {whole.begin() + 1, whole.end() - 1};
-  return evaluated_bins(record, samples_of(whole, record.n_samples));
-}
-
 std::vector<std::vector<Complex>> evaluated_means(
     std::span<const PreparedRecord> records, const std::vector<std::vector<Complex>>& readings) {
   std::vector<std::vector<Complex>> out;

@@ -19,4 +19,10 @@ std::vector<Complex> evaluated_bins(const PreparedRecord& record, std::span<cons
   return {lines.begin() + 1, lines.end() - 1};
 }
 
+std::vector<Complex> bins_of_lines(const PreparedRecord& record,
+                                   const std::vector<Complex>& whole) {
+  if (record.n_evaluated == record.n_samples) return {whole.begin() + 1, whole.end() - 1};
+  return evaluated_bins(record, samples_of(whole, record.n_samples));
+}
+
 }  // namespace vibrissa::diagnosis

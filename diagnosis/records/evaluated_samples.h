@@ -14,4 +14,7 @@ std::vector<double> evaluated_samples(const PreparedRecord& record, std::span<co
 /// Bins of the evaluated part, as PreparedRecord::moment, from the samples of a whole record.
 std::vector<Complex> evaluated_bins(const PreparedRecord& record, std::span<const double> samples);
 
+/// The same from the lines k = 0 .. n/2 of a whole record.
+std::vector<Complex> bins_of_lines(const PreparedRecord& record, const std::vector<Complex>& whole);
+
 }  // namespace vibrissa::diagnosis
