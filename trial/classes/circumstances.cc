@@ -1,5 +1,6 @@
 #include "trial/classes/circumstances.h"
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -79,6 +80,10 @@ const std::vector<FormError>& form_errors() {
 double size_of(const FormError error) {
   constexpr std::array sizes{0., 0.01, 0.03};
   return sizes[static_cast<std::size_t>(error)];
+}
+
+double stated_accuracy(const FormError error) {
+  return std::max(0.01, size_of(error));
 }
 
 nlohmann::json to_json(const Circumstances& circumstances) {

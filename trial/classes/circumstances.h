@@ -53,6 +53,9 @@ const std::vector<FormError>& form_errors();
 
 /// 0, 0.01 or 0.03.
 double size_of(FormError error);
+/// What the maker of such a simulation says of its accuracy: 3 % where it is known to be rough,
+/// otherwise the usual 1 % (the default of --simulation-accuracy).
+double stated_accuracy(FormError error);
 
 /// {"set": "base_only", "distance": "exact", "form_error": "0 %", "way_in": "records"}.
 nlohmann::json to_json(const Circumstances& circumstances);

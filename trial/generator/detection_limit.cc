@@ -2,25 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 namespace vibrissa::trial {
 
-LikelihoodRatio::LikelihoodRatio(const World& plain, const Session& session)
+LikelihoodRatio::LikelihoodRatio(const World& plain, const Session& session,
+                                 const Distance distance, const double accuracy)
     : change_(plain, session),
-      noise_(change_.noise(plain.moment_noise, plain.acceleration_noise)) {}
+      noise_(change_.noise(plain.moment_noise, plain.acceleration_noise)),
+      widened_(unknown_changes(change_, distance, accuracy), noise_) {}
 
 double LikelihoodRatio::noncentrality(const World& world, const bool random) const {
-  const std::vector<std::complex<double>> change = change_.of(world, random);
-  const std::vector<double> power = random ? std::vector<double>{} : change_.of_wind_power(world);
-  double sum = 0.;
-  for (std::size_t i = 0; i < change.size(); ++i) {
-    const double share = std::norm(change[i]) / noise_[i];
-    // The estimate of a variance from one draw has a variance of twice its square.
-    sum += random ? 0.5 * share * share : 2. * share;
-    if (!power.empty()) sum += 0.5 * power[i] * power[i] / (noise_[i] * noise_[i]);
-  }
-  return sum;
+  return widened_.squared_norm(signature_of(change_of(change_, world, random), noise_));
 }
 
 std::optional<double> detection_limit(const LikelihoodRatio& test, const Unknown& unknown,

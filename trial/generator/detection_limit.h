@@ -3,17 +3,19 @@
 #include <optional>
 #include <vector>
 
-#include "trial/generator/unexplained_change.h"
+#include "trial/generator/signature.h"
 #include "trial/generator/unknowns.h"
 
 namespace vibrissa::trial {
 
 /// Likelihood-ratio test that knows the form of a world's change relative to the plain world: its
 /// unexplained change relative to the noise of both channels, in the fit takes. The noise is
-/// assumed white.
+/// assumed white. The test allows for the calibrations of a distance and for a simulation of that
+/// accuracy (unknown_changes()): otherwise it would raise an alarm on every sensor.
 class LikelihoodRatio {
  public:
-  LikelihoodRatio(const World& plain, const Session& session);
+  LikelihoodRatio(const World& plain, const Session& session, Distance distance = Distance::exact,
+                  double accuracy = 0.);
 
   const World& plain() const { return change_.plain(); }
   double noncentrality(const World& world, bool random) const;
@@ -21,6 +23,7 @@ class LikelihoodRatio {
  private:
   UnexplainedChange change_;
   std::vector<double> noise_;
+  WidenedNoise widened_;
 };
 
 /// Non-centrality at which one parameter is detected in half of all cases with 1 % false alarms.

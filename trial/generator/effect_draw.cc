@@ -35,7 +35,7 @@ bool EffectDraw::try_to_add(const Unknown& unknown, const Sizes& sizes) {
 
 std::optional<double> EffectDraw::limit(const Unknown& unknown, const double sign,
                                         const double shape) {
-  if (!test_) test_.emplace(plain_, case_.session);
+  if (!test_) test_.emplace(plain_, case_.session, case_.circumstances.distance, case_.accuracy);
   return detection_limit(*test_, unknown, sign, shape);
 }
 

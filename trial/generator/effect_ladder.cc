@@ -48,11 +48,7 @@ std::vector<EffectLadder> effect_ladders(const UnexplainedChange& change,
       for (const double size : ladder.sizes) {
         World world = change.plain();
         unknown.apply(world, size, shape);
-        const std::vector<std::complex<double>> lines = change.of(world, unknown.random);
-        ladder.changes.emplace_back(lines.begin(), lines.end());
-        const std::vector<double> power =
-            unknown.random ? std::vector<double>{} : change.of_wind_power(world);
-        if (!power.empty()) ladder.wind_power.emplace_back(power.begin(), power.end());
+        ladder.changes.push_back(change_of(change, world, unknown.random));
       }
       out.push_back(std::move(ladder));
     }

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <complex>
+#include <functional>
 #include <vector>
 
-#include "trial/generator/unexplained_change.h"
+#include "trial/generator/signature.h"
 #include "trial/generator/unknowns.h"
 
 namespace vibrissa::trial {
@@ -13,10 +13,7 @@ namespace vibrissa::trial {
 struct EffectLadder {
   const Unknown* unknown = nullptr;
   std::vector<double> sizes;
-  std::vector<std::vector<std::complex<float>>> changes;  // unexplained [size][line]
-  /// Change of the power of an unmeasured wind [size][line]; empty where the wind is measured, and
-  /// for random effects, whose changes contain it.
-  std::vector<std::vector<float>> wind_power{};
+  std::vector<LineChange> changes;  // one for each size
 };
 
 /// Ladders of all named effects, some with several shapes. on_unknown: called after each effect.

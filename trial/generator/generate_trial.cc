@@ -121,9 +121,7 @@ void add_life(json& entry, json& label, const trial::TrialCase& trial_case,
   const trial::Circumstances& circumstances = trial_case.circumstances;
   entry["set"] = to_string(circumstances.set);
   entry["further_experiments"] = names_of(trial::further_experiments_of(trial_case));
-  // A user who knows that the simulation is rough says so.
-  if (circumstances.form_error == trial::FormError::three_percent)
-    entry["simulation_accuracy"] = size_of(circumstances.form_error);
+  entry["simulation_accuracy"] = stated_accuracy(circumstances.form_error);
   label["circumstances"] = to_json(circumstances);
   label["calibrations"] = trial::calibrations_of(trial_case.plain);
   label["simulation"] = to_json(form);
@@ -138,7 +136,8 @@ WrittenCase write_case(const Options& options, const fs::path& making, const std
       options.life ? trial::draw_circumstances(options.seed, number, trial::class_of(number))
                    : trial::Circumstances{};
   const trial::TrialCase trial_case =
-      trial::draw_case(options.seed, number, options.physics, circumstances);
+      trial::draw_case(options.seed, number, options.physics, circumstances,
+                       options.life ? stated_accuracy(circumstances.form_error) : 0.);
   const std::string name = case_name(number);
   WrittenCase out{.entry = {{"name", name}, {"left_out", trial_case.left_out}},
                   .label = label_of(trial_case)};

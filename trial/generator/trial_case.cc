@@ -126,10 +126,11 @@ World plain_world(std::mt19937_64& random) {
 }
 
 TrialCase draw_case(const std::uint64_t seed, const std::size_t number, const Physics physics,
-                    const Circumstances& circumstances) {
+                    const Circumstances& circumstances, const double accuracy) {
   TrialCase out;
   out.physics = physics;
   out.circumstances = circumstances;
+  out.accuracy = accuracy;
   out.kind = class_of(number);
   out.seed = seed * 100000 + number;
   std::mt19937_64 random(out.seed);

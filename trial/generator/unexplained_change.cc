@@ -69,8 +69,8 @@ UnexplainedChange::UnexplainedChange(const World& plain, const Session& session)
     const std::size_t n_samples = entry.record.n_samples();
     const double n = static_cast<double>(n_samples);
     for (std::size_t k = 1; k < n_samples / 2; ++k) {
-      const std::complex<double> s(0.,
-                                   2. * std::numbers::pi * static_cast<double>(k) * rate_hz / n);
+      frequencies_hz_.push_back(static_cast<double>(k) * rate_hz / n);
+      const std::complex<double> s(0., 2. * std::numbers::pi * frequencies_hz_.back());
       gains_.push_back(plant.response(s)(output::moment, input::acceleration));
       lengths_.push_back(n);
     }
@@ -112,6 +112,33 @@ std::vector<std::complex<double>> UnexplainedChange::of(const World& world,
       out.push_back(moment[k] - gains_[out.size()] * motion[k]);
   }
   return out;
+}
+
+std::vector<std::complex<double>> UnexplainedChange::plain_moment(
+    const std::vector<Take>& takes) const {
+  Session session = still_;
+  session.takes = takes;
+  std::vector<std::complex<double>> out;
+  for (const signals::DatasetRecord& entry :
+       record_session(structure_of(plain_.solid), plain_, session).records) {
+    const auto moment = entry.record.channel(signals::channel::base_moment);
+    const auto lines = signals::real_fft(std::vector<double>(moment.begin(), moment.end()));
+    out.insert(out.end(), lines.begin() + 1,
+               lines.begin() + static_cast<std::ptrdiff_t>(entry.record.n_samples() / 2));
+  }
+  return out;
+}
+
+std::vector<std::complex<double>> UnexplainedChange::by_base() const {
+  std::vector<Take> takes = still_.takes;
+  for (Take& take : takes) take.wind_mean = 0.;
+  return plain_moment(takes);
+}
+
+std::vector<std::complex<double>> UnexplainedChange::by_wind() const {
+  std::vector<Take> takes = still_.takes;
+  for (Take& take : takes) take.base_rms = 0.;
+  return plain_moment(takes);
 }
 
 std::vector<double> UnexplainedChange::noise(const double moment, const double acceleration) const {

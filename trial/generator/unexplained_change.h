@@ -27,6 +27,11 @@ class UnexplainedChange {
   std::vector<std::complex<double>> of(const World& world, bool random) const;
   /// Change of wind_power() where the wind is not measured; otherwise empty.
   std::vector<double> of_wind_power(const World& world) const;
+  /// Moment of the plain sensor by the base motion alone, by the wind alone (unscaled DFT, N m). An
+  /// unmeasured wind counts as none.
+  std::vector<std::complex<double>> by_base() const;
+  std::vector<std::complex<double>> by_wind() const;
+  const std::vector<double>& frequencies_hz() const { return frequencies_hz_; }
   /// Variance of each line [(N m)^2] for white noise with these standard deviations on both
   /// channels [N m, m/s^2], and for an unmeasured wind.
   std::vector<double> noise(double moment, double acceleration) const;
@@ -35,12 +40,15 @@ class UnexplainedChange {
   std::vector<double> wind_power(const World& world) const;
 
  private:
+  std::vector<std::complex<double>> plain_moment(const std::vector<Take>& takes) const;
+
   World plain_;
   Session bare_, still_;  // fit takes without noise; the same without an unmeasured wind
   signals::Dataset records_, still_records_;
   std::vector<std::complex<double>> gains_;  // moment per base acceleration
   std::vector<double> lengths_;              // number of samples of the line's take
-  std::vector<double> unseen_wind_;          // wind_power(); empty where the wind is measured
+  std::vector<double> frequencies_hz_;
+  std::vector<double> unseen_wind_;  // wind_power(); empty where the wind is measured
 };
 
 }  // namespace vibrissa::trial

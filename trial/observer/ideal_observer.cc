@@ -1,17 +1,14 @@
 #include "trial/observer/ideal_observer.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
-#include <string>
 
 #include "trial/generator/calibration_draw.h"
 #include "trial/generator/detection_limit.h"
@@ -24,30 +21,6 @@ namespace {
 using Posterior = IdealObserver::Posterior;
 
 constexpr double widest_step = 2., held = 0.95;
-
-/// Signature of an effect in records that are a vector of independent normal numbers of unit
-/// variance: real and imaginary part of each line for changes of the mean, then the power of each
-/// line for changes of variances. The squared norm of a signature is the non-centrality of the
-/// likelihood-ratio test that knows the form.
-Eigen::VectorXd whitened(const std::vector<std::complex<float>>& change,
-                         const std::vector<float>& wind_power, const std::vector<double>& noise,
-                         const bool random) {
-  const auto n = static_cast<Eigen::Index>(change.size());
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(3 * n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const std::complex<double> x(change[static_cast<std::size_t>(i)]);
-    const double variance = noise[static_cast<std::size_t>(i)];
-    if (random) {
-      out[2 * n + i] = std::norm(x) / variance / std::numbers::sqrt2;
-    } else {
-      out[i] = std::numbers::sqrt2 * x.real() / std::sqrt(variance);
-      out[n + i] = std::numbers::sqrt2 * x.imag() / std::sqrt(variance);
-    }
-    if (!wind_power.empty())
-      out[2 * n + i] += wind_power[static_cast<std::size_t>(i)] / variance / std::numbers::sqrt2;
-  }
-  return out;
-}
 
 /// Position of a size on a ladder, and the signature there.
 struct LadderOnBench {
@@ -66,8 +39,11 @@ struct LadderOnBench {
   }
   /// Detection limit of the test that uses the first lines; nothing when the largest size stays
   /// below it. Below the ladder a signature is extrapolated by a power law.
-  std::optional<double> limit(const ObservedBench& bench, const std::size_t n_lines) const {
+  std::optional<double> limit(const ObservedBench& bench, const WidenedNoise& widened,
+                              const std::size_t n_lines) const {
     const auto noncentrality = [&](const Eigen::VectorXd& signature) {
+      if (3 * static_cast<Eigen::Index>(n_lines) == signature.size())
+        return widened.squared_norm(signature);
       const Eigen::Index n = signature.size() / 3, first = static_cast<Eigen::Index>(n_lines);
       return signature.head(first).squaredNorm() + signature.segment(n, first).squaredNorm() +
              signature.segment(2 * n, first).squaredNorm();
@@ -87,10 +63,8 @@ struct LadderOnBench {
 
 LadderOnBench on_bench(const EffectLadder& ladder, const std::vector<double>& noise) {
   LadderOnBench out{.ladder = &ladder, .signatures = {}};
-  for (std::size_t i = 0; i < ladder.changes.size(); ++i)
-    out.signatures.push_back(whitened(
-        ladder.changes[i], ladder.wind_power.empty() ? std::vector<float>{} : ladder.wind_power[i],
-        noise, ladder.unknown->random));
+  for (const LineChange& change : ladder.changes)
+    out.signatures.push_back(signature_of(change, noise));
   return out;
 }
 
@@ -162,11 +136,11 @@ Posterior Sets::posterior() const {
 
 IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
                              const std::vector<double>& noise, const ObservedBench& bench,
+                             const std::vector<LineChange>& unknown,
                              std::vector<std::size_t> block_ends)
-    : bench_(bench), block_ends_(std::move(block_ends)) {
+    : bench_(bench), widened_(unknown, noise), block_ends_(std::move(block_ends)) {
   if (block_ends_.empty()) block_ends_ = {noise.size()};
-  const bool is_exact = bench.distance == Distance::exact;
-  assert(is_exact || block_ends_.size() == 1);
+  assert(unknown.empty() || block_ends_.size() == 1);
   for (const EffectLadder& ladder : ladders) add_ladder(ladder, noise);
   assert(!signatures_.empty() && "no ladder reaches its detection limit");
   spread_priors();
@@ -182,7 +156,7 @@ IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
       const auto lines = all.middleRows(part + begin, end - begin);
       inner.noalias() += lines.transpose() * lines;
     }
-    if (!is_exact) allow_for_distance(ladders, noise);
+    if (block_ends_.size() == 1) inner = widened_.inner(all, inner);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(inner);
     noise_root_.push_back(parts.eigenvectors() *
                           parts.eigenvalues().cwiseMax(0.).cwiseSqrt().asDiagonal());
@@ -194,7 +168,7 @@ IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
 void IdealObserver::add_ladder(const EffectLadder& ladder, const std::vector<double>& noise) {
   if (!bench_.asks_calibrations && is_a_calibration(ladder.unknown->id)) return;
   const LadderOnBench here = on_bench(ladder, noise);
-  const std::optional<double> limit = here.limit(bench_, block_ends_.front());
+  const std::optional<double> limit = here.limit(bench_, widened_, block_ends_.front());
   if (!limit) return;
   const Unknown& unknown = *ladder.unknown;
   const double largest = std::min(largest_in_limits, unknown.largest / *limit);
@@ -234,31 +208,6 @@ void IdealObserver::spread_priors() {
       steps_[path.first_step + i].log_prior =
           -std::log(static_cast<double>(n_paths) * static_cast<double>(path.n_steps));
   }
-}
-
-/// A normally distributed deviation widens the noise along its signature: inner products use
-/// (1 + N N^T)^-1.
-void IdealObserver::allow_for_distance(const std::vector<EffectLadder>& ladders,
-                                       const std::vector<double>& noise) {
-  const std::map<std::string, double> off = calibration_deviations(bench_.distance);
-  const auto n = static_cast<Eigen::Index>(signatures_.size());
-  const auto m = static_cast<Eigen::Index>(off.size());
-  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(signatures_.front().size(), m), across(n, m);
-  Eigen::Index i = -1;
-  for (const auto& calibration : off) {
-    const double deviation = calibration.second;
-    const auto ladder = std::find_if(ladders.begin(), ladders.end(), [&](const EffectLadder& l) {
-      return l.unknown->id == calibration.first;
-    });
-    ++i;
-    // Small enough for a linear response.
-    const double size = 0.2 * deviation;
-    spread.col(i) = on_bench(*ladder, noise).at(size) * (deviation / size);
-    for (Eigen::Index k = 0; k < n; ++k)
-      across(k, i) = signatures_[static_cast<std::size_t>(k)].dot(spread.col(i));
-  }
-  const Eigen::MatrixXd within = Eigen::MatrixXd::Identity(m, m) + spread.transpose() * spread;
-  inner_.front() -= across * within.llt().solve(across.transpose());
 }
 
 IdealObserver::View IdealObserver::view_of(const Eigen::MatrixXd& inner) const {

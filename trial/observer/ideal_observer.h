@@ -7,18 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "trial/classes/circumstances.h"
 #include "trial/generator/effect_ladder.h"
+#include "trial/generator/signature.h"
 #include "trial/observer/box_integral.h"
 
 namespace vibrissa::trial {
 
 struct ObservedBench {
   double acceleration_noise = 0.;  // m/s^2
-  /// At another distance than exact every sensor deviates in modulus, damping, gains and drag, and
-  /// the observer knows how far such sensors are off, and how the response changes in proportion;
-  /// otherwise everything except the true effects is as simulated, and the observer knows it.
-  Distance distance = Distance::exact;
   /// Are effects asked that unknown calibrations imitate (is_a_calibration())?
   bool asks_calibrations = true;
   /// Relative frequencies of 0, 1, 2, 3 true effects, which the observer knows.
@@ -52,11 +48,14 @@ class IdealObserver {
   /// Probabilities and sets of effects, the most probable first.
   using Posterior = std::vector<std::pair<double, std::vector<std::size_t>>>;
 
-  /// noise: of each line of the ladders, from UnexplainedChange::noise. block_ends: end indices of
-  /// the lines of the usual session, which determine the detection limits, and of each further
-  /// experiment (at distance exact alone); empty: all lines belong to the usual session.
+  /// noise: of each line of the ladders, from UnexplainedChange::noise. unknown: what differs
+  /// between sensor and simulation beside effects; the observer knows how it is distributed, and
+  /// detection limits allow for it. block_ends: end indices of the lines of the usual session,
+  /// which determine the detection limits, and of each further experiment (without unknown changes
+  /// alone); empty: all lines belong to the usual session.
   IdealObserver(const std::vector<EffectLadder>& ladders, const std::vector<double>& noise,
-                const ObservedBench& bench, std::vector<std::size_t> block_ends = {});
+                const ObservedBench& bench, const std::vector<LineChange>& unknown = {},
+                std::vector<std::size_t> block_ends = {});
 
   ObservedSensor draw(std::size_t n_effects, std::mt19937_64& random) const;
   /// Answer from the usual session plus the further experiment with number 1, 2 ..; 0: none.
@@ -85,14 +84,13 @@ class IdealObserver {
 
   void add_ladder(const EffectLadder& ladder, const std::vector<double>& noise);
   void spread_priors();
-  void allow_for_distance(const std::vector<EffectLadder>& ladders,
-                          const std::vector<double>& noise);
   View view_of(const Eigen::MatrixXd& inner) const;
   template <std::size_t n>
   BoxNormal<n> likelihood(const std::array<std::size_t, n>& steps, const Seen& seen) const;
   Posterior posterior_of(const Seen& seen) const;
 
   ObservedBench bench_;
+  WidenedNoise widened_;
   std::vector<Eigen::VectorXd> signatures_;
   std::vector<Step> steps_;
   std::vector<Path> paths_;

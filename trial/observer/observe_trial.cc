@@ -142,22 +142,22 @@ Result observe(const Options& options) {
   const std::vector<trial::EffectLadder> ladders = ladders_of(change, options);
   signals::Progress progress("benches", options.n_benches, options.is_talkative());
   std::mt19937_64 random(options.seed);
+  const std::vector<trial::LineChange> unknown = trial::unknown_changes(
+      change, options.as_built ? trial::Distance::as_built : trial::Distance::exact, 0.);
   Result out;
   for (std::size_t i = 0; i < options.n_benches; ++i, progress.advance()) {
     const trial::World bench = trial::plain_world(random);
     const IdealObserver observer(
         ladders, change.noise(bench.moment_noise, bench.acceleration_noise),
-        {.acceleration_noise = bench.acceleration_noise,
-         .distance = options.as_built ? trial::Distance::as_built : trial::Distance::exact,
-         .asked = options.asked},
+        {.acceleration_noise = bench.acceleration_noise, .asked = options.asked}, unknown,
         takes.block_ends);
     ask(observer, options, takes, {&out.tallies}, random, out.further);
   }
   return out;
 }
 
-/// Benches of life: each with a set of records and a distance in turn; 21 have all pairs of both.
-/// All benches of a set use the same ladders.
+/// Benches of life: each with a set of records, a distance and a form error in turn; 63 have all
+/// combinations. All benches of a set use the same ladders.
 Result observe_life(const Options& options) {
   Result out;
   const std::vector<trial::RecordSet>& sets = trial::record_sets();
@@ -171,16 +171,19 @@ Result observe_life(const Options& options) {
       std::mt19937_64 random(trial::stream_seed(options.seed, i, 1));
       const trial::World bench = trial::plain_world(random);
       const trial::Distance distance = trial::distances()[i % trial::distances().size()];
+      const trial::FormError error =
+          trial::form_errors()[i / trial::distances().size() % trial::form_errors().size()];
       const IdealObserver observer(
           ladders,
           change.noise(bench.moment_noise * trial::noise_factor(sets[s]), bench.acceleration_noise),
           {.acceleration_noise = bench.acceleration_noise,
-           .distance = distance,
            .asks_calibrations = distance == trial::Distance::exact,
-           .asked = options.asked});
+           .asked = options.asked},
+          trial::unknown_changes(change, distance, stated_accuracy(error)));
       ask(observer, options, {},
           {&out.tallies, &out.classes["set: " + to_string(sets[s])],
-           &out.classes["distance: " + to_string(distance)]},
+           &out.classes["distance: " + to_string(distance)],
+           &out.classes["form error: " + to_string(error)]},
           random, out.further);
     }
   }
@@ -256,7 +259,7 @@ int main(int argc, char** argv) try {
   app.add_flag(
          "--life", options.life,
          "Benches of \"trial make --life\": each with a set of records and a distance from the "
-         "simulation in turn (21 benches have all pairs); the simulation has no form error")
+         "simulation and a form error in turn (63 benches have all combinations)")
       ->excludes(as_built)
       ->excludes(further);
   app.add_option("--asked", options.asked,

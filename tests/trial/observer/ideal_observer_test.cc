@@ -14,16 +14,17 @@ namespace {
 constexpr std::size_t n_lines = 6;
 const std::vector<double> unit_noise(n_lines, 1.);
 
+LineChange along(const std::vector<float>& direction, const double size) {
+  LineChange out{.moment = std::vector<std::complex<double>>(n_lines)};
+  for (std::size_t i = 0; i < direction.size(); ++i) out.moment[i] = size * direction[i];
+  return out;
+}
+
 /// A ladder of an effect that adds size times the direction to the lines.
 EffectLadder straight(const std::string& id, const std::vector<float>& direction,
                       const std::vector<double>& sizes) {
   EffectLadder out{.unknown = &find_unknown(id), .sizes = sizes, .changes = {}};
-  for (const double size : sizes) {
-    std::vector<std::complex<float>> change(n_lines);
-    for (std::size_t i = 0; i < direction.size(); ++i)
-      change[i] = static_cast<float>(size) * direction[i];
-    out.changes.push_back(change);
-  }
+  for (const double size : sizes) out.changes.push_back(along(direction, size));
   return out;
 }
 
@@ -73,7 +74,7 @@ TEST(IdealObserver, AFurtherExperimentTellsApartWhatLooksAlike) {
   // Four lines of the usual session; of the last two each effect has its own.
   const IdealObserver observer({straight("viscoelastic", {100.f, 200.f, 0.f, 0.f, 900.f}, sizes),
                                 straight("flow_lag", {100.f, 200.f, 0.f, 0.f, 0.f, 900.f}, sizes)},
-                               unit_noise, {}, {4, 6});
+                               unit_noise, {}, {}, {4, 6});
   std::mt19937_64 random(6);
   int right = 0, right_after = 0;
   constexpr int n = 500;
@@ -116,14 +117,12 @@ TEST(IdealObserver, IsRightAsOftenAsItSays) {
 }
 
 TEST(IdealObserver, WhereSensorsAreALittleOffTheirSpreadIsNoEffect) {
-  const std::vector<double> sizes{0.001, 0.01, 0.05, 0.1, 0.4};
-  const std::vector<EffectLadder> ladders{
-      straight("stiffness", {100.f}, sizes), straight("damping", {0.f, 20.f}, sizes),
-      straight("sensor_gain", {0.f, 0.f, 100.f}, sizes),
-      straight("drag_error", {0.f, 0.f, 0.f, 30.f}, sizes),
-      straight("delay", {0.f, 0.f, 0.f, 0.f, 1000.f}, {0.001, 0.02})};
+  // What tells the two effects apart lies along the spread.
+  const std::vector<double> sizes{0.002, 0.02, 0.2};
+  const std::vector<EffectLadder> ladders{straight("viscoelastic", {100.f}, sizes),
+                                          straight("flow_lag", {100.f, 30.f}, sizes)};
   const IdealObserver knows(ladders, unit_noise, {}),
-      allows(ladders, unit_noise, {.distance = Distance::as_built});
+      allows(ladders, unit_noise, {}, {along({0.f, 20.f}, 1.)});
   const Rates with = ask(knows, 1, 1000), without = ask(allows, 1, 1000);
   EXPECT_GT(with.right, without.right + 0.1);
 }
@@ -160,9 +159,8 @@ std::vector<EffectLadder> few_ladders(const UnexplainedChange& change) {
     for (const double share : {0.03, 0.3, 1.}) {
       World world = change.plain();
       unknown.apply(world, share * unknown.largest, 0.5);
-      const auto lines = change.of(world, unknown.random);
       ladder.sizes.push_back(share * unknown.largest);
-      ladder.changes.emplace_back(lines.begin(), lines.end());
+      ladder.changes.push_back(change_of(change, world, unknown.random));
     }
     out.push_back(ladder);
   }
@@ -175,7 +173,7 @@ TEST(IdealObserver, IsNotRightMoreOftenWhereRecordsAreTakenAway) {
   for (const RecordSet set : {RecordSet::base_only, RecordSet::no_rest}) {
     const OrderedTakes takes = beginning_with(set);
     const UnexplainedChange change(plain, {.takes = takes.all});
-    const IdealObserver observer(few_ladders(change), change.noise(1e-5, 0.05), {},
+    const IdealObserver observer(few_ladders(change), change.noise(1e-5, 0.05), {}, {},
                                  takes.block_ends);
     std::mt19937_64 random(8);
     int with_set = 0, with_all = 0;
@@ -201,8 +199,7 @@ TEST(IdealObserver, AsksNoCalibrationWhereTheyAreUnknown) {
       straight("reference_gain", {0.f, 10.f, 100.f}, sizes),
       straight("drag_error", {0.f, 0.f, 0.f, 30.f}, sizes),
       straight("delay", {0.f, 0.f, 0.f, 0.f, 1000.f}, {0.001, 0.02})};
-  const IdealObserver observer(ladders, unit_noise,
-                               {.distance = Distance::as_paper, .asks_calibrations = false});
+  const IdealObserver observer(ladders, unit_noise, {.asks_calibrations = false});
   std::mt19937_64 random(9);
   for (int i = 0; i < 100; ++i) {
     const ObservedSensor sensor = observer.draw(1, random);
@@ -215,8 +212,8 @@ TEST(IdealObserver, SeesThePowerOfAnUnmeasuredWind) {
   constexpr double p = 3.;
   EffectLadder ladder{.unknown = &find_unknown("sample_repeat"),
                       .sizes = {1.},
-                      .changes = {std::vector<std::complex<float>>(n_lines)},
-                      .wind_power = {std::vector<float>(n_lines, static_cast<float>(p))}};
+                      .changes = {{.moment = std::vector<std::complex<double>>(n_lines),
+                                   .wind_power = std::vector<double>(n_lines, p)}}};
   const IdealObserver observer({ladder}, unit_noise, {});
   const double d = std::sqrt(n_lines * p * p / 2.);
   const double border = 0.5 * d + std::log(2. / 9.) / d;

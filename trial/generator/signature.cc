@@ -1,0 +1,109 @@
+#include "trial/generator/signature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "trial/generator/calibration_draw.h"
+
+namespace vibrissa::trial {
+namespace {
+
+void scale(LineChange& change, const double factor) {
+  for (std::complex<double>& x : change.moment) x *= factor;
+  for (double& x : change.wind_power) x *= factor;
+}
+
+/// The part of a moment about a frequency: a triangle over the logarithm of frequency.
+LineChange around(const double octave, const double width,
+                  const std::vector<std::complex<double>>& moment,
+                  const std::vector<double>& frequencies_hz) {
+  LineChange out{.moment = moment};
+  for (std::size_t i = 0; i < moment.size(); ++i)
+    out.moment[i] *= std::max(0., 1. - std::abs(std::log2(frequencies_hz[i]) - octave) / width);
+  return out;
+}
+
+/// Relative error of a moment: its correlation falls to zero within a sixth of an octave.
+void add_relative_error(std::vector<LineChange>& out, const double accuracy,
+                        const std::vector<std::complex<double>>& moment,
+                        const std::vector<double>& frequencies_hz) {
+  constexpr double width = 1. / 6.;
+  const auto [low, high] = std::ranges::minmax(frequencies_hz);
+  for (double octave = std::log2(low); octave < std::log2(high) + width; octave += width) {
+    const LineChange part = around(octave, width, moment, frequencies_hz);
+    const auto is_there = [](const std::complex<double>& x) { return x != 0.; };
+    if (std::ranges::none_of(part.moment, is_there)) continue;
+    for (const std::complex<double> phase : {std::complex(1., 0.), std::complex(0., 1.)}) {
+      LineChange& error = out.emplace_back(part);
+      for (std::complex<double>& x : error.moment) x *= accuracy / std::numbers::sqrt2 * phase;
+    }
+  }
+}
+
+}  // namespace
+
+LineChange change_of(const UnexplainedChange& change, const World& world, const bool random) {
+  return {.moment = change.of(world, random),
+          .wind_power = random ? std::vector<double>{} : change.of_wind_power(world),
+          .random = random};
+}
+
+Eigen::VectorXd signature_of(const LineChange& change, const std::vector<double>& noise) {
+  const auto n = static_cast<Eigen::Index>(change.moment.size());
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(3 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto line = static_cast<std::size_t>(i);
+    const std::complex<double> x = change.moment[line];
+    const double variance = noise[line];
+    if (change.random) {
+      // The estimate of a variance from one draw has a variance of twice its square.
+      out[2 * n + i] = std::norm(x) / variance / std::numbers::sqrt2;
+    } else {
+      out[i] = std::numbers::sqrt2 * x.real() / std::sqrt(variance);
+      out[n + i] = std::numbers::sqrt2 * x.imag() / std::sqrt(variance);
+    }
+    if (!change.wind_power.empty())
+      out[2 * n + i] += change.wind_power[line] / variance / std::numbers::sqrt2;
+  }
+  return out;
+}
+
+std::vector<LineChange> unknown_changes(const UnexplainedChange& change, const Distance distance,
+                                        const double accuracy) {
+  // Small enough for a linear response.
+  constexpr double small = 0.2;
+  std::vector<LineChange> out;
+  for (const auto& [id, deviation] : calibration_deviations(distance)) {
+    World world = change.plain();
+    find_unknown(id).apply(world, small * deviation, 0.5);
+    scale(out.emplace_back(change_of(change, world, false)), 1. / small);
+  }
+  if (accuracy == 0.) return out;
+  for (const std::vector<std::complex<double>>& moment : {change.by_base(), change.by_wind()})
+    add_relative_error(out, accuracy, moment, change.frequencies_hz());
+  return out;
+}
+
+WidenedNoise::WidenedNoise(const std::vector<LineChange>& unknown,
+                           const std::vector<double>& noise) {
+  const auto m = static_cast<Eigen::Index>(unknown.size());
+  spread_.resize(3 * static_cast<Eigen::Index>(noise.size()), m);
+  for (Eigen::Index i = 0; i < m; ++i)
+    spread_.col(i) = signature_of(unknown[static_cast<std::size_t>(i)], noise);
+  within_.compute(Eigen::MatrixXd::Identity(m, m) + spread_.transpose() * spread_);
+}
+
+Eigen::MatrixXd WidenedNoise::inner(const Eigen::MatrixXd& signatures,
+                                    const Eigen::MatrixXd& in_white) const {
+  if (spread_.cols() == 0) return in_white;
+  const Eigen::MatrixXd across = spread_.transpose() * signatures;
+  return in_white - across.transpose() * within_.solve(across);
+}
+
+double WidenedNoise::squared_norm(const Eigen::VectorXd& signature) const {
+  const Eigen::MatrixXd in_white = Eigen::MatrixXd::Constant(1, 1, signature.squaredNorm());
+  return inner(signature, in_white)(0, 0);
+}
+
+}  // namespace vibrissa::trial
