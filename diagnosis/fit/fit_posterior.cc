@@ -25,6 +25,19 @@ std::vector<double> spread_out(std::vector<double> power) {
   return power;
 }
 
+/// Density of first-order autoregressive noise relative to white noise of the same variance.
+double autoregressive_density(const double correlation, const double cosine) {
+  const double square = correlation * correlation;
+  return (1. - square) / (1. - 2. * correlation * cosine + square);
+}
+
+/// Derivative of the logarithm of that density by the correlation.
+double autoregressive_slope(const double correlation, const double cosine) {
+  const double square = correlation * correlation;
+  return -2. * correlation / (1. - square) +
+         2. * (cosine - correlation) / (1. - 2. * correlation * cosine + square);
+}
+
 double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
   const double misfit = record.excitation.wind ? nominal.wind_misfit : nominal.base_misfit;
   return std::max(misfit, least_misfit);
@@ -46,7 +59,14 @@ FitPosterior::FitPosterior(const Experiment& experiment,
       fit_parameters_(fit_parameters),
       effects_(hypothesis.effects()),
       unknown_(hypothesis.is_discrepancy()),
-      discrepancy_(experiment) {}
+      discrepancy_(experiment) {
+  for (const PreparedRecord& record : experiment.records) {
+    const double phase = 2. * std::numbers::pi * record.bin_hz() / record.sampling_rate_hz;
+    std::vector<double>& cosines = cosine_.emplace_back();
+    for (std::size_t b = 0; b < record.n_bins(); ++b)
+      cosines.push_back(std::cos(phase * static_cast<double>(b + 1)));
+  }
+}
 
 std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
   assert(x.allFinite());
@@ -116,12 +136,13 @@ Eigen::Index FitPosterior::unknown_index(std::size_t record, std::size_t b) cons
 
 std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Prediction& prediction,
                                            std::size_t record, double acceleration_variance) const {
-  const double moment = std::exp(2. * x(index_of_moment_noise));
+  const double moment = std::exp(2. * x(index_of_moment_noise)), colour = x(index_of_noise_colour);
   std::vector<double> out(prediction.mean.size());
   for (std::size_t b = 0; b < out.size(); ++b)
-    out[b] = moment * prediction.moment_noise[b] +
-             acceleration_variance * prediction.acceleration_noise[b] +
-             prediction.process_noise[b] + misfit_[record][b];
+    out[b] =
+        moment * autoregressive_density(colour, cosine_[record][b]) * prediction.moment_noise[b] +
+        acceleration_variance * prediction.acceleration_noise[b] + prediction.process_noise[b] +
+        misfit_[record][b];
   const double incoherent = std::exp(2. * x(index_of_incoherence));
   for (std::size_t b = 0; b < out.size(); ++b) out[b] += incoherent * incoherent_[record][b];
   if (has_form_errors()) {
@@ -226,14 +247,23 @@ FitPosterior::BinVariances FitPosterior::variances(const Eigen::VectorXd& x,
 void FitPosterior::set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                                     const BinVariances& s, const double acceleration_variance,
                                     const Eigen::Index index, Derivatives& out) const {
-  const bool moment = index == static_cast<Eigen::Index>(index_of_moment_noise);
-  const double level = 2. * std::exp(2. * x(index));
+  const double moment = std::exp(2. * x(index_of_moment_noise)), colour = x(index_of_noise_colour),
+               acceleration = std::exp(2. * x(index_of_acceleration_noise));
+  const auto slope = [&](std::size_t r, std::size_t b) {
+    if (index == static_cast<Eigen::Index>(index_of_acceleration_noise))
+      return 2. * acceleration * at[r].acceleration_noise[b];
+    const double cosine = cosine_[r][b];
+    const double noise = moment * autoregressive_density(colour, cosine) * at[r].moment_noise[b];
+    return noise * (index == static_cast<Eigen::Index>(index_of_moment_noise)
+                        ? 2.
+                        : autoregressive_slope(colour, cosine));
+  };
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r)
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
-      out.variance(row, index) =
-          level * (moment ? at[r].moment_noise[b] : at[r].acceleration_noise[b]) / s[r][b];
-  if (!moment) out.acceleration(index) = level / acceleration_variance;
+      out.variance(row, index) = slope(r, b) / s[r][b];
+  if (index == static_cast<Eigen::Index>(index_of_acceleration_noise))
+    out.acceleration(index) = 2. * acceleration / acceleration_variance;
 }
 
 /// Of the level of incoherent errors, of form errors or of the unknown cause.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace vibrissa::diagnosis {
@@ -98,13 +97,6 @@ std::size_t NominalModel::decay_samples(const double n_time_constants,
   const StructuralMode& mode = modes.front();
   return static_cast<std::size_t>(
       std::ceil(n_time_constants * sampling_rate_hz / (mode.damping_ratio * mode.frequency_rad_s)));
-}
-
-double NominalModel::narrowest_mode_hz() const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const StructuralMode& mode : modes)
-    least = std::min(least, mode.damping_ratio * mode.frequency_rad_s / std::numbers::pi);
-  return least;
 }
 
 }  // namespace vibrissa::diagnosis

@@ -109,8 +109,6 @@ struct NominalModel {
 
   /// Duration of this many time constants of the first mode, in samples; 0 without a mode.
   std::size_t decay_samples(double n_time_constants, double sampling_rate_hz) const;
-  /// Smallest half-power bandwidth of a mode, 2 zeta f [Hz]; infinite without a mode.
-  double narrowest_mode_hz() const;
 };
 
 }  // namespace vibrissa::diagnosis

@@ -451,8 +451,7 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
   experiment.acceleration_noise = noise.acceleration_m_s2;
   experiment.acceleration_noise_is_measured = noise.acceleration_is_measured;
   const ExcitedHarmonics excited = excited_harmonics(dataset, split, noise.acceleration_m_s2);
-  const ChannelColours colours =
-      channel_colours(dataset, nominal.narrowest_mode_hz(), noise.acceleration_m_s2);
+  const ChannelColours colours = channel_colours(dataset);
   for (std::size_t i = 0; i < dataset.records.size(); ++i) {
     const DatasetRecord& entry = dataset.records[i];
     if (entry.split != split || !is_comparable(nominal, entry)) continue;

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "diagnosis/records/accelerometer_noise.h"
-#include "signals/spectra/local_polynomial.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -61,8 +60,6 @@ double best_walk(const std::vector<NoiseLine>& lines) {
 }  // namespace
 
 double NoiseColour::density(const double frequency_hz) const {
-  if (!bands.empty())
-    return bands[std::min(static_cast<std::size_t>(frequency_hz / band_hz), bands.size() - 1)];
   const double ratio = frequency_hz / corner_hz;
   return 1. + excess / (1. + ratio * ratio);
 }
@@ -113,65 +110,9 @@ void add_still_acceleration(std::vector<NoiseLine>& out, const signals::Record& 
   add_lines(out, record, noise_lines(x, record.sampling_rate_hz(), false), 1);
 }
 
-/// Mean power of the residual of the response, by band, without the accelerometer noise that the
-/// response carries into it; empty when the record does not determine it.
-std::vector<double> powers_beside_response(const signals::Record& record,
-                                           const double narrowest_mode_hz,
-                                           const double acceleration_noise) {
-  // Width of the smooth response in lines, and enough lines for each band.
-  constexpr double n_smooth = 20., least_share = 0.1;
-  constexpr std::size_t n_bands = 128, fewest_lines = 400;
-  if (narrowest_mode_hz * record.duration_s() < n_smooth) return {};
-  const auto local = signals::local_polynomial_response(
-      record.channel(signals::channel::base_acceleration),
-      record.channel(signals::channel::base_moment), record.sampling_rate_hz());
-  const std::size_t n_lines = local.noise_variance.size();
-  const std::size_t n = std::min(n_bands, n_lines / fewest_lines);
-  if (n == 0) return {};
-  // The noise of the response is given as squared amplitude, 4 / n times the variance of a sample.
-  const double of_input =
-      4. * acceleration_noise * acceleration_noise / static_cast<double>(record.n_samples());
-  std::vector<double> sums(n, 0.), carried(n, 0.), counts(n, 0.);
-  for (std::size_t k = 0; k < n_lines; ++k) {
-    if (!std::isfinite(local.noise_variance[k])) continue;
-    const std::size_t band = k * n / n_lines;
-    sums[band] += local.noise_variance[k];
-    carried[band] += std::norm(local.response.value[k]) * of_input;
-    counts[band] += 1.;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (counts[i] == 0. || sums[i] <= 0.) return {};
-    sums[i] = std::max(least_share * sums[i], sums[i] - carried[i]) / counts[i];
-  }
-  return sums;
-}
-
 }  // namespace
 
-NoiseColour colour_beside_response(const signals::Dataset& dataset, const double narrowest_mode_hz,
-                                   const double acceleration_noise) {
-  NoiseColour colour;
-  double longest_s = 0.;
-  for (const signals::DatasetRecord& entry : dataset.records) {
-    const signals::Record& record = entry.record;
-    if (entry.split != signals::Split::fit || !entry.excitation.base || entry.excitation.wind ||
-        !record.has(signals::channel::base_acceleration) || record.duration_s() <= longest_s)
-      continue;
-    std::vector<double> powers =
-        powers_beside_response(record, narrowest_mode_hz, acceleration_noise);
-    if (powers.empty()) continue;
-    longest_s = record.duration_s();
-    colour.band_hz = 0.5 * record.sampling_rate_hz() / static_cast<double>(powers.size());
-    colour.bands = std::move(powers);
-  }
-  if (colour.bands.empty()) return colour;
-  const double least = *std::ranges::min_element(colour.bands);
-  for (double& density : colour.bands) density /= least;
-  return colour;
-}
-
-ChannelColours channel_colours(const signals::Dataset& dataset, const double narrowest_mode_hz,
-                               const double acceleration_noise) {
+ChannelColours channel_colours(const signals::Dataset& dataset) {
   std::vector<NoiseLine> moment, acceleration;
   double rate_hz = 0.;
   for (const signals::DatasetRecord& entry : dataset.records) {
@@ -188,9 +129,7 @@ ChannelColours channel_colours(const signals::Dataset& dataset, const double nar
       add_moment(moment, record, still ? 1 : n_periods);
     if (!entry.excitation.base) add_still_acceleration(acceleration, record);
   }
-  return {moment.empty() ? colour_beside_response(dataset, narrowest_mode_hz, acceleration_noise)
-                         : noise_colour(moment),
-          noise_colour(acceleration)};
+  return {noise_colour(moment), noise_colour(acceleration)};
 }
 
 }  // namespace vibrissa::diagnosis

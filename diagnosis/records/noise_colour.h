@@ -1,22 +1,18 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "signals/files/dataset.h"
 
 namespace vibrissa::diagnosis {
 
 /// Noise density of a channel relative to that of the upper half of the spectrum, 1 + excess / (1 +
-/// (f / corner)^2); or piecewise constant in bands of equal width from zero on, relative to the
-/// quietest band.
+/// (f / corner)^2).
 struct NoiseColour {
   double excess = 0.;
   double corner_hz = 1.;
-  std::vector<double> bands{};  // empty: excess and corner apply
-  double band_hz = 1.;
   double density(double frequency_hz) const;
-  bool is_white() const { return excess == 0. && bands.empty(); }
+  bool is_white() const { return excess == 0.; }
 };
 
 /// One line of a noise spectrum.
@@ -31,20 +27,11 @@ struct NoiseLine {
 /// 20, excess up to 20. Proven by tests/diagnosis/records/noise_colour_test.cc.
 NoiseColour noise_colour(std::span<const NoiseLine> lines);
 
-/// Noise colour of the moment in bands, from fit records with base motion only: the residual of a
-/// response that is smooth over a few lines (signals::local_polynomial_response). White when no
-/// such record is long enough to resolve modes of this bandwidth. Proven by
-/// tests/diagnosis/records/noise_colour_test.cc.
-NoiseColour colour_beside_response(const signals::Dataset& dataset, double narrowest_mode_hz,
-                                   double acceleration_noise);
-
 /// Noise colour of both channels, from fit records at rest (for the acceleration: with the base at
-/// rest); for the moment also from differences between periods well below the first mode, and
-/// without both by colour_beside_response.
+/// rest); for the moment also from differences between periods well below the first mode.
 struct ChannelColours {
   NoiseColour moment, acceleration;
 };
-ChannelColours channel_colours(const signals::Dataset& dataset, double narrowest_mode_hz,
-                               double acceleration_noise);
+ChannelColours channel_colours(const signals::Dataset& dataset);
 
 }  // namespace vibrissa::diagnosis
