@@ -6,12 +6,16 @@
 #include <map>
 #include <numbers>
 
+#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/spectrum.h"
+
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Terms that are proportional to the prediction: constant and slope within a block.
-constexpr Eigen::Index n_of_prediction = 2;
-constexpr double slope_share = 0.5;
+/// Terms of the simulation: in proportion to the prediction, constant and slope within a block; and
+/// the residual of the modes above, which differs little from block to block.
+constexpr Eigen::Index n_of_simulation = 3;
+constexpr double slope_share = 0.5, residual_share = 0.1;
 
 /// Edges of the blocks from the lowest to the highest evaluated frequency [Hz].
 std::vector<double> block_edges(const Experiment& experiment) {
@@ -49,14 +53,29 @@ Eigen::VectorXd wide_forms(const std::vector<double>& edges, const double hz) {
   return out.array() - out.mean();
 }
 
-/// The wide forms as constant and slope within a block.
+/// The wide forms and the residual as terms within a block.
 Eigen::MatrixXd wide_forms_of_block(const std::vector<double>& edges, const std::size_t above) {
   const std::size_t last = edges.size() - 1;
   const Eigen::VectorXd left = wide_forms(edges, edges[std::min(above == 0 ? 0 : above - 1, last)]),
                         right = wide_forms(edges, edges[std::min(above, last)]);
-  Eigen::MatrixXd out(n_of_prediction, left.size());
-  out.row(0) = 0.5 * (left + right);
-  out.row(1) = 0.5 / slope_share * (right - left);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n_of_simulation, left.size() + 1);
+  out.row(0).head(left.size()) = 0.5 * (left + right);
+  out.row(1).head(left.size()) = 0.5 / slope_share * (right - left);
+  out(2, left.size()) = 1. / residual_share;
+  return out;
+}
+
+/// The quasi-static moment of the base motion at the evaluated bins of all records; 0 for a
+/// simulation without modes, where it is a gain.
+std::vector<Complex> quasi_static(const Experiment& experiment) {
+  const double gain = experiment.nominal.modes.empty() ? 0. : experiment.scales.static_gain;
+  std::vector<Complex> out;
+  for (const PreparedRecord& record : experiment.records) {
+    std::vector<Complex> bins(record.n_bins());
+    if (!record.acceleration.empty())
+      bins = evaluated_bins(record, samples_of(record.acceleration, record.n_samples));
+    for (const Complex& value : bins) out.push_back(gain * value);
+  }
   return out;
 }
 
@@ -67,7 +86,8 @@ std::size_t record_kind(const PreparedRecord& record) {
   return base && wind ? 2 : wind ? 1 : base ? 0 : n_record_kinds;
 }
 
-ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment) {
+ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment)
+    : quasi_static_(quasi_static(experiment)) {
   const std::vector<double> edges = block_edges(experiment);
   std::map<std::pair<std::size_t, std::size_t>, int> known;  // (kind, interval) -> block
   for (const PreparedRecord& record : experiment.records) {
@@ -105,8 +125,8 @@ Eigen::MatrixXd ModelDiscrepancy::forms_of_block(const std::size_t block,
                                                  const DiscrepancyLevels& levels) const {
   const std::size_t kind = kind_of_block_[block];
   Eigen::MatrixXd out =
-      Eigen::MatrixXd::Zero(n_of_prediction + shapes_.changes.cols(), wide_[block].cols());
-  out.topRows<n_of_prediction>() = levels[n_record_kinds + kind] / levels[kind] * wide_[block];
+      Eigen::MatrixXd::Zero(n_of_simulation + shapes_.changes.cols(), wide_[block].cols());
+  out.topRows<n_of_simulation>() = levels[n_record_kinds + kind] / levels[kind] * wide_[block];
   return out;
 }
 
@@ -125,14 +145,16 @@ ModelDiscrepancy::Solution ModelDiscrepancy::solve(const Eigen::VectorXcd& error
                                                    const DiscrepancyLevels& levels) const {
   Solution out;
   out.of_ = this;
-  const Eigen::Index n_terms = n_of_prediction + shapes_.changes.cols();
+  const Eigen::Index n_terms = n_of_simulation + shapes_.changes.cols();
   out.whitened_.setZero(n_rows(), n_terms);
   for (const Segment& s : segments_)
     for (Eigen::Index row = s.first; row < s.first + s.n; ++row) {
       auto u = out.whitened_.row(row);
       u(0) = levels[kind_of_block_[s.block]] * per_deviation(row) * shapes_.mean(row);
       u(1) = slope_share * position_[static_cast<std::size_t>(row)] * u(0);
-      u.tail(n_terms - n_of_prediction) =
+      u(2) = residual_share * levels[kind_of_block_[s.block]] * per_deviation(row) *
+             quasi_static_[static_cast<std::size_t>(row)];
+      u.tail(n_terms - n_of_simulation) =
           levels[index_of_form_level] * per_deviation(row) * shapes_.changes.row(row);
     }
   out.invert(levels);
@@ -187,7 +209,7 @@ void ModelDiscrepancy::Solution::add_gradient(const PerKind& wide_weights) {
     const Eigen::MatrixXcd seen = forms_[k] - wide_[k];
     const Eigen::VectorXcd own = weights_[k] - forms_[k] * wide_weights[kind];
     for (Eigen::Index a = 0; a < own.size(); ++a)
-      add(a < n_of_prediction ? kind : index_of_form_level, own(a),
+      add(a < n_of_simulation ? kind : index_of_form_level, own(a),
           1. - inverse_[k](a, a).real() -
               (seen.row(a) * wide_covariance_[kind] * seen.row(a).adjoint()).value().real());
   }
