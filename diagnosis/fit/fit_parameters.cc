@@ -12,8 +12,9 @@ constexpr double usual_spread = 0.3;
 /// The same where neither rest nor repeats show the noise: the quietest part of the spectrum is an
 /// upper bound.
 constexpr double unknown_spread = 1.;
-/// Spread of the correlation of the moment's noise from sample to sample: filters of electronics.
-constexpr double usual_correlation = 0.1;
+/// Frequency below which flicker noise of electronics usually exceeds their white noise [Hz], and
+/// the spread of its logarithm.
+constexpr double usual_flicker_hz = 0.3, flicker_spread = 1.5;
 /// Usual form error of an effect, relative to its documented limit.
 constexpr double usual_form_level = 0.3;
 /// Spread of the logarithm of a simulation's accuracy.
@@ -62,8 +63,8 @@ std::vector<FitParameter> common_parameters(const Experiment& experiment) {
       level("acceleration_noise", "m/s^2",
             is_measured ? usual_acceleration_noise : experiment.acceleration_noise,
             is_measured ? usual_spread : unknown_spread, 1e-6, 20.);
-  out[index_of_noise_colour].description =
-      normal("noise_colour", "1", 0., usual_correlation, -0.5, 0.9, 1.);
+  out[index_of_flicker].description =
+      level("flicker_corner", "Hz", usual_flicker_hz, flicker_spread, 1e-3, 50.);
   out[index_of_joint_share].description =
       normal("joint_share", "1", experiment.nominal.joint_share,
              experiment.nominal.joint_share_deviation, 0.3, 1., 1.);

@@ -24,7 +24,7 @@ struct FitParameter {
 /// Indices of the parameters that belong to no effect; the levels of an unknown cause come last.
 /// The discrepancy (model_discrepancy.h) has two levels for each kind of record.
 inline constexpr std::size_t index_of_moment_noise = 0, index_of_acceleration_noise = 1,
-                             index_of_noise_colour = 2, index_of_joint_share = 3,
+                             index_of_flicker = 2, index_of_joint_share = 3,
                              index_of_joint_loss = 4, index_of_discrepancy = 5,
                              n_noise_parameters = 3,
                              index_of_incoherence = index_of_discrepancy + n_discrepancy_levels,

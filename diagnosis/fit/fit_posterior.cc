@@ -25,19 +25,6 @@ std::vector<double> spread_out(std::vector<double> power) {
   return power;
 }
 
-/// Density of first-order autoregressive noise relative to white noise of the same variance.
-double autoregressive_density(const double correlation, const double cosine) {
-  const double square = correlation * correlation;
-  return (1. - square) / (1. - 2. * correlation * cosine + square);
-}
-
-/// Derivative of the logarithm of that density by the correlation.
-double autoregressive_slope(const double correlation, const double cosine) {
-  const double square = correlation * correlation;
-  return -2. * correlation / (1. - square) +
-         2. * (cosine - correlation) / (1. - 2. * correlation * cosine + square);
-}
-
 double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
   const double misfit = record.excitation.wind ? nominal.wind_misfit : nominal.base_misfit;
   return std::max(misfit, least_misfit);
@@ -59,14 +46,7 @@ FitPosterior::FitPosterior(const Experiment& experiment,
       fit_parameters_(fit_parameters),
       effects_(hypothesis.effects()),
       unknown_(hypothesis.is_discrepancy()),
-      discrepancy_(experiment) {
-  for (const PreparedRecord& record : experiment.records) {
-    const double phase = 2. * std::numbers::pi * record.bin_hz() / record.sampling_rate_hz;
-    std::vector<double>& cosines = cosine_.emplace_back();
-    for (std::size_t b = 0; b < record.n_bins(); ++b)
-      cosines.push_back(std::cos(phase * static_cast<double>(b + 1)));
-  }
-}
+      discrepancy_(experiment) {}
 
 std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
   assert(x.allFinite());
@@ -136,13 +116,15 @@ Eigen::Index FitPosterior::unknown_index(std::size_t record, std::size_t b) cons
 
 std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Prediction& prediction,
                                            std::size_t record, double acceleration_variance) const {
-  const double moment = std::exp(2. * x(index_of_moment_noise)), colour = x(index_of_noise_colour);
+  const double moment = std::exp(2. * x(index_of_moment_noise)),
+               corner_hz = std::exp(x(index_of_flicker)),
+               bin_hz = experiment_.records[record].bin_hz();
   std::vector<double> out(prediction.mean.size());
   for (std::size_t b = 0; b < out.size(); ++b)
-    out[b] =
-        moment * autoregressive_density(colour, cosine_[record][b]) * prediction.moment_noise[b] +
-        acceleration_variance * prediction.acceleration_noise[b] + prediction.process_noise[b] +
-        misfit_[record][b];
+    out[b] = moment * (1. + corner_hz / (bin_hz * static_cast<double>(b + 1))) *
+                 prediction.moment_noise[b] +
+             acceleration_variance * prediction.acceleration_noise[b] +
+             prediction.process_noise[b] + misfit_[record][b];
   const double incoherent = std::exp(2. * x(index_of_incoherence));
   for (std::size_t b = 0; b < out.size(); ++b) out[b] += incoherent * incoherent_[record][b];
   if (has_form_errors()) {
@@ -247,16 +229,17 @@ FitPosterior::BinVariances FitPosterior::variances(const Eigen::VectorXd& x,
 void FitPosterior::set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                                     const BinVariances& s, const double acceleration_variance,
                                     const Eigen::Index index, Derivatives& out) const {
-  const double moment = std::exp(2. * x(index_of_moment_noise)), colour = x(index_of_noise_colour),
+  const double moment = std::exp(2. * x(index_of_moment_noise)),
+               corner_hz = std::exp(x(index_of_flicker)),
                acceleration = std::exp(2. * x(index_of_acceleration_noise));
   const auto slope = [&](std::size_t r, std::size_t b) {
     if (index == static_cast<Eigen::Index>(index_of_acceleration_noise))
       return 2. * acceleration * at[r].acceleration_noise[b];
-    const double cosine = cosine_[r][b];
-    const double noise = moment * autoregressive_density(colour, cosine) * at[r].moment_noise[b];
-    return noise * (index == static_cast<Eigen::Index>(index_of_moment_noise)
-                        ? 2.
-                        : autoregressive_slope(colour, cosine));
+    const double flicker =
+        corner_hz / (experiment_.records[r].bin_hz() * static_cast<double>(b + 1));
+    const double share =
+        index == static_cast<Eigen::Index>(index_of_moment_noise) ? 2. * (1. + flicker) : flicker;
+    return moment * at[r].moment_noise[b] * share;
   };
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r)

@@ -111,7 +111,6 @@ class FitPosterior {
   std::vector<const Effect*> effects_;
   bool unknown_;
   BinVariances misfit_, power_, incoherent_, form_;
-  BinVariances cosine_;  // of the phase from sample to sample
   ModelDiscrepancy discrepancy_;
 };
 

@@ -25,7 +25,7 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
   Eigen::VectorXd x(static_cast<Eigen::Index>(fit_parameters.size()));
   x(index_of_moment_noise) = std::log(experiment.moment_noise);
   x(index_of_acceleration_noise) = std::log(experiment.acceleration_noise);
-  x(index_of_noise_colour) = 0.;
+  x(index_of_flicker) = fit_parameters[index_of_flicker].description.prior.centre;
   x(index_of_joint_share) = experiment.nominal.joint_share;
   x(index_of_joint_loss) = 1.;
   x.segment(index_of_discrepancy, n_discrepancy_levels)

@@ -120,13 +120,25 @@ ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment)
   }
 }
 
+namespace {
+
+/// The last form is the residual of missing modes.
+std::size_t level_of_form(const std::size_t kind, const Eigen::Index form,
+                          const Eigen::Index n_forms) {
+  return kind + (form + 1 < n_forms ? 1 : 2) * n_record_kinds;
+}
+
+}  // namespace
+
 /// The wide forms, in units of the block's own terms: terms x forms.
 Eigen::MatrixXd ModelDiscrepancy::forms_of_block(const std::size_t block,
                                                  const DiscrepancyLevels& levels) const {
   const std::size_t kind = kind_of_block_[block];
   Eigen::MatrixXd out =
       Eigen::MatrixXd::Zero(n_of_simulation + shapes_.changes.cols(), wide_[block].cols());
-  out.topRows<n_of_simulation>() = levels[n_record_kinds + kind] / levels[kind] * wide_[block];
+  for (Eigen::Index m = 0; m < out.cols(); ++m)
+    out.col(m).head<n_of_simulation>() =
+        levels[level_of_form(kind, m, out.cols())] / levels[kind] * wide_[block].col(m);
   return out;
 }
 
@@ -215,7 +227,8 @@ void ModelDiscrepancy::Solution::add_gradient(const PerKind& wide_weights) {
   }
   for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
     for (Eigen::Index m = 0; m < wide_weights[kind].size(); ++m)
-      add(n_record_kinds + kind, wide_weights[kind](m), 1. - wide_covariance_[kind](m, m).real());
+      add(level_of_form(kind, m, wide_weights[kind].size()), wide_weights[kind](m),
+          1. - wide_covariance_[kind](m, m).real());
 }
 
 ModelDiscrepancy::Solution::PerBlock ModelDiscrepancy::Solution::overlap(

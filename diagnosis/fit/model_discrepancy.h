@@ -12,9 +12,9 @@ namespace vibrissa::diagnosis {
 /// What moved the sensor in a record: base, wind, or both. Each kind has its own level of
 /// discrepancy.
 inline constexpr std::size_t n_record_kinds = 3;
-/// Two levels of each kind, within blocks and of the wide forms, and that of the effects' form
-/// errors.
-inline constexpr std::size_t n_discrepancy_levels = 2 * n_record_kinds,
+/// Three levels of each kind, within blocks, of the wide forms and of the residual of missing
+/// modes, and that of the effects' form errors.
+inline constexpr std::size_t n_discrepancy_levels = 3 * n_record_kinds,
                              index_of_form_level = n_discrepancy_levels;
 using DiscrepancyLevels = std::array<double, n_discrepancy_levels + 1>;
 /// Index of the kind; n_record_kinds for a record at rest.
@@ -31,15 +31,16 @@ struct DiscrepancyShapes {
 ///   R = (eps_k + slope_k t / 2 + sum_m h_m(f) w_m) D_0 + (r + r_k / 10) G a + sum_j eps_jk D_j
 ///       + noise,   t = -1 .. 1,
 /// D_0 the predicted moment, G a its quasi-static value, D_j the form
-/// error of effect j; eps_k, slope_k, r_k ~ CN(0, delta^2), w_m, r ~ CN(0, wide delta^2), eps_jk ~
-/// CN(0, level^2). r is the residual of modes that the simulation lacks or weighs otherwise (Ewins,
-/// Modal Testing, 2nd ed., 2000, residuals of high modes). h_m are the wide forms: a hat function
-/// over log f for each octave, linear within a block; without their mean, because a gain is a
-/// calibration parameter. One eps and one w serve all records of a kind, so they explain no error
-/// that depends on level, time or input. Blocks: a sixth of an octave, narrower near a resonance.
-/// The complex Gaussian with these terms integrated out by the Woodbury identity, first within the
-/// blocks, then over them (Kennedy and O'Hagan 2001, model discrepancy; Golub and Van Loan, 4th
-/// ed., 2013, 2.1.4). Proven by tests/diagnosis/fit/model_discrepancy_test.cc.
+/// error of effect j; eps_k, slope_k, r_k ~ CN(0, delta^2), w_m ~ CN(0, wide delta^2), r ~
+/// CN(0, residual delta^2), eps_jk ~ CN(0, level^2). r is the residual of modes that the simulation
+/// lacks or weighs otherwise (Ewins, Modal Testing, 2nd ed., 2000, residuals of high modes). h_m
+/// are the wide forms: a hat function over log f for each octave, linear within a block; without
+/// their mean, because a gain is a calibration parameter. One eps and one w serve all records of a
+/// kind, so they explain no error that depends on level, time or input. Blocks: a sixth of an
+/// octave, narrower near a resonance. The complex Gaussian with these terms integrated out by the
+/// Woodbury identity, first within the blocks, then over them (Kennedy and O'Hagan 2001, model
+/// discrepancy; Golub and Van Loan, 4th ed., 2013, 2.1.4). Proven by
+/// tests/diagnosis/fit/model_discrepancy_test.cc.
 class ModelDiscrepancy {
  public:
   explicit ModelDiscrepancy(const Experiment& experiment);

@@ -80,6 +80,7 @@ struct Needs {
   bool base = false, wind = false, cross = false;
   bool repeats = false;  // an accelerometer with sample-and-hold repeats
   double moved_s = 0.;   // least duration of motion in all records together
+  double moved_hz = 0.;  // the base's motion reaches at least this frequency
 };
 
 /// One entry of the catalogue of docs/effects.md: an extension of the nominal model.

@@ -66,6 +66,8 @@ std::string word_of(Lack lack) {
       return "a simulation with dynamics";
     case Lack::duration:
       return "longer records of motion";
+    case Lack::band:
+      return "base motion at higher frequencies";
   }
   return "";
 }

@@ -263,6 +263,21 @@ double moved_seconds(const Experiment& experiment) {
   return sum;
 }
 
+/// Frequency below which nearly all of the base's motion is, in the record where it is highest.
+double moved_band_hz(const Experiment& experiment) {
+  constexpr double nearly_all = 0.99;
+  double out = 0.;
+  for (const PreparedRecord& record : experiment.records) {
+    if (!record.excitation.base || record.acceleration.empty()) continue;
+    std::vector<double> sum = powers(record.acceleration);
+    std::partial_sum(sum.begin(), sum.end(), sum.begin());
+    const auto line = std::ranges::lower_bound(sum, nearly_all * sum.back()) - sum.begin();
+    out = std::max(out, static_cast<double>(line) * record.sampling_rate_hz /
+                            static_cast<double>(record.n_samples));
+  }
+  return out;
+}
+
 Scales scales_of(const Experiment& experiment) {
   Scales scales;
   const NominalModel& nominal = experiment.nominal;
@@ -317,6 +332,7 @@ std::vector<Lack> lacks(const Experiment& experiment, const Effect& effect) {
   if (experiment.nominal.modes.empty() && !acts_without_modes(effect)) out.push_back(Lack::modes);
   if (needs.moved_s > 0. && moved_seconds(experiment) <= needs.moved_s)
     out.push_back(Lack::duration);
+  if (needs.moved_hz > 0. && moved_band_hz(experiment) < needs.moved_hz) out.push_back(Lack::band);
   return out;
 }
 

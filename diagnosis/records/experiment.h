@@ -103,7 +103,7 @@ bool is_simulated(const signals::BenchSetup& setup);
 bool is_comparable(const NominalModel& nominal, const signals::DatasetRecord& entry);
 
 /// Requirements of an effect that an experiment may lack.
-enum class Lack { base, wind, cross, repeats, modes, duration };
+enum class Lack { base, wind, cross, repeats, modes, duration, band };
 /// All missing requirements, in that order.
 std::vector<Lack> lacks(const Experiment& experiment, const Effect& effect);
 /// Does the experiment contain everything that the effect needs?

@@ -20,6 +20,8 @@ std::string reason_of(Lack lack) {
       return "the simulation has no mode";
     case Lack::duration:
       return "the records with motion are too short";
+    case Lack::band:
+      return "the base does not move at its frequencies";
     case Lack::repeats:
       break;
   }
