@@ -12,7 +12,7 @@ LikelihoodRatio::LikelihoodRatio(const World& plain, const Session& session,
       widened_(unknown_changes(change_, distance, accuracy), noise_) {}
 
 double LikelihoodRatio::noncentrality(const World& world, const bool random) const {
-  return widened_.squared_norm(signature_of(change_of(change_, world, random), noise_));
+  return widened_.whitened(signature_of(change_of(change_, world, random), noise_)).squaredNorm();
 }
 
 std::optional<double> detection_limit(const LikelihoodRatio& test, const Unknown& unknown,

@@ -1,5 +1,6 @@
 #include "trial/generator/signature.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -87,23 +88,19 @@ std::vector<LineChange> unknown_changes(const UnexplainedChange& change, const D
 
 WidenedNoise::WidenedNoise(const std::vector<LineChange>& unknown,
                            const std::vector<double>& noise) {
+  if (unknown.empty()) return;
   const auto m = static_cast<Eigen::Index>(unknown.size());
-  spread_.resize(3 * static_cast<Eigen::Index>(noise.size()), m);
+  Eigen::MatrixXd spread(3 * static_cast<Eigen::Index>(noise.size()), m);
   for (Eigen::Index i = 0; i < m; ++i)
-    spread_.col(i) = signature_of(unknown[static_cast<std::size_t>(i)], noise);
-  within_.compute(Eigen::MatrixXd::Identity(m, m) + spread_.transpose() * spread_);
+    spread.col(i) = signature_of(unknown[static_cast<std::size_t>(i)], noise);
+  const Eigen::BDCSVD<Eigen::MatrixXd> parts(spread, Eigen::ComputeThinU);
+  directions_ = parts.matrixU();
+  lost_ = 1. - (1. + parts.singularValues().array().square()).rsqrt();
 }
 
-Eigen::MatrixXd WidenedNoise::inner(const Eigen::MatrixXd& signatures,
-                                    const Eigen::MatrixXd& in_white) const {
-  if (spread_.cols() == 0) return in_white;
-  const Eigen::MatrixXd across = spread_.transpose() * signatures;
-  return in_white - across.transpose() * within_.solve(across);
-}
-
-double WidenedNoise::squared_norm(const Eigen::VectorXd& signature) const {
-  const Eigen::MatrixXd in_white = Eigen::MatrixXd::Constant(1, 1, signature.squaredNorm());
-  return inner(signature, in_white)(0, 0);
+Eigen::MatrixXd WidenedNoise::whitened(const Eigen::MatrixXd& signatures) const {
+  if (lost_.size() == 0) return signatures;
+  return signatures - directions_ * (lost_.asDiagonal() * (directions_.transpose() * signatures));
 }
 
 }  // namespace vibrissa::trial

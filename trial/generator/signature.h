@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <complex>
 #include <vector>
@@ -41,13 +40,12 @@ class WidenedNoise {
   WidenedNoise() = default;
   WidenedNoise(const std::vector<LineChange>& unknown, const std::vector<double>& noise);
 
-  /// Inner products of signatures (columns), a^T (1 + N N^T)^-1 b, from those in white noise.
-  Eigen::MatrixXd inner(const Eigen::MatrixXd& signatures, const Eigen::MatrixXd& in_white) const;
-  double squared_norm(const Eigen::VectorXd& signature) const;
+  /// Signatures (columns) in units of this noise: (1 + N N^T)^(-1/2) times them.
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& signatures) const;
 
  private:
-  Eigen::MatrixXd spread_;              // N
-  Eigen::LLT<Eigen::MatrixXd> within_;  // of 1 + N^T N
+  Eigen::MatrixXd directions_;  // orthonormal, of N
+  Eigen::VectorXd lost_;        // share of each direction that the wider noise takes
 };
 
 }  // namespace vibrissa::trial

@@ -39,11 +39,8 @@ struct LadderOnBench {
   }
   /// Detection limit of the test that uses the first lines; nothing when the largest size stays
   /// below it. Below the ladder a signature is extrapolated by a power law.
-  std::optional<double> limit(const ObservedBench& bench, const WidenedNoise& widened,
-                              const std::size_t n_lines) const {
+  std::optional<double> limit(const ObservedBench& bench, const std::size_t n_lines) const {
     const auto noncentrality = [&](const Eigen::VectorXd& signature) {
-      if (3 * static_cast<Eigen::Index>(n_lines) == signature.size())
-        return widened.squared_norm(signature);
       const Eigen::Index n = signature.size() / 3, first = static_cast<Eigen::Index>(n_lines);
       return signature.head(first).squaredNorm() + signature.segment(n, first).squaredNorm() +
              signature.segment(2 * n, first).squaredNorm();
@@ -61,10 +58,11 @@ struct LadderOnBench {
   }
 };
 
-LadderOnBench on_bench(const EffectLadder& ladder, const std::vector<double>& noise) {
+LadderOnBench on_bench(const EffectLadder& ladder, const std::vector<double>& noise,
+                       const WidenedNoise& widened) {
   LadderOnBench out{.ladder = &ladder, .signatures = {}};
   for (const LineChange& change : ladder.changes)
-    out.signatures.push_back(signature_of(change, noise));
+    out.signatures.emplace_back(widened.whitened(signature_of(change, noise)));
   return out;
 }
 
@@ -156,7 +154,6 @@ IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
       const auto lines = all.middleRows(part + begin, end - begin);
       inner.noalias() += lines.transpose() * lines;
     }
-    if (block_ends_.size() == 1) inner = widened_.inner(all, inner);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(inner);
     noise_root_.push_back(parts.eigenvectors() *
                           parts.eigenvalues().cwiseMax(0.).cwiseSqrt().asDiagonal());
@@ -167,8 +164,8 @@ IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
 
 void IdealObserver::add_ladder(const EffectLadder& ladder, const std::vector<double>& noise) {
   if (!bench_.asks_calibrations && is_a_calibration(ladder.unknown->id)) return;
-  const LadderOnBench here = on_bench(ladder, noise);
-  const std::optional<double> limit = here.limit(bench_, widened_, block_ends_.front());
+  const LadderOnBench here = on_bench(ladder, noise, widened_);
+  const std::optional<double> limit = here.limit(bench_, block_ends_.front());
   if (!limit) return;
   const Unknown& unknown = *ladder.unknown;
   const double largest = std::min(largest_in_limits, unknown.largest / *limit);

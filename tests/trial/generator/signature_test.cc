@@ -42,8 +42,8 @@ TEST(WidenedNoise, IsTheCovarianceWithTheUnknownChanges) {
     const Eigen::VectorXd n = signature_of(change, noise);
     covariance += n * n.transpose();
   }
-  EXPECT_NEAR(WidenedNoise(unknown, noise).squared_norm(x), x.dot(covariance.llt().solve(x)),
-              1e-10);
+  EXPECT_NEAR(WidenedNoise(unknown, noise).whitened(x).squaredNorm(),
+              x.dot(covariance.llt().solve(x)), 1e-10);
 }
 
 TEST(LikelihoodRatio, AllowsForTheAccuracyOfTheSimulation) {
@@ -68,7 +68,7 @@ TEST(LikelihoodRatio, AllowsForTheAccuracyOfTheSimulation) {
   }
   const Eigen::VectorXd signature = signature_of(difference, noise);
   EXPECT_GT(signature.squaredNorm(), 2000.);
-  EXPECT_LT(widened.squared_norm(signature), 0.05 * signature.squaredNorm());
+  EXPECT_LT(widened.whitened(signature).squaredNorm(), 0.05 * signature.squaredNorm());
 }
 
 TEST(DetectionLimit, RisesWithWhatIsUnknown) {
