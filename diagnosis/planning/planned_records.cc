@@ -22,12 +22,6 @@ std::vector<double> moving_channel(const signals::Record& record, const std::str
   return {x.begin(), x.end()};
 }
 
-double rms(const std::vector<double>& x) {
-  double sum = 0.;
-  for (const double value : x) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(x.size()));
-}
-
 /// Sum of unit sines at the frequencies k / n of the sampling rate, with random phases.
 std::vector<double> lines_of(std::size_t n, const std::vector<std::size_t>& lines, unsigned seed) {
   std::mt19937 random(seed);
@@ -41,19 +35,15 @@ std::vector<double> lines_of(std::size_t n, const std::vector<std::size_t>& line
 std::vector<double> nominal_moment(const NominalModel& nominal, const PlannedInput& input) {
   const std::size_t n = input.n_samples;
   std::vector<Complex> moment(n / 2 + 1, 0.);
-  const auto add = [&](const std::vector<double>& x, bool wind) {
+  const auto add = [&](const std::vector<double>& x, const auto& response) {
     if (x.empty()) return;
-    const std::vector<Complex> spectrum = spectrum_of(x);
-    for (std::size_t k = 0; k < moment.size(); ++k) {
-      const Complex s(0., 2. * std::numbers::pi * input.sampling_rate_hz * static_cast<double>(k) /
-                              static_cast<double>(n));
-      moment[k] += spectrum[k] * (wind ? nominal.wind_response(s) : nominal.base_response(s));
-    }
+    const std::vector<Complex> part = passed(spectrum_of(x), n, input.sampling_rate_hz, response);
+    for (std::size_t k = 0; k < moment.size(); ++k) moment[k] += part[k];
   };
-  add(input.acceleration, false);
+  add(input.acceleration, [&](Complex s) { return nominal.base_response(s); });
   std::vector<double> force = input.wind;
   for (double& u : force) u = nominal.drag_curve.drag(u);
-  add(force, true);
+  add(force, [&](Complex s) { return nominal.wind_response(s); });
   return samples_of(moment, n);
 }
 
@@ -126,7 +116,7 @@ PlannedInput multisine_input(const std::string& name, const double low_hz, const
     if (f >= low_hz && f <= high_hz && (k / 2) % 4 != 1) lines.push_back(k);
   }
   std::vector<double> once = lines_of(period, lines, 3);
-  const double scale = level / rms(once);
+  const double scale = level / std::sqrt(mean_square(once));
   for (double& value : once) value *= scale;
   PlannedInput out{.name = name,
                    .sampling_rate_hz = rate_hz,
@@ -148,7 +138,7 @@ PlannedInput gust_input(const std::string& name, const double mean_m_s, const do
   }
   PlannedInput out{.name = name, .sampling_rate_hz = rate_hz, .n_samples = n};
   out.wind = lines_of(n, lines, 5);
-  const double scale = gusts * mean_m_s / rms(out.wind);
+  const double scale = gusts * mean_m_s / std::sqrt(mean_square(out.wind));
   for (double& u : out.wind) u = mean_m_s + scale * u;
   return out;
 }

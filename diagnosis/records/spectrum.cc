@@ -6,6 +6,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "signals/base/median.h"
 #include "signals/spectra/fft.h"
 
 namespace vibrissa::diagnosis {
@@ -33,6 +34,15 @@ std::vector<double> samples_of(std::span<const Complex> spectrum, const std::siz
   std::copy(spectrum.begin(), spectrum.end(), fft.spectrum().begin());
   fft.inverse();
   return {fft.time().begin(), fft.time().end()};
+}
+
+std::vector<Complex> passed(std::vector<Complex> spectrum, const std::size_t n,
+                            const double rate_hz,
+                            const std::function<Complex(Complex s)>& response) {
+  for (std::size_t k = 0; k < spectrum.size(); ++k)
+    spectrum[k] *= response(
+        {0., 2. * std::numbers::pi * rate_hz * static_cast<double>(k) / static_cast<double>(n)});
+  return spectrum;
 }
 
 std::vector<double> upsampled(std::span<const Complex> spectrum, const std::size_t n,
@@ -86,6 +96,19 @@ double total_power(std::span<const Complex> x) {
   return sum;
 }
 
+double mean_square(std::span<const double> x) {
+  double sum = 0.;
+  for (const double v : x) sum += v * v;
+  return sum / static_cast<double>(x.size());
+}
+
+double rms_about_mean(std::span<const double> x) {
+  const double mean = std::accumulate(x.begin(), x.end(), 0.) / static_cast<double>(x.size());
+  double square = 0.;
+  for (const double v : x) square += (v - mean) * (v - mean);
+  return std::sqrt(square / static_cast<double>(x.size()));
+}
+
 std::vector<double> neighbour_mean(std::span<const double> x, const std::size_t reach) {
   std::vector<double> running(x.size() + 1, 0.), out(x.size());
   std::partial_sum(x.begin(), x.end(), running.begin() + 1);
@@ -100,9 +123,8 @@ double colour(std::vector<double> power) {
   if (power.empty()) return 1.;
   const double mean =
       std::accumulate(power.begin(), power.end(), 0.) / static_cast<double>(power.size());
-  const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
-  std::nth_element(power.begin(), middle, power.end());
-  return *middle > 0. ? mean * std::numbers::ln2 / *middle : 1.;
+  const double median = signals::median(std::move(power));
+  return median > 0. ? mean * std::numbers::ln2 / median : 1.;
 }
 
 std::size_t fast_length(std::size_t n) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,11 @@ namespace vibrissa::diagnosis {
 /// cached per thread.
 std::vector<Complex> spectrum_of(std::span<const double> x);
 std::vector<double> samples_of(std::span<const Complex> spectrum, std::size_t n);
+
+/// The spectrum at the output of a linear path with this response to s = j 2 pi f, whose input has
+/// n samples.
+std::vector<Complex> passed(std::vector<Complex> spectrum, std::size_t n, double rate_hz,
+                            const std::function<Complex(Complex s)>& response);
 
 /// The samples of a spectrum at factor times its rate (band-limited interpolation), factor n of
 /// them.
@@ -29,6 +35,11 @@ std::vector<Complex> difference(std::span<const Complex> a, std::span<const Comp
 std::vector<double> powers(std::span<const Complex> x);
 /// Sum of |x|^2.
 double total_power(std::span<const Complex> x);
+
+/// Mean of the squares, about zero.
+double mean_square(std::span<const double> x);
+/// Root mean square about the mean.
+double rms_about_mean(std::span<const double> x);
 
 /// Mean of each value and its existing neighbours up to reach indices away.
 std::vector<double> neighbour_mean(std::span<const double> x, std::size_t reach);
