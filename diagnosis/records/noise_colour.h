@@ -31,16 +31,10 @@ struct NoiseLine {
 /// 20, excess up to 20. Proven by tests/diagnosis/records/noise_colour_test.cc.
 NoiseColour noise_colour(std::span<const NoiseLine> lines);
 
-/// Noise colour of the moment in bands, from fit records with base motion only: the residual of a
-/// response that is smooth over a few lines (signals::local_polynomial_response). White when no
-/// such record is long enough to resolve modes of this bandwidth. Proven by
-/// tests/diagnosis/records/noise_colour_test.cc.
-NoiseColour colour_beside_response(const signals::Dataset& dataset, double narrowest_mode_hz,
-                                   double acceleration_noise);
-
 /// Noise colour of both channels, from fit records at rest (for the acceleration: with the base at
 /// rest); for the moment also from differences between periods well below the first mode, and
-/// without both by colour_beside_response.
+/// without both from the residual of a smooth response under base motion. Proven by
+/// tests/diagnosis/records/noise_colour_test.cc.
 struct ChannelColours {
   NoiseColour moment, acceleration;
 };

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "diagnosis/prediction/chain_simulation.h"
-#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
 #include "diagnosis/validation/held_out.h"
 #include "signals/base/student.h"

@@ -9,7 +9,7 @@
 
 #include "diagnosis/fit/noise_levels.h"
 #include "diagnosis/prediction/chain_simulation.h"
-#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/error.h"
 #include "signals/base/student.h"
