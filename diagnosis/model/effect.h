@@ -82,16 +82,15 @@ struct Needs {
   double moved_s = 0.;   // least duration of motion in all records together
 };
 
-/// One entry of the catalogue of docs/effects.md: an extension of the nominal model.
+/// One entry of the catalogue of docs/effects.md (equation, sources of ranges and priors, what
+/// distinguishes it from similar effects): an extension of the nominal model.
 struct Effect {
   std::string id{};
   std::string about{};  // one plain phrase, as in the contents of docs/effects.md
   Link link = Link::structure;
-  std::string equation{};
-  std::string source{};         // of the equation; ranges and priors: docs/effects.md
-  std::string confused_with{};  // effects with a similar influence; data that distinguish them
-  bool calibration = false;     // a parameter error: the simulation needs recalibration
-  bool irreducible = false;     // adds process noise
+  std::string source{};      // of the equation, which docs/effects.md gives
+  bool calibration = false;  // a parameter error: the simulation needs recalibration
+  bool irreducible = false;  // adds process noise
   /// Model form error: the true effect may differ from the equation by this share of its influence.
   double model_form_error = 0.01;
   Needs needs{};
