@@ -212,8 +212,8 @@ void conclude(Diagnosis& out, const Evidence& evidence, SearchResult& result,
   out.response = compare_response(experiment, result.fits[best.fit]);
   out.updated = updated_model(experiment, result.fits[best.fit]);
   if (out.verdict != outside_catalogue) out.resonance = resonance_change(experiment, out.updated);
-  out.wind_speed = wind_speed_error(evidence.simulation, out.updated, evidence.real);
-  out.separation = separation_quality(evidence.simulation, out.updated, evidence.real);
+  out.wind_speed_error_m_s = wind_speed_error_m_s(evidence.simulation, out.updated, evidence.real);
+  out.separation_sdr_db = separation_sdr_db(evidence.simulation, out.updated, evidence.real);
   out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);
   out.indistinguishable = indistinguishable_sets(experiment, result);
   out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable,

@@ -16,9 +16,8 @@
 #include "diagnosis/validation/comparison.h"
 #include "diagnosis/validation/held_out.h"
 #include "diagnosis/validation/resonance_change.h"
-#include "diagnosis/validation/separation_quality.h"
 #include "diagnosis/validation/untested.h"
-#include "diagnosis/validation/wind_speed_error.h"
+#include "diagnosis/validation/wind_estimates.h"
 
 namespace vibrissa::diagnosis {
 
@@ -81,9 +80,9 @@ struct Diagnosis {
   /// effect explains the records.
   std::optional<ResonanceChange> resonance{};
   /// Error of the wind speed read from held-out records, before and after correction.
-  std::optional<WindSpeedError> wind_speed{};
+  std::optional<BeforeAfter> wind_speed_error_m_s{};
   /// Quality of the separated wind moment, where its true value is known.
-  std::optional<SeparationQuality> separation{};
+  std::optional<BeforeAfter> separation_sdr_db{};
 };
 
 struct DiagnoseOptions {

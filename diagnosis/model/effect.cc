@@ -151,13 +151,16 @@ bool is_nonlinear(const Effect& effect) {
   return !chain.joint.empty() || !chain.readout.empty() || chain.relative_wind.on || folds;
 }
 
-const Effect& find_effect(const std::string& id) {
+const Effect* effect_or_none(const std::string& id) {
   const std::vector<Effect>& effects = effect_catalogue();
-  const auto found =
-      std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.id == id; });
-  if (found != effects.end()) return *found;
+  const auto found = std::ranges::find(effects, id, &Effect::id);
+  return found != effects.end() ? &*found : nullptr;
+}
+
+const Effect& find_effect(const std::string& id) {
+  if (const Effect* effect = effect_or_none(id)) return *effect;
   std::vector<std::string> known;
-  for (const Effect& effect : effects) known.push_back(effect.id);
+  for (const Effect& effect : effect_catalogue()) known.push_back(effect.id);
   throw signals::UserError(signals::unknown_name("effect", id, known));
 }
 

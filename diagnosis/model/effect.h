@@ -118,6 +118,8 @@ bool is_nonlinear(const Effect& effect);
 /// Every effect of diagnosis/effects, one file each, by id. Proven by
 /// tests/diagnosis/effects/effect_catalogue_test.cc.
 const std::vector<Effect>& effect_catalogue();
+/// nullptr for an unknown id.
+const Effect* effect_or_none(const std::string& id);
 /// Throws UserError with the known ids for an unknown id.
 const Effect& find_effect(const std::string& id);
 

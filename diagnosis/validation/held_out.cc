@@ -187,12 +187,12 @@ std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
                                median + factor * (quantile(0.975) - median)};
 }
 
-std::optional<VibrationLeft> vibration_left(const std::vector<Block>& blocks) {
+std::optional<BeforeAfter> vibration_left_db(const std::vector<Block>& blocks) {
   Block sum;
   for (const Block& block : blocks) add(sum, block);
   if (!(sum.measured > 0.)) return std::nullopt;
   const auto db = [&](double power) { return 10. * std::log10(power / sum.measured); };
-  return VibrationLeft{db(sum.before), db(sum.after)};
+  return BeforeAfter{db(sum.before), db(sum.after)};
 }
 
 ErrorScore score(const std::string& name, const std::vector<Block>& blocks,
@@ -269,7 +269,7 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
     all.insert(all.end(), blocks.begin(), blocks.end());
     if (!record.excitation.wind) of_base.insert(of_base.end(), blocks.begin(), blocks.end());
   }
-  out.vibration_left = vibration_left(of_base);
+  out.vibration_left_db = vibration_left_db(of_base);
   if (all.empty()) throw signals::UserError("every held_out record is at rest: nothing to score");
   if (ramp) {
     std::erase(out.not_predictable, "sensor_drift");
