@@ -87,9 +87,6 @@ struct Diagnosis {
 
 struct DiagnoseOptions {
   SearchOptions search{};
-  HeldOutOptions held_out{};
-  std::size_t n_scored = 3;       // answers with a held-out score
-  std::size_t n_ranked = 12;      // answers listed
   double simulated_rate_hz = 0.;  // 0: the simulation has no sampling rate
   double simulation_accuracy = usual_simulation_accuracy;
   /// Experiments of the menu that the bench can make; empty: all.

@@ -36,10 +36,6 @@ std::string meaning_line(const Diagnosis& diagnosis) {
   return titled("Meaning: ", parts);
 }
 
-std::string placed(const Finding& finding) {
-  return (finding.record.empty() ? "" : finding.record + ": ") + finding.message;
-}
-
 /// What a calibration effect changes: "stiffness", "sensor gain", "drag".
 std::string quantity_of(const std::string& effect) {
   if (effect == "drag_error") return "drag";
@@ -53,7 +49,7 @@ std::string doubt_line(const Diagnosis& diagnosis) {
   std::string first;
   std::size_t n = 0;
   for (const Finding& finding : diagnosis.findings)
-    if (casts_doubt(finding.kind) && n++ == 0) first = placed(finding);
+    if (casts_doubt(finding.kind) && n++ == 0) first = finding.text();
   if (n == 0) return "";
   return "Doubtful: " + first + (n > 1 ? " (and " + std::to_string(n - 1) + " more)" : "");
 }
@@ -350,7 +346,7 @@ std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_line
   if (!diagnosis.untested.empty())
     lines.add("Not tested: " + untested_sentence(diagnosis.untested));
   for (const Finding& finding : diagnosis.findings)
-    if (!casts_doubt(finding.kind)) lines.add("Note: " + placed(finding));
+    if (!casts_doubt(finding.kind)) lines.add("Note: " + finding.text());
   return lines.text(most_lines);
 }
 

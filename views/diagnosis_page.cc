@@ -231,9 +231,9 @@ std::string separation_sentence(const Diagnosis& d) {
   if (!d.ranking.empty() && d.ranking.front().held_out &&
       d.ranking.front().held_out->vibration_left_db) {
     const auto& left = *d.ranking.front().held_out->vibration_left_db;
-    text += "Vibration left after subtracting the prediction: " +
-            diagnosis::one_decimal(left.before) + " dB before, " +
-            diagnosis::one_decimal(left.after) + " dB after correction. ";
+    text +=
+        "Vibration left after subtracting the prediction: " + diagnosis::one_decimal(left.before) +
+        " dB before, " + diagnosis::one_decimal(left.after) + " dB after correction. ";
   }
   if (d.separation_sdr_db)
     text += "Signal-to-distortion ratio of the wind moment: " +

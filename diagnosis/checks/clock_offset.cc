@@ -93,7 +93,6 @@ AlignedDataset align_clocks(const NominalModel& nominal, const signals::Dataset&
     if (std::abs(offset_s) <= longest_delay_s) continue;
     out.findings.push_back({FindingKind::two_clocks, entry.name, message_for(offset_s)});
     entry = shifted(entry, *offset);
-    out.is_shifted = true;
   }
   return out;
 }

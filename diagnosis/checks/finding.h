@@ -24,6 +24,8 @@ struct Finding {
   FindingKind kind = FindingKind::clipped_channel;
   std::string record{};  // empty: the whole dataset
   std::string message{};
+
+  std::string text() const { return (record.empty() ? "" : record + ": ") + message; }
 };
 
 /// Does this mistake make every number of the diagnosis wrong?

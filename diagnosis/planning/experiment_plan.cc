@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "diagnosis/planning/planned_menu.h"
+#include "diagnosis/planning/planned_records.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
 

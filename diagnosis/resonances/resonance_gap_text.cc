@@ -23,7 +23,7 @@ static void to_json(Json& out, const NeededValue& value) {
          {"unit", value.unit},
          {"ci95", value.ci95},
          {"usual_range", {value.usual_low, value.usual_high}},
-         {"inside_usual_range", value.inside}};
+         {"inside_usual_range", value.inside()}};
 }
 
 static void to_json(Json& out, const ResonanceExplanation& explanation) {
@@ -57,10 +57,10 @@ std::string explanation_line(const ResonanceExplanation& explanation) {
   if (!values.empty()) text += ": " + joined(values, ", ");
   for (const NeededValue& value : explanation.parameters)
     // The modal ratio follows from the modulus.
-    if (!value.inside ||
+    if (!value.inside() ||
         (&value == &explanation.parameters.back() && explanation.effects.size() == 1))
       if (value.name != "mass_ratio")
-        text += std::string(value.inside ? ", usual " : ", outside ") +
+        text += std::string(value.inside() ? ", usual " : ", outside ") +
                 three_digits(value.usual_low) + " .. " + three_digits(value.usual_high);
   if (explanation.damping_left) text += "; damping x " + three_digits(*explanation.damping_left);
   return text;

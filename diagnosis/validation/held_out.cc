@@ -145,6 +145,12 @@ void add(Block& sum, const Block& b, double moment_factor = 1., double accelerat
   sum.floor.own += b.floor.own;
 }
 
+Block total(const std::vector<Block>& blocks) {
+  Block sum;
+  for (const Block& block : blocks) add(sum, block);
+  return sum;
+}
+
 std::optional<double> gap_closed(const Block& sum) {
   const double floor = sum.floor.moment + sum.floor.acceleration;
   if (!(sum.before > floor)) return std::nullopt;
@@ -188,8 +194,7 @@ std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
 }
 
 std::optional<BeforeAfter> vibration_left_db(const std::vector<Block>& blocks) {
-  Block sum;
-  for (const Block& block : blocks) add(sum, block);
+  const Block sum = total(blocks);
   if (!(sum.measured > 0.)) return std::nullopt;
   const auto db = [&](double power) { return 10. * std::log10(power / sum.measured); };
   return BeforeAfter{db(sum.before), db(sum.after)};
@@ -197,8 +202,7 @@ std::optional<BeforeAfter> vibration_left_db(const std::vector<Block>& blocks) {
 
 ErrorScore score(const std::string& name, const std::vector<Block>& blocks,
                  const NoiseLevels& levels, const HeldOutOptions& options) {
-  Block sum;
-  for (const Block& block : blocks) add(sum, block);
+  const Block sum = total(blocks);
   const double floor = sum.floor.moment + sum.floor.acceleration;
   const auto relative = [&](double square) { return std::sqrt(square / sum.measured); };
   ErrorScore out{.record = name,
@@ -213,7 +217,8 @@ ErrorScore score(const std::string& name, const std::vector<Block>& blocks,
 
 std::vector<Block> blocks_of(const PreparedRecord& record, const Samples& before,
                              const Samples& after, const Samples& measured, std::size_t first,
-                             const FloorParts& floor, double block_s) {
+                             const FloorParts& floor) {
+  constexpr double block_s = 0.25;
   const auto length = std::max<std::size_t>(
       1, static_cast<std::size_t>(std::lround(block_s * record.sampling_rate_hz)));
   std::vector<Block> blocks;
@@ -263,8 +268,7 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
     FloorParts floor = floor_parts(record, prediction, chain, levels.moment.variance,
                                    levels.acceleration.variance);
     if (out.not_predictable.empty()) floor.own = 0.;
-    const std::vector<Block> blocks =
-        blocks_of(record, before, after, measured, first, floor, options.block_s);
+    const std::vector<Block> blocks = blocks_of(record, before, after, measured, first, floor);
     out.records.push_back(score(record.name, blocks, levels, options));
     all.insert(all.end(), blocks.begin(), blocks.end());
     if (!record.excitation.wind) of_base.insert(of_base.end(), blocks.begin(), blocks.end());

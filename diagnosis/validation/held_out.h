@@ -45,7 +45,6 @@ struct HeldOutScore {
 };
 
 struct HeldOutOptions {
-  double block_s = 0.25;
   std::size_t n_resamples = 500;
   std::uint64_t seed = 1;
 };

@@ -29,8 +29,7 @@ Diagnosis example() {
                .p_value = 1e-9}},
       .bands_hz = {{33., 41.}},
       .mode = 1,
-      .level_exponent = 0.,
-      .level_exponent_deviation = 0.1,
+      .level_exponent = LevelExponent{0., 0.1},
       .channels = {"base"},
       .links = {"structure"}};
   out.verdict = "delay+stiffness";

@@ -16,7 +16,7 @@ TEST(WindSpeedErrorTest, FallsWhenTheDragIsUpdated) {
   rig.drag *= 1.44;
   const UpdatedModel nominal = test::nominal_of(test::OneModeRig{}, true);
   const auto error = wind_speed_error_m_s(nominal, with({.id = "drag_error", .values = {1.44}}),
-                                      test::rig_dataset(rig, {.wind = true}));
+                                          test::rig_dataset(rig, {.wind = true}));
   ASSERT_TRUE(error);
   // The wind of about 2 m/s is overestimated by a fifth.
   EXPECT_NEAR(error->before, 0.2 * 2., 0.06);
