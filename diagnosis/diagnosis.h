@@ -15,7 +15,6 @@
 #include "diagnosis/validation/attribution.h"
 #include "diagnosis/validation/comparison.h"
 #include "diagnosis/validation/held_out.h"
-#include "diagnosis/validation/resonance_change.h"
 #include "diagnosis/validation/untested.h"
 #include "diagnosis/validation/wind_estimates.h"
 

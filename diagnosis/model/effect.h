@@ -29,6 +29,12 @@ struct Prior {
   double log_density(double x) const;
   double slope(double x) const;      // d log_density / dx
   double curvature(double x) const;  // > 0, of the Gaussian that approximates the prior near x
+
+ private:
+  struct Shape {
+    double log_density, slope, curvature;
+  };
+  Shape shape(double x) const;
 };
 
 /// One parameter of an effect. The fitted coordinate is x = value, or x = ln(value) when
@@ -47,6 +53,8 @@ struct Parameter {
 
   double value(double x) const { return logarithmic ? std::exp(x) : x; }
   double coordinate(double value) const { return logarithmic ? std::log(value) : value; }
+  /// Step of x for a derivative: down where the step up would cross the bound.
+  double step_at(double x) const { return x + step > prior.high ? -step : step; }
 };
 Parameter log_uniform(std::string name, std::string unit, double low, double high, double neutral);
 /// The parameter, whose unit is 1, with the text that says what it multiplies.

@@ -80,8 +80,7 @@ class Directions {
       const FitParameter& fit_parameter = fit.fit_parameters[i];
       const auto index = static_cast<Eigen::Index>(i);
       Eigen::VectorXd x = fit.x;
-      double h = fit_parameter.description.step;
-      if (x(index) + h > fit_parameter.description.prior.high) h = -h;
+      const double h = fit_parameter.description.step_at(x(index));
       x(index) += h;
       columns.push_back(changes_.of(noisy_chain(experiment, fit.fit_parameters, x)) / h);
       list_.push_back(
