@@ -31,7 +31,7 @@ struct RankedAnswer {
   std::string name{};
   double probability = 0.;
   std::vector<ParameterEstimate> parameters{};
-  /// Stiffness and mass as parameters of the finite-element model (material_estimates.h).
+  /// Stiffness and mass as parameters of the finite-element model (parameter_estimates.h).
   std::vector<ParameterEstimate> materials{};
   std::optional<HeldOutScore> held_out{};  // for the first few answers
 };

@@ -35,7 +35,7 @@ signals::DatasetRecord shifted(const signals::DatasetRecord& entry, const std::p
   const auto moment = entry.record.channel(channel::base_moment);
   const auto n = static_cast<std::ptrdiff_t>(moment.size());
   std::vector<double> turned(moment.begin(), moment.end());
-  std::ranges::rotate(turned, turned.begin() + (offset % n + n) % n);
+  std::rotate(turned.begin(), turned.begin() + (offset % n + n) % n, turned.end());
   out.record.set_channel(channel::base_moment, std::move(turned));
   if (entry.period_samples > 0) return out;
   const auto cut = static_cast<std::size_t>(std::abs(offset));
