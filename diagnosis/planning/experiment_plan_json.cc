@@ -78,13 +78,6 @@ Words filled(const std::string& head, const Words& words, std::size_t most_lines
   return lines;
 }
 
-Words chosen(const ExperimentPlan& plan, const std::function<bool(const EffectPower&)>& which) {
-  Words out;
-  for (const EffectPower& effect : plan.effects)
-    if (which(effect)) out.push_back(effect.effect);
-  return out;
-}
-
 std::string records_line(const ExperimentPlan& plan) {
   double duration_s = 0.;
   std::map<std::string, int> kinds;
@@ -100,11 +93,12 @@ std::string records_line(const ExperimentPlan& plan) {
 }
 
 std::string detected_line(const ExperimentPlan& plan) {
-  const Words detected = chosen(plan, [](const EffectPower& e) { return e.as_built.detected; });
-  const Words shown = chosen(plan, [](const EffectPower& e) { return e.shown; });
-  return "Detected at typical strength: " + std::to_string(detected.size()) + " of " +
+  const auto is_detected = [](const EffectPower& e) { return e.as_built.detected; };
+  const auto detected = std::ranges::count_if(plan.effects, is_detected),
+             shown = std::ranges::count_if(plan.effects, &EffectPower::shown);
+  return "Detected at typical strength: " + std::to_string(detected) + " of " +
          std::to_string(plan.effects.size()) + " effects" +
-         (detected.size() == shown.size() ? "" : "; the others are detected only from:");
+         (detected == shown ? "" : "; the others are detected only from:");
 }
 
 /// Effects that are shown but too weak at typical strength, with the size from which on they are
