@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "diagnosis/model/words.h"
-#include "diagnosis/records/level.h"
+#include "diagnosis/records/spectrum.h"
 #include "signals/record/channel_name.h"
 #include "signals/spectra/fft.h"
 

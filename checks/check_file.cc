@@ -1,7 +1,6 @@
 #include "checks/check_file.h"
 
 #include "diagnosis/checks/data_checks.h"
-#include "diagnosis/checks/dead_channels.h"
 
 namespace vibrissa::checks {
 namespace {

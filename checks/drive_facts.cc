@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "diagnosis/model/words.h"
-#include "diagnosis/records/level.h"
+#include "diagnosis/records/spectrum.h"
 #include "separation/segments/hit_blocks.h"
 #include "signals/spectra/fft.h"
 #include "signals/spectra/resample.h"

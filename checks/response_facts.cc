@@ -7,7 +7,7 @@
 #include "checks/response_change.h"
 #include "diagnosis/checks/clock_offset.h"
 #include "diagnosis/model/words.h"
-#include "diagnosis/records/level.h"
+#include "diagnosis/records/spectrum.h"
 #include "separation/identification/identify.h"
 #include "separation/metrics/coherent_power.h"
 #include "separation/verdict/coherence.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/checks/clock_offset.h"
-#include "diagnosis/material_estimates.h"
+#include "diagnosis/model/words.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/records/long_records.h"
 #include "diagnosis/search/calibrated_odds.h"
@@ -13,25 +13,21 @@
 #include "diagnosis/search/readout_choice.h"
 #include "diagnosis/validation/indistinguishable.h"
 #include "diagnosis/validation/named_answers.h"
+#include "diagnosis/validation/parameter_estimates.h"
 #include "diagnosis/validation/unknown_part.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::diagnosis {
 namespace {
 
-void refuse_spoilt_data(const std::vector<Finding>& findings) {
-  std::string text;
-  for (const Finding& finding : findings)
-    if (spoils_everything(finding.kind)) {
-      if (!text.empty()) text += '\n';
-      text.append(finding.record).append(": ").append(finding.message);
-    }
-  if (!text.empty()) throw signals::UserError(text);
-}
+/// The most probable answers that are listed, and those of them that are scored.
+constexpr std::size_t n_listed = 12, n_scored = 3;
 
-bool tells_something(const NominalModel& nominal, const signals::DatasetRecord& entry) {
-  return entry.split == signals::Split::fit && entry.excitation != signals::Excitation{} &&
-         is_comparable(nominal, entry);
+void refuse_spoilt_data(const std::vector<Finding>& findings) {
+  std::vector<std::string> lines;
+  for (const Finding& finding : findings)
+    if (spoils_everything(finding.kind)) lines.push_back(finding.text());
+  if (!lines.empty()) throw signals::UserError(joined(lines, "\n"));
 }
 
 Finding finding_of(const MisplacedRecord& misplaced) {
@@ -43,24 +39,17 @@ Finding finding_of(const MisplacedRecord& misplaced) {
                      ". Check its sensor, mount, level and file name"};
 }
 
-/// Takes a record away; says whether it was there.
-bool erase_record(signals::Dataset& dataset, const std::string& name) {
-  return std::erase_if(dataset.records, [&](const auto& entry) { return entry.name == name; }) > 0;
-}
-
 void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
                       const std::vector<Finding>& findings) {
-  if (std::any_of(real.records.begin(), real.records.end(),
-                  [&](const auto& entry) { return tells_something(nominal, entry); }))
+  if (std::ranges::any_of(real.records, [&](const signals::DatasetRecord& entry) {
+        return entry.split == signals::Split::fit && entry.excitation != signals::Excitation{} &&
+               is_comparable(nominal, entry);
+      }))
     return;
   std::string text =
       "too little data for a diagnosis: no fit record is long enough and has an excitation that is "
       "both measured and simulated";
-  for (const Finding& finding : findings) {
-    text += '\n';
-    if (!finding.record.empty()) text.append(finding.record).append(": ");
-    text += finding.message;
-  }
+  for (const Finding& finding : findings) text += "\n" + finding.text();
   throw TooLittleData(text);
 }
 
@@ -68,31 +57,14 @@ bool has_moving(const Experiment& experiment) {
   return experiment.has_base || experiment.has_wind;
 }
 
-/// Standard deviation of the joint's share of compliance after a fit.
-double joint_share_deviation(const Experiment& experiment, const HypothesisFit& fit) {
-  const auto index = static_cast<Eigen::Index>(index_of_joint_share);
-  return std::min(experiment.nominal.joint_share_deviation,
-                  std::sqrt(fit.covariance(index, index)));
-}
-
-/// Scores the first few answers.
-void score_answers(Diagnosis& out, const SearchResult& result, const Experiment& experiment,
-                   const Experiment& held_out, const DiagnoseOptions& options) {
-  for (std::size_t i = 0; i < std::min(options.n_scored, out.ranking.size()); ++i)
-    out.ranking[i].held_out = score_held_out(
-        experiment, held_out, result.fits[result.candidates[i].fit], options.held_out);
-}
-
 /// The best of the answers with a known effect.
 std::optional<RankedAnswer> nearest_known(const SearchResult& result, const Experiment& experiment,
-                                          const Experiment& held_out,
-                                          const DiagnoseOptions& options) {
+                                          const Experiment& held_out) {
   if (!result.nearest_known) return std::nullopt;
   const HypothesisFit& fit = result.fits[*result.nearest_known];
   const std::string name = fit.hypothesis.name();
   RankedAnswer answer{.name = name, .parameters = parameter_estimates(fit, name)};
-  if (has_moving(held_out))
-    answer.held_out = score_held_out(experiment, held_out, fit, options.held_out);
+  if (has_moving(held_out)) answer.held_out = score_held_out(experiment, held_out, fit);
   return answer;
 }
 
@@ -100,8 +72,7 @@ std::optional<RankedAnswer> nearest_known(const SearchResult& result, const Expe
 void add_delay(SearchResult& result) {
   for (Candidate& candidate : result.candidates) {
     std::vector<std::string> ids = effect_ids(candidate.name);
-    if (candidate.name == outside_catalogue || std::ranges::find(ids, "delay") != ids.end())
-      continue;
+    if (candidate.name == outside_catalogue || std::ranges::count(ids, "delay") > 0) continue;
     ids.push_back("delay");
     candidate.name = joined_name(std::move(ids));
   }
@@ -122,16 +93,7 @@ std::optional<Finding> contradiction(const Diagnosis& diagnosis, const Hypothesi
                      "their gap, so the cause or its size is not valid for them"};
 }
 
-void set_gap(Diagnosis& out, const SearchResult& result, const Experiment& experiment,
-             const Experiment& scored) {
-  const HypothesisFit& best = result.fits[result.candidates.front().fit];
-  const ErrorScore score = score_held_out(experiment, scored, best, {.n_resamples = 0}).overall;
-  out.gap = {score.nrmse_before, score.noise_floor, out.location.p_value};
-  out.attribution = attribute_gap(experiment, scored, best);
-}
-
-void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nominal,
-          const DiagnoseOptions& options) {
+void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nominal) {
   const Candidate& best = result.candidates.front();
   out.probability_of_tried = probability_of_tried(answer_kind(best.name), best.probability);
   double outside = 0., listed = 0.;
@@ -140,7 +102,7 @@ void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nomina
   out.probability_of_outside =
       out.probability_of_tried * outside +
       (1. - out.probability_of_tried) * unknown_share(answer_kind(best.name));
-  for (std::size_t i = 0; i < std::min(options.n_ranked, result.candidates.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(n_listed, result.candidates.size()); ++i) {
     const Candidate& candidate = result.candidates[i];
     out.ranking.push_back(
         {.name = candidate.name,
@@ -157,8 +119,10 @@ void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nomina
 
 UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fit) {
   UpdatedModel model(experiment.nominal, experiment.known);
-  model.nominal.joint_share = fit.x(static_cast<Eigen::Index>(index_of_joint_share));
-  model.nominal.joint_share_deviation = joint_share_deviation(experiment, fit);
+  const auto share = static_cast<Eigen::Index>(index_of_joint_share);
+  model.nominal.joint_share = fit.x(share);
+  model.nominal.joint_share_deviation =
+      std::min(experiment.nominal.joint_share_deviation, std::sqrt(fit.covariance(share, share)));
   model.nominal.joint_loss_factor = fit.x(static_cast<Eigen::Index>(index_of_joint_loss));
   for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
     const FitParameter& fit_parameter = fit.fit_parameters[i];
@@ -198,22 +162,25 @@ void conclude(Diagnosis& out, const Evidence& evidence, SearchResult& result,
   const Candidate& best = result.candidates.front();
   out.verdict = best.name;
   out.location.links = likely_links(result);
-  rank(out, result, evidence.simulation.nominal, options);
+  rank(out, result, evidence.simulation.nominal);
   out.confidence_set =
       confidence_set(result.candidates, 0.95, out.probability_of_tried, out.probability_of_outside);
-  if (has_moving(held_out)) {
-    score_answers(out, result, experiment, held_out, options);
-  }
+  if (has_moving(held_out))
+    for (std::size_t i = 0; i < std::min(n_scored, out.ranking.size()); ++i)
+      out.ranking[i].held_out =
+          score_held_out(experiment, held_out, result.fits[result.candidates[i].fit]);
   if (out.verdict == outside_catalogue)
-    out.nearest_known = nearest_known(result, experiment, held_out, options);
+    out.nearest_known = nearest_known(result, experiment, held_out);
   if (const auto finding = contradiction(out, result.fits[best.fit]))
     out.findings.push_back(*finding);
-  set_gap(out, result, experiment, scored);
+  out.attribution = attribute_gap(experiment, scored, result.fits[best.fit]);
+  out.gap = {out.attribution.error.nrmse_before, out.attribution.error.noise_floor,
+             out.location.p_value};
   out.response = compare_response(experiment, result.fits[best.fit]);
   out.updated = updated_model(experiment, result.fits[best.fit]);
   if (out.verdict != outside_catalogue) out.resonance = resonance_change(experiment, out.updated);
-  out.wind_speed = wind_speed_error(evidence.simulation, out.updated, evidence.real);
-  out.separation = separation_quality(evidence.simulation, out.updated, evidence.real);
+  out.wind_speed_error_m_s = wind_speed_error_m_s(evidence.simulation, out.updated, evidence.real);
+  out.separation_sdr_db = separation_sdr_db(evidence.simulation, out.updated, evidence.real);
   out.trace = compare_trace(experiment, held_out, result.fits[best.fit]);
   out.indistinguishable = indistinguishable_sets(experiment, result);
   out.next = next_experiment(result.candidates, out.confidence_set, out.indistinguishable,
@@ -246,10 +213,11 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
     return diagnose(other.simulation, other.real, options);
   }
   if (const auto misplaced = misplaced_record(experiment, result, options.search.n_threads)) {
+    const auto is_it = [&](const auto& entry) { return entry.name == misplaced->name; };
     signals::Dataset others = recorded;
-    if (!erase_record(others, misplaced->name)) {  // a piece of a long record
+    if (std::erase_if(others.records, is_it) == 0) {  // a piece of a long record
       others = real;
-      erase_record(others, misplaced->name);
+      std::erase_if(others.records, is_it);
     }
     out = diagnose(simulation, others, options);
     out.findings.insert(out.findings.begin(), finding_of(*misplaced));
@@ -259,7 +227,7 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
     out.findings.push_back({.kind = FindingKind::time_limit,
                             .message = "the time limit ended the search: the answer is the best of "
                                        "those tested so far"});
-  conclude(out, {simulation, real, experiment, aligned.is_shifted}, result, options);
+  conclude(out, {simulation, real, experiment, aligned.is_shifted()}, result, options);
   return out;
 }
 

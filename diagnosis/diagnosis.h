@@ -15,10 +15,8 @@
 #include "diagnosis/validation/attribution.h"
 #include "diagnosis/validation/comparison.h"
 #include "diagnosis/validation/held_out.h"
-#include "diagnosis/validation/resonance_change.h"
-#include "diagnosis/validation/separation_quality.h"
 #include "diagnosis/validation/untested.h"
-#include "diagnosis/validation/wind_speed_error.h"
+#include "diagnosis/validation/wind_estimates.h"
 
 namespace vibrissa::diagnosis {
 
@@ -33,7 +31,7 @@ struct RankedAnswer {
   std::string name{};
   double probability = 0.;
   std::vector<ParameterEstimate> parameters{};
-  /// Stiffness and mass as parameters of the finite-element model (material_estimates.h).
+  /// Stiffness and mass as parameters of the finite-element model (parameter_estimates.h).
   std::vector<ParameterEstimate> materials{};
   std::optional<HeldOutScore> held_out{};  // for the first few answers
 };
@@ -81,16 +79,13 @@ struct Diagnosis {
   /// effect explains the records.
   std::optional<ResonanceChange> resonance{};
   /// Error of the wind speed read from held-out records, before and after correction.
-  std::optional<WindSpeedError> wind_speed{};
+  std::optional<BeforeAfter> wind_speed_error_m_s{};
   /// Quality of the separated wind moment, where its true value is known.
-  std::optional<SeparationQuality> separation{};
+  std::optional<BeforeAfter> separation_sdr_db{};
 };
 
 struct DiagnoseOptions {
   SearchOptions search{};
-  HeldOutOptions held_out{};
-  std::size_t n_scored = 3;       // answers with a held-out score
-  std::size_t n_ranked = 12;      // answers listed
   double simulated_rate_hz = 0.;  // 0: the simulation has no sampling rate
   double simulation_accuracy = usual_simulation_accuracy;
   /// Experiments of the menu that the bench can make; empty: all.

@@ -12,6 +12,11 @@ namespace {
 /// Share of the gap from which on a change gets a line.
 constexpr double worth_a_word = 0.005;
 
+/// The parts behind a title; nothing without parts.
+std::string titled(const std::string& title, const std::vector<std::string>& parts) {
+  return parts.empty() ? "" : title + joined(parts, "; ");
+}
+
 std::string verdict_line(const Diagnosis& diagnosis) {
   const double probability = diagnosis.ranking.empty() ? 0. : diagnosis.ranking.front().probability;
   const std::string odds = " (probability " + percent(probability) + ")";
@@ -25,15 +30,10 @@ std::string verdict_line(const Diagnosis& diagnosis) {
 
 /// "delay: the moment is recorded too late or too early".
 std::string meaning_line(const Diagnosis& diagnosis) {
-  std::string text;
+  std::vector<std::string> parts;
   for (const std::string& id : effect_ids(diagnosis.verdict))
-    for (const Effect& effect : effect_catalogue())
-      if (effect.id == id) text += (text.empty() ? "Meaning: " : "; ") + id + ": " + effect.about;
-  return text;
-}
-
-std::string placed(const Finding& finding) {
-  return (finding.record.empty() ? "" : finding.record + ": ") + finding.message;
+    if (const Effect* effect = effect_or_none(id)) parts.push_back(id + ": " + effect->about);
+  return titled("Meaning: ", parts);
 }
 
 /// What a calibration effect changes: "stiffness", "sensor gain", "drag".
@@ -49,7 +49,7 @@ std::string doubt_line(const Diagnosis& diagnosis) {
   std::string first;
   std::size_t n = 0;
   for (const Finding& finding : diagnosis.findings)
-    if (casts_doubt(finding.kind) && n++ == 0) first = placed(finding);
+    if (casts_doubt(finding.kind) && n++ == 0) first = finding.text();
   if (n == 0) return "";
   return "Doubtful: " + first + (n > 1 ? " (and " + std::to_string(n - 1) + " more)" : "");
 }
@@ -94,11 +94,9 @@ std::string change_text(const std::string& effect,
 }
 
 std::string materials_line(const RankedAnswer& answer) {
-  std::string text;
-  for (const ParameterEstimate& p : answer.materials)
-    text += (text.empty() ? "As parameters of the finite-element model (95 % intervals): " : "; ") +
-            p.name + " " + value_text(p);
-  return text;
+  std::vector<std::string> parts;
+  for (const ParameterEstimate& p : answer.materials) parts.push_back(p.name + " " + value_text(p));
+  return titled("As parameters of the finite-element model (95 % intervals): ", parts);
 }
 
 /// The gap cannot close by more than all of it: what is more is an error of the noise floor.
@@ -130,28 +128,16 @@ std::string change_of(const std::string& before, const std::string& after,
                          : before + " -> " + after + " " + unit;
 }
 
-std::string vibration_part(const HeldOutScore& score) {
-  if (!score.vibration_left) return "";
-  return "vibration left in the moment " +
-         change_of(one_decimal(score.vibration_left->before_db),
-                   one_decimal(score.vibration_left->after_db), "dB") +
-         " (0 dB: all of it)";
-}
-
-std::string wind_speed_part(const Diagnosis& diagnosis) {
-  if (!diagnosis.wind_speed) return "";
-  return "rms error of the wind speed " + change_of(three_digits(diagnosis.wind_speed->before_m_s),
-                                                    three_digits(diagnosis.wind_speed->after_m_s),
-                                                    "m/s");
-}
-
 std::string separation_line(const Diagnosis& diagnosis) {
-  std::string text = vibration_part(*diagnosis.ranking.front().held_out);
-  const std::string wind = wind_speed_part(diagnosis);
-  if (!text.empty() && !wind.empty()) text += "; ";
-  text += wind;
-  return text.empty() ? ""
-                      : "Wind separated from vibration, without -> with the correction: " + text;
+  std::vector<std::string> parts;
+  if (const auto& left = diagnosis.ranking.front().held_out->vibration_left_db)
+    parts.push_back("vibration left in the moment " +
+                    change_of(one_decimal(left->before), one_decimal(left->after), "dB") +
+                    " (0 dB: all of it)");
+  if (const auto& wind = diagnosis.wind_speed_error_m_s)
+    parts.push_back("rms error of the wind speed " +
+                    change_of(three_digits(wind->before), three_digits(wind->after), "m/s"));
+  return titled("Wind separated from vibration, without -> with the correction: ", parts);
 }
 
 std::string in_column(const std::string& text, const std::size_t width) {
@@ -213,12 +199,6 @@ std::string nearest_line(const Diagnosis& diagnosis) {
   return text + ", but an unknown cause explains the records better";
 }
 
-/// "+ 0.3 rate |rate|".
-std::string term_text(const NamedTerm& term) {
-  return std::string(term.coefficient < 0. ? "- " : "+ ") +
-         three_digits(std::abs(term.coefficient)) + " " + term.name;
-}
-
 /// Of what is not decided, the part of causes that no effect of the catalogue is.
 double outside_part(const Diagnosis& diagnosis) {
   double part = diagnosis.probability_of_outside;
@@ -242,20 +222,15 @@ std::string others_line(const Diagnosis& diagnosis) {
 
 }  // namespace
 
-namespace {
-
-std::string warning_of(const ParameterEstimate& p) {
-  const bool may_be_unchanged = p.ci95[0] <= 1. && 1. <= p.ci95[1];
-  return may_be_unchanged ? " (its interval includes 1: measure again before you change it)" : "";
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::string unknown_sentence(const Diagnosis& diagnosis) {
   if (!diagnosis.unknown_cause) return "";
   std::string joint, reading;
   for (const NamedTerm& term : diagnosis.unknown_cause->terms)
-    (term.place == TermPlace::joint ? joint : reading) += " " + term_text(term);
+    (term.place == TermPlace::joint ? joint : reading) += (term.coefficient < 0. ? " - " : " + ") +
+                                                          three_digits(std::abs(term.coefficient)) +
+                                                          " " + term.name;
   if (joint.empty() && reading.empty()) return "no simple term describes what is not explained";
   std::string text = "what is not explained looks like";
   if (!joint.empty()) text += " a further moment of the joint,";
@@ -268,23 +243,24 @@ std::string unknown_sentence(const Diagnosis& diagnosis) {
 
 bool is_recalibration(const std::string& answer) {
   const std::vector<std::string> ids = effect_ids(answer);
-  return !ids.empty() && std::all_of(ids.begin(), ids.end(), [](const std::string& id) {
-    const auto& all = effect_catalogue();
-    return std::any_of(all.begin(), all.end(),
-                       [&](const Effect& e) { return e.id == id && e.calibration; });
+  return !ids.empty() && std::ranges::all_of(ids, [](const std::string& id) {
+    const Effect* effect = effect_or_none(id);
+    return effect != nullptr && effect->calibration;
   });
 }
 
 std::string consequence(const Diagnosis& diagnosis) {
   std::vector<std::string> missing, settings;
-  for (const std::string& id : effect_ids(diagnosis.verdict)) {
+  for (const std::string& id : effect_ids(diagnosis.verdict))
     if (!is_recalibration(id)) missing.push_back(id);
-    if (is_recalibration(id) && !diagnosis.ranking.empty())
-      for (const ParameterEstimate& p : diagnosis.ranking.front().parameters)
-        if (p.effect == id && p.name == "ratio")
-          settings.push_back("set " + quantity_of(id) + " to " + three_digits(p.value) +
-                             " times the simulated value" + warning_of(p));
-  }
+  if (!diagnosis.ranking.empty())
+    for (const ParameterEstimate& p : diagnosis.ranking.front().parameters)
+      if (is_recalibration(p.effect) && p.name == "ratio")
+        settings.push_back("set " + quantity_of(p.effect) + " to " + three_digits(p.value) +
+                           " times the simulated value" +
+                           (p.ci95[0] <= 1. && 1. <= p.ci95[1]
+                                ? " (its interval includes 1: measure again before you change it)"
+                                : ""));
   const std::string values = settings.empty() ? "" : ": " + joined(settings, ", ");
   if (missing.empty()) return "The simulation needs recalibration" + values;
   return "The simulation lacks " + joined(missing, " and ") +
@@ -370,7 +346,7 @@ std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_line
   if (!diagnosis.untested.empty())
     lines.add("Not tested: " + untested_sentence(diagnosis.untested));
   for (const Finding& finding : diagnosis.findings)
-    if (!casts_doubt(finding.kind)) lines.add("Note: " + placed(finding));
+    if (!casts_doubt(finding.kind)) lines.add("Note: " + finding.text());
   return lines.text(most_lines);
 }
 

@@ -8,7 +8,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/diagnosis_json.h"
-#include "diagnosis/model/updated_model_json.h"
+#include "diagnosis/model/updated_model.h"
 #include "diagnosis/nominal/nominal_from_model.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/prediction/record_simulation.h"

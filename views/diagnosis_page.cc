@@ -78,10 +78,10 @@ std::vector<report::KeyNumber> key_numbers(const Diagnosis& d) {
                        "simulated " + number(d.resonance->simulated_hz) +
                            " Hz; far below it the moment for the same motion is " +
                            number(d.resonance->slow_gain_ratio) + " times the simulated one"});
-  if (d.wind_speed)
+  if (d.wind_speed_error_m_s)
     numbers.push_back({"Wind speed error after correction",
-                       number(d.wind_speed->after_m_s) + " m/s",
-                       "before " + number(d.wind_speed->before_m_s) + " m/s"});
+                       number(d.wind_speed_error_m_s->after) + " m/s",
+                       "before " + number(d.wind_speed_error_m_s->before) + " m/s"});
   return numbers;
 }
 
@@ -229,16 +229,16 @@ report::PageSection cause(const Diagnosis& d, const std::vector<report::Figure>&
 std::string separation_sentence(const Diagnosis& d) {
   std::string text;
   if (!d.ranking.empty() && d.ranking.front().held_out &&
-      d.ranking.front().held_out->vibration_left) {
-    const auto& left = *d.ranking.front().held_out->vibration_left;
-    text += "Vibration left after subtracting the prediction: " +
-            diagnosis::one_decimal(left.before_db) + " dB before, " +
-            diagnosis::one_decimal(left.after_db) + " dB after correction. ";
+      d.ranking.front().held_out->vibration_left_db) {
+    const auto& left = *d.ranking.front().held_out->vibration_left_db;
+    text +=
+        "Vibration left after subtracting the prediction: " + diagnosis::one_decimal(left.before) +
+        " dB before, " + diagnosis::one_decimal(left.after) + " dB after correction. ";
   }
-  if (d.separation)
+  if (d.separation_sdr_db)
     text += "Signal-to-distortion ratio of the wind moment: " +
-            diagnosis::one_decimal(d.separation->before_db) + " dB before, " +
-            diagnosis::one_decimal(d.separation->after_db) + " dB after correction.";
+            diagnosis::one_decimal(d.separation_sdr_db->before) + " dB before, " +
+            diagnosis::one_decimal(d.separation_sdr_db->after) + " dB after correction.";
   return text;
 }
 

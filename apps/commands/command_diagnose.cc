@@ -9,7 +9,7 @@
 #include "apps/commands/resonance_diagnosis.h"
 #include "apps/jobs/nominal_input.h"
 #include "diagnosis/diagnosis_json.h"
-#include "diagnosis/model/updated_model_json.h"
+#include "diagnosis/model/updated_model.h"
 #include "diagnosis/planning/next_experiment.h"
 #include "diagnosis/verdict_text.h"
 #include "report/files/run_folder.h"

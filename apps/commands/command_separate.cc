@@ -11,7 +11,7 @@
 #include "apps/jobs/fault_warnings.h"
 #include "apps/jobs/model_advice.h"
 #include "apps/jobs/stream_separation.h"
-#include "diagnosis/model/updated_model_json.h"
+#include "diagnosis/model/updated_model.h"
 #include "diagnosis/prediction/record_simulation.h"
 #include "separation/filters/bvrm_separator.h"
 #include "separation/filters/fdaf.h"

@@ -10,7 +10,7 @@
 #include "case/inputs.h"
 #include "case/rig.h"
 #include "case/sensor_model.h"
-#include "diagnosis/model/updated_model_json.h"
+#include "diagnosis/model/updated_model.h"
 #include "diagnosis/prediction/record_simulation.h"
 #include "fem/linalg/processes.h"
 #include "fem/linalg/solver_session.h"

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "diagnosis/resonances/resonance_gap.h"
 #include "diagnosis/resonances/resonance_gap_text.h"
-#include "diagnosis/resonances/resonance_model.h"
 #include "report/files/run_folder.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"

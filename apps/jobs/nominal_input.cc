@@ -5,7 +5,7 @@
 #include "case/case_file.h"
 #include "case/rig.h"
 #include "case/sensor_model.h"
-#include "diagnosis/model/updated_model_json.h"
+#include "diagnosis/model/updated_model.h"
 #include "diagnosis/nominal/nominal_from_model.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "fem/linalg/solver_session.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "diagnosis/model/words.h"
 #include "diagnosis/records/spectrum.h"
@@ -17,16 +16,15 @@ std::vector<Complex> phase_transform(const NominalModel& nominal,
                                      const signals::DatasetRecord& entry) {
   constexpr double weak = 0.05;
   const std::vector<Complex> a = spectrum_of(entry.record.channel(channel::base_acceleration)),
-                             m = spectrum_of(entry.record.channel(channel::base_moment));
-  double power = 0.;
-  for (const Complex& line : a) power += std::norm(line) / static_cast<double>(a.size());
+                             m = spectrum_of(entry.record.channel(channel::base_moment)),
+                             predicted = passed(
+                                 a, entry.record.n_samples(), entry.record.sampling_rate_hz(),
+                                 [&](Complex s) { return nominal.base_response(s); });
+  const double power = total_power(a) / static_cast<double>(a.size());
   std::vector<Complex> out(a.size(), 0.);
-  const double line_rad_s = 2. * std::numbers::pi * entry.record.sampling_rate_hz() /
-                            static_cast<double>(entry.record.n_samples());
   for (std::size_t k = 1; k + 1 < a.size(); ++k) {
     if (std::norm(a[k]) < weak * power) continue;
-    const Complex cross =
-        m[k] * std::conj(nominal.base_response({0., line_rad_s * static_cast<double>(k)}) * a[k]);
+    const Complex cross = m[k] * std::conj(predicted[k]);
     if (std::abs(cross) > 0.) out[k] = cross / std::abs(cross);
   }
   return out;
@@ -36,10 +34,8 @@ signals::DatasetRecord shifted(const signals::DatasetRecord& entry, const std::p
   signals::DatasetRecord out = entry;
   const auto moment = entry.record.channel(channel::base_moment);
   const auto n = static_cast<std::ptrdiff_t>(moment.size());
-  std::vector<double> turned(moment.size());
-  for (std::ptrdiff_t i = 0; i < n; ++i)
-    turned[static_cast<std::size_t>(i)] =
-        moment[static_cast<std::size_t>(((i + offset) % n + n) % n)];
+  std::vector<double> turned(moment.begin(), moment.end());
+  std::rotate(turned.begin(), turned.begin() + (offset % n + n) % n, turned.end());
   out.record.set_channel(channel::base_moment, std::move(turned));
   if (entry.period_samples > 0) return out;
   const auto cut = static_cast<std::size_t>(std::abs(offset));
@@ -97,7 +93,6 @@ AlignedDataset align_clocks(const NominalModel& nominal, const signals::Dataset&
     if (std::abs(offset_s) <= longest_delay_s) continue;
     out.findings.push_back({FindingKind::two_clocks, entry.name, message_for(offset_s)});
     entry = shifted(entry, *offset);
-    out.is_shifted = true;
   }
   return out;
 }

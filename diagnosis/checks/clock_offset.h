@@ -22,7 +22,7 @@ std::optional<std::ptrdiff_t> clock_offset(const NominalModel& nominal,
 struct AlignedDataset {
   signals::Dataset dataset{};
   std::vector<Finding> findings{};
-  bool is_shifted = false;
+  bool is_shifted() const { return !findings.empty(); }
 };
 
 /// The dataset with the moment of each record shifted back, where it is off by more than

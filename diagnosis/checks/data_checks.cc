@@ -4,13 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include "diagnosis/checks/dead_channels.h"
-#include "diagnosis/checks/period_check.h"
-#include "diagnosis/checks/response_checks.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/records/experiment.h"
-#include "diagnosis/records/level.h"
 #include "diagnosis/records/repeated_samples.h"
+#include "diagnosis/records/spectrum.h"
 #include "signals/base/number_text.h"
 
 namespace vibrissa::diagnosis {
@@ -148,8 +145,8 @@ Holdings holdings_of(const UsableRecord& is_usable, const signals::Dataset& real
 bool has_one_level(const std::vector<double>& levels) {
   if (levels.empty()) return false;
   constexpr double distinct = 1.3;
-  return *std::max_element(levels.begin(), levels.end()) <
-         distinct * *std::min_element(levels.begin(), levels.end());
+  const auto [low, high] = std::ranges::minmax(levels);
+  return high < distinct * low;
 }
 
 }  // namespace

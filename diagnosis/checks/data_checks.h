@@ -26,10 +26,27 @@ using UsableRecord = std::function<bool(const signals::DatasetRecord&)>;
 void check_what_is_there(const WantedPaths& wanted, const UsableRecord& is_usable,
                          const signals::Dataset& real, std::vector<Finding>& findings);
 
-/// Looks for wrong and insufficient data: clipping, constant channels, a response that no sensor
-/// has (units, exchanged columns, sign), sample-and-hold repeats, records that are too short, and
-/// missing records. simulated_rate_hz: 0 when the simulation has no sampling rate. Proven by
-/// tests/diagnosis/checks/data_checks_test.cc and dead_channels_test.cc.
+/// Channels that contradict the excitation stated for the record: constant where they must vary, or
+/// stuck at one value for a while, unless the drive has ended and the moment decays; spikes. Proven
+/// by tests/diagnosis/checks/dead_channels_test.cc.
+void check_dead_channels(const signals::DatasetRecord& entry, std::vector<Finding>& findings);
+
+/// Does the acceleration repeat after period_samples? Its tones must lie on multiples of the
+/// period's frequency. Proven by tests/diagnosis/checks/period_check_test.cc.
+void check_period(const signals::DatasetRecord& entry, std::vector<Finding>& findings);
+
+/// Records at rest in which base and moment move: not as white noise, and at least half as much as
+/// in the record with the smallest base motion.
+void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings);
+
+/// Differences between measured and nominal response that no sensor can have: a factor between
+/// units, exchanged columns, an opposite sign, a time unit that puts the first mode out of the
+/// measured band. The excitation must exceed the noise.
+void check_response(const NominalModel& nominal, const signals::DatasetRecord& entry,
+                    double acceleration_noise_m_s2, std::vector<Finding>& findings);
+
+/// All of these, and records that are too short. simulated_rate_hz: 0 when the simulation has no
+/// sampling rate. Proven by tests/diagnosis/checks/data_checks_test.cc.
 std::vector<Finding> check_data(const NominalModel& nominal, const signals::Dataset& real,
                                 double simulated_rate_hz = 0.);
 

@@ -1,13 +1,14 @@
-#include "diagnosis/checks/dead_channels.h"
+#include "diagnosis/checks/data_checks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "diagnosis/model/words.h"
-#include "diagnosis/records/level.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/is_constant.h"
+#include "signals/base/median.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -84,12 +85,8 @@ void check_stuck(const DatasetRecord& entry, const std::string& name, const std:
   constexpr std::size_t fewest_samples = 32;
   const Run run = longest_run(x, y);
   if (run.count < fewest_samples || is_free_decay(x, y, run)) return;
-  std::vector<double> values(x.begin(), x.end());
-  std::sort(values.begin(), values.end());
-  const auto n_values =
-      static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
   // With a converter of few steps any value may last for many samples.
-  if (n_values < x.size() / 8) return;
+  if (std::set<double>(x.begin(), x.end()).size() < x.size() / 8) return;
   findings.push_back({FindingKind::stuck_channel, entry.name,
                       name + " stays at " + three_digits(x[run.first]) + " for " +
                           std::to_string(run.count) + " samples from " +
@@ -103,12 +100,11 @@ void check_spikes(const DatasetRecord& entry, std::vector<Finding>& findings) {
   const auto x = entry.record.channel(channel::base_moment);
   std::vector<double> sizes(x.begin(), x.end());
   for (double& v : sizes) v = std::abs(v);
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double median = signals::median(std::move(sizes));
   constexpr double above_all = 30., above_neighbours = 10.;
   for (std::size_t i = 1; i + 1 < x.size(); ++i) {
     const double size = std::abs(x[i]);
-    if (!(size > above_all * *middle) || *middle == 0.) continue;
+    if (!(size > above_all * median) || median == 0.) continue;
     if (size < above_neighbours * std::max(std::abs(x[i - 1]), std::abs(x[i + 1]))) continue;
     findings.push_back({FindingKind::spike, entry.name,
                         "base_moment_N_m jumps to " + three_digits(x[i]) + " for one sample at " +
@@ -135,8 +131,24 @@ void check_dead_channels(const DatasetRecord& entry, std::vector<Finding>& findi
 
 namespace {
 
+/// Colour from which on power lies in tones or narrow bands.
+constexpr double coloured = 5.;
+
+/// Share of the power that lies in tones off the lines of the period.
+double share_between(const std::vector<double>& power, std::size_t n_periods) {
+  std::vector<double> between;
+  double all = 0., off = 0.;
+  for (std::size_t k = 1; k + 1 < power.size(); ++k) {
+    all += power[k];
+    if (k % n_periods == 0) continue;
+    off += power[k];
+    between.push_back(power[k]);
+  }
+  if (all == 0. || colour(between) < coloured) return 0.;
+  return off / all;
+}
+
 bool is_coloured(std::span<const double> x) {
-  constexpr double coloured = 5.;
   const std::vector<Complex> lines = spectrum_of(x);
   return colour(powers({lines.begin() + 1, lines.end()})) > coloured;
 }
@@ -153,6 +165,28 @@ double least_level(const signals::Dataset& dataset, const std::string& name) {
 }
 
 }  // namespace
+
+void check_period(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  const std::string& name = channel::base_acceleration;
+  const std::size_t period = entry.period_samples, n = entry.record.n_samples();
+  if (period == 0 || !entry.excitation.base || !entry.record.has(name)) return;
+  if (n % period != 0) {
+    findings.push_back({FindingKind::partial_period, entry.name,
+                        std::to_string(n) + " samples are not a whole number of periods of " +
+                            std::to_string(period) +
+                            " samples: the record is treated as not periodic"});
+    return;
+  }
+  constexpr double much = 0.2;
+  const double share = share_between(powers(spectrum_of(entry.record.channel(name))), n / period);
+  if (share > much)
+    findings.push_back(
+        {FindingKind::broken_period, entry.name,
+         "base_acceleration_m_s2 does not repeat after " + std::to_string(period) +
+             " samples: " + three_digits(100. * share) +
+             " % of its power lies off the lines of that period; correct period_samples in "
+             "dataset.json (0 for a record that does not repeat)"});
+}
 
 void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings) {
   constexpr double much = 0.5;

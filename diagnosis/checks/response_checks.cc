@@ -1,8 +1,7 @@
-#include "diagnosis/checks/response_checks.h"
+#include "diagnosis/checks/data_checks.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -34,19 +33,10 @@ double lowest_mode_hz(const NominalModel& nominal) {
   return lowest / (2. * std::numbers::pi);
 }
 
-/// Spectrum of a path's output for its measured input.
-std::vector<Complex> driven(std::span<const double> input, double rate_hz,
-                            const std::function<Complex(Complex)>& response) {
-  std::vector<Complex> out = spectrum_of(input);
-  const double line_rad_s = 2. * std::numbers::pi * rate_hz / static_cast<double>(input.size());
-  for (std::size_t k = 0; k < out.size(); ++k)
-    out[k] *= response({0., line_rad_s * static_cast<double>(k)});
-  return out;
-}
-
 std::vector<Complex> base_driven(const NominalModel& nominal, const DatasetRecord& entry,
                                  const std::string& input) {
-  return driven(entry.record.channel(input), entry.record.sampling_rate_hz(),
+  return passed(spectrum_of(entry.record.channel(input)), entry.record.n_samples(),
+                entry.record.sampling_rate_hz(),
                 [&](Complex s) { return nominal.base_response(s); });
 }
 
@@ -54,7 +44,7 @@ std::vector<Complex> wind_driven(const NominalModel& nominal, const DatasetRecor
   const auto u = entry.record.channel(channel::wind_speed);
   std::vector<double> force(u.begin(), u.end());
   for (double& value : force) value *= std::abs(value);
-  return driven(force, entry.record.sampling_rate_hz(),
+  return passed(spectrum_of(force), force.size(), entry.record.sampling_rate_hz(),
                 [&](Complex s) { return nominal.wind_response(s); });
 }
 
@@ -129,7 +119,7 @@ bool near(double factor, double expected) {
 }
 
 void check_factor(double factor, const std::string& record, const std::string& columns,
-                  const std::vector<UnitMistake>& mistakes, std::vector<Finding>& findings) {
+                  std::span<const UnitMistake> mistakes, std::vector<Finding>& findings) {
   const std::string how_much =
       "the measured response is " + three_digits(factor) + " times the simulated one: ";
   for (const UnitMistake& mistake : mistakes)
@@ -162,40 +152,31 @@ void check_sign(const Ratios& ratios, const std::string& record, const std::stri
     findings.push_back({FindingKind::reversed_sign, record, message});
 }
 
-const std::vector<UnitMistake>& mistakes_of_base() {
-  static const std::vector<UnitMistake> mistakes{
-      {9.80665,
-       "base_acceleration_m_s2 seems to be in g; multiply it by 9.80665 (or --column "
-       "'base_acceleration=COLUMN[g]')"},
-      {1. / 9.80665,
-       "base_acceleration_m_s2 seems to be ten times too large, as m/s^2 taken for g; divide it by "
-       "9.80665"},
-      {9.80665e-3, "base_acceleration_m_s2 seems to be in milli-g; multiply it by 9.80665e-3"},
-      {1e-3, "base_acceleration_m_s2 seems to be in mm/s^2; multiply it by 1e-3"},
-      {1e3, "base_moment_N_m seems to be in N mm; multiply it by 1e-3"},
-      {1e6, "base_moment_N_m seems to be in mN mm; multiply it by 1e-6"},
-      {9.80665e3, "base_acceleration_m_s2 seems to be in g and base_moment_N_m in N mm"},
-      {9.80665e6, "base_acceleration_m_s2 seems to be in g and base_moment_N_m in mN mm"}};
-  return mistakes;
-}
+constexpr UnitMistake mistakes_of_base[] = {
+    {9.80665,
+     "base_acceleration_m_s2 seems to be in g; multiply it by 9.80665 (or --column "
+     "'base_acceleration=COLUMN[g]')"},
+    {1. / 9.80665,
+     "base_acceleration_m_s2 seems to be ten times too large, as m/s^2 taken for g; divide it by "
+     "9.80665"},
+    {9.80665e-3, "base_acceleration_m_s2 seems to be in milli-g; multiply it by 9.80665e-3"},
+    {1e-3, "base_acceleration_m_s2 seems to be in mm/s^2; multiply it by 1e-3"},
+    {1e3, "base_moment_N_m seems to be in N mm; multiply it by 1e-3"},
+    {1e6, "base_moment_N_m seems to be in mN mm; multiply it by 1e-6"},
+    {9.80665e3, "base_acceleration_m_s2 seems to be in g and base_moment_N_m in N mm"},
+    {9.80665e6, "base_acceleration_m_s2 seems to be in g and base_moment_N_m in mN mm"}};
 
-const std::vector<UnitMistake>& mistakes_of_wind() {
-  static const std::vector<UnitMistake> mistakes{
-      {1. / (3.6 * 3.6), "wind_speed_m_s seems to be in km/h; divide it by 3.6"},
-      {1e-4, "wind_speed_m_s seems to be in cm/s; multiply it by 1e-2"},
-      {1e-6, "wind_speed_m_s seems to be in mm/s; multiply it by 1e-3"},
-      {1e3, "base_moment_N_m seems to be in N mm; multiply it by 1e-3"},
-      {1e6, "base_moment_N_m seems to be in mN mm; multiply it by 1e-6"}};
-  return mistakes;
-}
+constexpr UnitMistake mistakes_of_wind[] = {
+    {1. / (3.6 * 3.6), "wind_speed_m_s seems to be in km/h; divide it by 3.6"},
+    {1e-4, "wind_speed_m_s seems to be in cm/s; multiply it by 1e-2"},
+    {1e-6, "wind_speed_m_s seems to be in mm/s; multiply it by 1e-3"},
+    {1e3, "base_moment_N_m seems to be in N mm; multiply it by 1e-3"},
+    {1e6, "base_moment_N_m seems to be in mN mm; multiply it by 1e-6"}};
 
 /// Is the excitation larger than its noise?
 bool is_driven(const DatasetRecord& entry, double acceleration_noise_m_s2) {
-  double square = 0.;
-  const auto a = entry.record.channel(channel::base_acceleration);
-  for (const double v : a) square += v * v;
-  return square >
-         9. * acceleration_noise_m_s2 * acceleration_noise_m_s2 * static_cast<double>(a.size());
+  return mean_square(entry.record.channel(channel::base_acceleration)) >
+         9. * acceleration_noise_m_s2 * acceleration_noise_m_s2;
 }
 
 void check_base(const NominalModel& nominal, const DatasetRecord& entry,
@@ -219,7 +200,7 @@ void check_base(const NominalModel& nominal, const DatasetRecord& entry,
   }
   const std::size_t n_before = findings.size();
   check_factor(ratios.factor(), entry.name, "base_acceleration_m_s2 and base_moment_N_m",
-               mistakes_of_base(), findings);
+               mistakes_of_base, findings);
   if (findings.size() == n_before) check_gain(ratios, entry.name, findings);
   check_sign(ratios, entry.name,
              "base_moment_N_m has the wrong sign relative to base_acceleration_m_s2 well below the "
@@ -232,8 +213,8 @@ void check_wind(const NominalModel& nominal, const DatasetRecord& entry,
                 std::vector<Finding>& findings) {
   const Ratios ratios = ratios_of(nominal, {wind_driven(nominal, entry), entry});
   if (!ratios.all) return;
-  check_factor(ratios.factor(), entry.name, "wind_speed_m_s and base_moment_N_m",
-               mistakes_of_wind(), findings);
+  check_factor(ratios.factor(), entry.name, "wind_speed_m_s and base_moment_N_m", mistakes_of_wind,
+               findings);
   check_sign(ratios, entry.name,
              "base_moment_N_m falls when wind_speed_m_s rises, contrary to the simulation: "
              "multiply one of them by -1 (the moment is positive for wind in +x)",
@@ -248,7 +229,7 @@ void check_both(const NominalModel& nominal, const DatasetRecord& entry,
   const Ratios ratios = ratios_of(nominal, {std::move(predicted), entry});
   if (ratios.all)
     check_factor(ratios.factor(), entry.name,
-                 "base_acceleration_m_s2, wind_speed_m_s and base_moment_N_m", mistakes_of_base(),
+                 "base_acceleration_m_s2, wind_speed_m_s and base_moment_N_m", mistakes_of_base,
                  findings);
 }
 

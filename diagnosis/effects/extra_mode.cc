@@ -24,9 +24,7 @@ Effect extra_mode() {
       .id = "extra_mode",
       .about = "one more resonance",
       .link = Link::structure,
-      .equation = "M += g M0 / ((s/w)^2 + 2 z s/w + 1) a",
       .source = "Ewins 2000, ch. 2: response as a sum of modes",
-      .confused_with = "mount_compliance",
       .model_form_error = 0.03,
       // Beyond the motion it is no more than the residual of modes that the simulation lacks.
       .needs = {.base = true, .moved_s = 3., .moved_hz = lowest_hz},

@@ -37,11 +37,7 @@ Effect joint_friction() {
       .id = "joint_friction",
       .about = "dry friction in a joint",
       .link = Link::structure,
-      .equation =
-          "T = sum of Jenkins elements, stiffness r k0, slip moments m (1 + d (-0.75, "
-          "-0.25, 0.25, 0.75)) Y",
       .source = "Iwan 1966, distributed-element model for hysteresis",
-      .confused_with = "hardening; loop area ~ A vs A^2..3",
       .model_form_error = 0.15,
       .needs = {.base = true},
       .parameters = {relative("of the stiffness",

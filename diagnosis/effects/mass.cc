@@ -24,13 +24,7 @@ Effect mass() {
       .id = "mass",
       .about = "more or less moving mass",
       .link = Link::structure,
-      .equation =
-          "m = r m0 of the first mode, r^d of the second, r^e of those above, base forcing r^g; h "
-          "M0 a; with a "
-          "finite-element model by the density of its fin, or else its wire, in all modes",
       .source = "Friswell and Mottershead 1995; Berman and Flannelly 1971, incomplete models",
-      .confused_with =
-          "stiffness + damping + reference_gain (exact alias for one mode); added known mass",
       .calibration = true,
       .model_form_error = 0.02,
       .needs = {.base = true},

@@ -8,11 +8,7 @@ Effect mount_compliance() {
       .id = "mount_compliance",
       .about = "a spring between accelerometer and base",
       .link = Link::mount,
-      .equation =
-          "(s^2 (1 + m A(s)) + 2 z w s + w^2) a_base = (2 z w s + w^2) a, A = apparent "
-          "mass ratio of the first mode",
       .source = "ISO 5348:2021, mounting of accelerometers; Den Hartog 1956, ch. 3",
-      .confused_with = "extra_mode, stage_rocking; wide band",
       .model_form_error = 0.03,
       .needs = {.base = true},
       .parameters = {log_uniform("frequency", "Hz", 45., 1500., 1e9),

@@ -23,11 +23,7 @@ Effect relative_drag() {
   return Effect{.id = "relative_drag",
                 .about = "drag depends on the speed of the air past the moving whisker",
                 .link = Link::wind,
-                .equation =
-                    "F = (u - v) |u - v|, v = share (base velocity + lever T' / (g w_1^2)), T the "
-                    "joint's moment, g that of static acceleration",
                 .source = "Morison et al. 1950; Blevins 1990, ch. 6 and 8: relative velocity",
-                .confused_with = "damping; wind ladder",
                 .model_form_error = 0.1,
                 .needs = {.base = true, .wind = true},
                 .parameters = {relative("of the drag in steady wind",

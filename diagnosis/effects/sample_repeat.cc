@@ -7,10 +7,8 @@ Effect sample_repeat() {
       .id = "sample_repeat",
       .about = "sample-and-hold repeats: a channel is read faster than it has new samples",
       .link = Link::clock,
-      .equation = "a_read(k T) = a(age + floor(k T / Ts) Ts): samples of the source are repeated",
       .source =
           "ADXL345 data sheet, rev. E, table 7: data rates; Crochiere and Rabiner 1983, ch. 2",
-      .confused_with = "reference_noise; equal neighbours",
       .model_form_error = 0.015,
       .needs = {.base = true, .repeats = true},
       .parameters = {relative("of the reading", uniform("share", "1", 0., 1., 0.)),

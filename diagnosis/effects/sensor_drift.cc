@@ -8,9 +8,7 @@ Effect sensor_drift() {
       .id = "sensor_drift",
       .about = "the offset drifts",
       .link = Link::sensor,
-      .equation = "offset = random walk",
       .source = "El-Sheimy, Hou and Niu 2008, random walk by Allan variance",
-      .confused_with = "turbulence; quiet record",
       .irreducible = true,
       .model_form_error = 0.01,
       // Drift within one or two seconds may be a transient of the record's start.

@@ -10,11 +10,7 @@ Effect sensor_lowpass() {
       .id = "sensor_lowpass",
       .about = "a low-pass filter or an average over the conversion time",
       .link = Link::sensor,
-      .equation =
-          "M_read = M exp(s h) / (1 + s / (n w))^n, corner at -3 dB; h = half a time step of a "
-          "sampled filter",
       .source = "Doebelin 2004, ch. 3; Millman and Halkias 1972, bandwidth of equal stages",
-      .confused_with = "delay; droop",
       .model_form_error = 0.02,
       .parameters = {log_usual("corner", "Hz", 30., 250., 10., 3e4, 1e100),
                      normal("half_step", "s", 0., 5e-5, -2e-4, 2e-4, 0.),

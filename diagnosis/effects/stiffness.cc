@@ -49,15 +49,7 @@ Effect stiffness() {
       .id = "stiffness",
       .about = "the elastic parts are stiffer or softer",
       .link = Link::structure,
-      .equation =
-          "k = r k0 of the first mode: r^s by itself, r^(1 - s) by its joint's spring K, "
-          "p / (K / K0) + 1 - p = r^(s - 1); with a finite-element model r^s by its wire and "
-          "r^(1 - s) by its silicone, in all modes; second mode d sqrt(r), modes above it e "
-          "sqrt(r); "
-          "their static gains times g, h at an unchanged quasi-static response; dampers "
-          "c = (k / k0)^q c0",
       .source = "Friswell and Mottershead 1995, sensitivity methods; Gent 1958, modulus of rubber",
-      .confused_with = "mass (gain), base_compliance; added known mass, static pull",
       .calibration = true,
       .model_form_error = 0.01,
       .parameters = {ratio_near_one("ratio", 0.03, 0.3, 1.6),

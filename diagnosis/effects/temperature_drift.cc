@@ -24,11 +24,7 @@ Effect temperature_drift() {
       .id = "temperature_drift",
       .about = "the stiffness drifts in time",
       .link = Link::structure,
-      .equation =
-          "k = k0 (1 + x), x = d exp(-n / N) t / T + e N (1 - exp(-n / N)), n the number of the "
-          "record; c = c0 (1 + p x)",
       .source = "Ferry 1980, ch. 11; Treloar 1975, ch. 4: modulus of rubber and temperature",
-      .confused_with = "sensor_drift; frequency moves here, offset there",
       .model_form_error = 0.05,
       // Silicone warms over minutes. An apparent drift within a few seconds is accelerometer noise
       // that the mode amplifies.

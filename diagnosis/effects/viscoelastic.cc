@@ -25,10 +25,7 @@ Effect viscoelastic() {
       .id = "viscoelastic",
       .about = "stiffness and loss of the silicone depend on frequency",
       .link = Link::structure,
-      .equation =
-          "k = k0 (1 + S / N sum s t_i / (1 + s t_i)), t_i spread over w decades around tau",
       .source = "Ferry 1980, ch. 1 and 3: generalised Maxwell model, here with equal branches",
-      .confused_with = "damping, stiffness; several octaves, second mode, creep",
       .model_form_error = 0.08,
       .needs = {.base = true},
       // Half of its prior times are so slow that the effect equals a change of stiffness.

@@ -11,7 +11,6 @@
 #include "diagnosis/fit/optimiser.h"
 #include "diagnosis/model/hypothesis.h"
 #include "diagnosis/records/experiment.h"
-#include "diagnosis/records/whitened_record.h"
 
 namespace vibrissa::diagnosis {
 

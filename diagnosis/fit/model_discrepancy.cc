@@ -6,8 +6,6 @@
 #include <map>
 #include <numbers>
 
-#include "diagnosis/records/evaluated_samples.h"
-#include "diagnosis/records/spectrum.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -73,7 +71,7 @@ std::vector<Complex> quasi_static(const Experiment& experiment) {
   for (const PreparedRecord& record : experiment.records) {
     std::vector<Complex> bins(record.n_bins());
     if (!record.acceleration.empty())
-      bins = evaluated_bins(record, samples_of(record.acceleration, record.n_samples));
+      bins = bins_of_lines(record, record.acceleration);
     for (const Complex& value : bins) out.push_back(gain * value);
   }
   return out;

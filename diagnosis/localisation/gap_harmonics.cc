@@ -7,6 +7,7 @@
 
 #include "diagnosis/localisation/significance_tests.h"
 #include "diagnosis/records/spectrum.h"
+#include "signals/base/median.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -17,11 +18,8 @@ bool every_line_stands_out(const PreparedRecord& record) {
   std::vector<double> shares;
   for (std::size_t k = 1; k < record.acceleration.size(); ++k)
     if (std::norm(record.acceleration[k]) > 0.) shares.push_back(record.noise_share[k]);
-  if (shares.empty()) return false;
-  const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
-  std::nth_element(shares.begin(), middle, shares.end());
   constexpr double clear_share = 0.97;
-  return *middle > clear_share;
+  return !shares.empty() && signals::median(std::move(shares)) > clear_share;
 }
 
 /// p-values of the lines that a multisine does not excite, [0] odd and [1] even multiples of its
@@ -64,17 +62,8 @@ std::array<double, 2> parity_p_values(const RecordGap& gap, const RestNoise& res
 }  // namespace
 
 std::string to_string(const Harmonics harmonics) {
-  switch (harmonics) {
-    case Harmonics::none:
-      return "none";
-    case Harmonics::odd:
-      return "odd";
-    case Harmonics::even:
-      return "even";
-    case Harmonics::both:
-      return "both";
-  }
-  return "";
+  constexpr const char* names[] = {"none", "odd", "even", "both"};
+  return names[static_cast<std::size_t>(harmonics)];
 }
 
 Harmonics harmonics_of(const std::vector<RecordGap>& gaps, const RestNoise& rest) {

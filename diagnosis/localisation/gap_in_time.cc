@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "diagnosis/localisation/significance_tests.h"
-#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/experiment.h"
 
 namespace vibrissa::diagnosis {
 namespace {

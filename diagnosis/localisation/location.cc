@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
-#include "diagnosis/localisation/gap_by_level.h"
+#include "diagnosis/localisation/gap_map.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/search/calibrated_odds.h"
 
@@ -27,10 +28,7 @@ Location locate_gap(const Experiment& experiment) {
   out.bands_hz = merged_bands(out.map);
   out.mode = nearest_mode(experiment.nominal, out.map);
   out.channels = gap_channels(out.map, out.present_at_rest);
-  if (const auto exponent = level_exponent(gaps)) {
-    out.level_exponent = exponent->value;
-    out.level_exponent_deviation = exponent->deviation;
-  }
+  out.level_exponent = level_exponent(gaps);
   out.harmonics = harmonics_of(gaps, rest);
   out.varies_in_time = varies_in_time(gaps);
   return out;
@@ -41,18 +39,16 @@ std::vector<std::string> likely_links(const SearchResult& result) {
   if (answer_kind(result.candidates.front().name) == AnswerKind::none) return {};
   std::map<std::string, double> sums;
   for (const Candidate& candidate : result.candidates) {
-    std::map<std::string, bool> links;
+    std::set<std::string> links;
     for (const std::string& id : effect_ids(candidate.name))
-      for (const Effect& effect : effect_catalogue())
-        if (effect.id == id) links[to_string(effect.link)] = true;
-    for (const auto& [link, named] : links) sums[link] += candidate.probability;
+      if (const Effect* effect = effect_or_none(id)) links.insert(to_string(effect->link));
+    for (const std::string& link : links) sums[link] += candidate.probability;
   }
-  std::vector<std::pair<double, std::string>> sorted;
-  for (const auto& [link, sum] : sums)
-    if (sum > least) sorted.emplace_back(-sum, link);
-  std::sort(sorted.begin(), sorted.end());
   std::vector<std::string> links;
-  for (const auto& [sum, link] : sorted) links.push_back(link);
+  for (const auto& [link, sum] : sums)
+    if (sum > least) links.push_back(link);
+  std::ranges::stable_sort(links, std::ranges::greater(),
+                           [&](const std::string& link) { return sums[link]; });
   return links;
 }
 
@@ -72,9 +68,9 @@ std::string location_sentence(const Location& location) {
     text << ", at " << location.bands_hz.front()[0] << " to " << location.bands_hz.back()[1]
          << " Hz";
   if (location.mode) text << ", strongest near mode " << *location.mode;
-  if (location.level_exponent && *location.level_exponent != 0.)
+  if (location.level_exponent && location.level_exponent->value != 0.)
     text << "; with twice the excitation the error's share of the moment is "
-         << std::exp2(*location.level_exponent) << " times as large";
+         << std::exp2(location.level_exponent->value) << " times as large";
   if (location.harmonics != Harmonics::none)
     text << "; it has "
          << (location.harmonics == Harmonics::both ? "odd and even" : to_string(location.harmonics))

@@ -20,10 +20,7 @@ struct Location {
   std::vector<GapInTime> in_time{};
   std::vector<std::array<double, 2>> bands_hz{};  // significant neighbouring bands merged
   std::optional<std::size_t> mode{};              // from 1, in ascending frequency
-  /// Exponent n of the relative gap, which grows as level^n; nothing when there is one level only
-  /// or no gap under base motion. 0 where it does not differ significantly from 0.
-  std::optional<double> level_exponent{};
-  double level_exponent_deviation = 0.;
+  std::optional<LevelExponent> level_exponent{};
   std::vector<std::string> channels{};  // base, wind, product (both), rest
   Harmonics harmonics = Harmonics::none;
   bool varies_in_time = false;

@@ -8,6 +8,7 @@
 #include "diagnosis/localisation/significance_tests.h"
 #include "diagnosis/prediction/chain_simulation.h"
 #include "diagnosis/records/spectrum.h"
+#include "signals/base/median.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -15,11 +16,8 @@ namespace {
 /// Power of white noise from the median of the upper half of the spectrum, which contains no slow
 /// drift.
 double white_power(const std::vector<double>& power) {
-  std::vector<double> upper(power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2),
-                            power.end());
-  const auto middle = upper.begin() + static_cast<std::ptrdiff_t>(upper.size() / 2);
-  std::nth_element(upper.begin(), middle, upper.end());
-  return *middle / std::numbers::ln2;
+  const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
+  return signals::median({middle, power.end()}) / std::numbers::ln2;
 }
 
 }  // namespace
@@ -31,9 +29,7 @@ std::string kind_of(const PreparedRecord& record) {
 }
 
 double base_level_m_s2(const PreparedRecord& record) {
-  double power = 0.;
-  for (const Complex& line : record.acceleration) power += std::norm(line);
-  return std::sqrt(2. * power) / static_cast<double>(record.n_samples);
+  return std::sqrt(2. * total_power(record.acceleration)) / static_cast<double>(record.n_samples);
 }
 
 RestNoise rest_noise(const Experiment& experiment) {

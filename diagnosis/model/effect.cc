@@ -16,49 +16,35 @@ double student_log_norm(const double dof) {
 
 }  // namespace
 
-double Prior::log_density(const double x) const {
-  if (is_fixed()) return 0.;
-  const double z = (x - centre) / scale;
+Prior::Shape Prior::shape(const double x) const {
+  const double z = (x - centre) / scale, dof = degrees_of_freedom;
   switch (kind) {
     case Kind::normal:
-      return -0.5 * z * z - std::log(scale * std::sqrt(2. * std::numbers::pi));
+      return {-0.5 * z * z - std::log(scale * std::sqrt(2. * std::numbers::pi)), -z / scale,
+              1. / (scale * scale)};
     case Kind::student:
-      return -0.5 * (degrees_of_freedom + 1.) * std::log1p(z * z / degrees_of_freedom) -
-             std::log(scale) - student_log_norm(degrees_of_freedom);
+      return {-0.5 * (dof + 1.) * std::log1p(z * z / dof) - std::log(scale) - student_log_norm(dof),
+              -(dof + 1.) * z / (dof + z * z) / scale,
+              (dof + 1.) / (dof + z * z) / (scale * scale)};
     case Kind::uniform:
-      return -std::log(high - low);
+      // Curvature of the Gaussian with the same variance, so that the posterior is never wider than
+      // the prior.
+      return {-std::log(high - low), 0., 12. / ((high - low) * (high - low))};
   }
-  return 0.;
+  return {};
+}
+
+double Prior::log_density(const double x) const {
+  return is_fixed() ? 0. : shape(x).log_density;
 }
 
 double Prior::slope(const double x) const {
-  const double z = (x - centre) / scale;
-  switch (kind) {
-    case Kind::normal:
-      return -z / scale;
-    case Kind::student:
-      return -(degrees_of_freedom + 1.) * z / (degrees_of_freedom + z * z) / scale;
-    case Kind::uniform:
-      return 0.;
-  }
-  return 0.;
+  return shape(x).slope;
 }
 
 double Prior::curvature(const double x) const {
   // Cancels the power of 2 pi that Laplace's approximation adds for each parameter.
-  if (is_fixed()) return 2. * std::numbers::pi;
-  const double z = (x - centre) / scale;
-  switch (kind) {
-    case Kind::normal:
-      return 1. / (scale * scale);
-    case Kind::student:
-      return (degrees_of_freedom + 1.) / (degrees_of_freedom + z * z) / (scale * scale);
-    // Curvature of the Gaussian with the same variance, so that the posterior is never wider than
-    // the prior.
-    case Kind::uniform:
-      return 12. / ((high - low) * (high - low));
-  }
-  return 0.;
+  return is_fixed() ? 2. * std::numbers::pi : shape(x).curvature;
 }
 
 Parameter log_uniform(std::string name, std::string unit, const double low, const double high,
@@ -151,13 +137,16 @@ bool is_nonlinear(const Effect& effect) {
   return !chain.joint.empty() || !chain.readout.empty() || chain.relative_wind.on || folds;
 }
 
-const Effect& find_effect(const std::string& id) {
+const Effect* effect_or_none(const std::string& id) {
   const std::vector<Effect>& effects = effect_catalogue();
-  const auto found =
-      std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.id == id; });
-  if (found != effects.end()) return *found;
+  const auto found = std::ranges::find(effects, id, &Effect::id);
+  return found != effects.end() ? &*found : nullptr;
+}
+
+const Effect& find_effect(const std::string& id) {
+  if (const Effect* effect = effect_or_none(id)) return *effect;
   std::vector<std::string> known;
-  for (const Effect& effect : effects) known.push_back(effect.id);
+  for (const Effect& effect : effect_catalogue()) known.push_back(effect.id);
   throw signals::UserError(signals::unknown_name("effect", id, known));
 }
 

@@ -29,6 +29,12 @@ struct Prior {
   double log_density(double x) const;
   double slope(double x) const;      // d log_density / dx
   double curvature(double x) const;  // > 0, of the Gaussian that approximates the prior near x
+
+ private:
+  struct Shape {
+    double log_density, slope, curvature;
+  };
+  Shape shape(double x) const;
 };
 
 /// One parameter of an effect. The fitted coordinate is x = value, or x = ln(value) when
@@ -47,6 +53,8 @@ struct Parameter {
 
   double value(double x) const { return logarithmic ? std::exp(x) : x; }
   double coordinate(double value) const { return logarithmic ? std::log(value) : value; }
+  /// Step of x for a derivative: down where the step up would cross the bound.
+  double step_at(double x) const { return x + step > prior.high ? -step : step; }
 };
 Parameter log_uniform(std::string name, std::string unit, double low, double high, double neutral);
 /// The parameter, whose unit is 1, with the text that says what it multiplies.
@@ -83,16 +91,15 @@ struct Needs {
   double moved_hz = 0.;  // the base's motion reaches at least this frequency
 };
 
-/// One entry of the catalogue of docs/effects.md: an extension of the nominal model.
+/// One entry of the catalogue of docs/effects.md (equation, sources of ranges and priors, what
+/// distinguishes it from similar effects): an extension of the nominal model.
 struct Effect {
   std::string id{};
   std::string about{};  // one plain phrase, as in the contents of docs/effects.md
   Link link = Link::structure;
-  std::string equation{};
-  std::string source{};         // of the equation; ranges and priors: docs/effects.md
-  std::string confused_with{};  // effects with a similar influence; data that distinguish them
-  bool calibration = false;     // a parameter error: the simulation needs recalibration
-  bool irreducible = false;     // adds process noise
+  std::string source{};      // of the equation, which docs/effects.md gives
+  bool calibration = false;  // a parameter error: the simulation needs recalibration
+  bool irreducible = false;  // adds process noise
   /// Model form error: the true effect may differ from the equation by this share of its influence.
   double model_form_error = 0.01;
   Needs needs{};
@@ -120,6 +127,8 @@ bool is_nonlinear(const Effect& effect);
 /// Every effect of diagnosis/effects, one file each, by id. Proven by
 /// tests/diagnosis/effects/effect_catalogue_test.cc.
 const std::vector<Effect>& effect_catalogue();
+/// nullptr for an unknown id.
+const Effect* effect_or_none(const std::string& id);
 /// Throws UserError with the known ids for an unknown id.
 const Effect& find_effect(const std::string& id);
 

@@ -8,7 +8,6 @@
 
 #include "diagnosis/nominal/base_path_identification.h"
 #include "diagnosis/prediction/chain_simulation.h"
-#include "diagnosis/records/evaluated_samples.h"
 #include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
 #include "separation/identification/identify_frequency.h"

@@ -52,34 +52,18 @@ StudiedEffect studied(const Effect& effect) {
   return out;
 }
 
-std::string word_of(Lack lack) {
-  switch (lack) {
-    case Lack::base:
-      return "base motion";
-    case Lack::wind:
-      return "wind";
-    case Lack::cross:
-      return "transverse acceleration";
-    case Lack::repeats:
-      return "an accelerometer that repeats samples";
-    case Lack::modes:
-      return "a simulation with dynamics";
-    case Lack::duration:
-      return "longer records of motion";
-    case Lack::band:
-      return "base motion at higher frequencies";
-  }
-  return "";
-}
-
 std::string missing(const std::vector<Lack>& lacks) {
-  std::vector<std::string> words;
-  for (const Lack lack : lacks) words.push_back(word_of(lack));
-  return joined(words, ", ");
-}
-
-bool contains(const std::vector<std::string>& list, const std::string& id) {
-  return std::find(list.begin(), list.end(), id) != list.end();
+  // In the order of the enumerators.
+  constexpr const char* words[] = {"base motion",
+                                   "wind",
+                                   "transverse acceleration",
+                                   "an accelerometer that repeats samples",
+                                   "a simulation with dynamics",
+                                   "longer records of motion",
+                                   "base motion at higher frequencies"};
+  std::vector<std::string> missing;
+  for (const Lack lack : lacks) missing.push_back(words[static_cast<std::size_t>(lack)]);
+  return joined(missing, ", ");
 }
 
 class PowerStudy {
@@ -213,16 +197,11 @@ class PowerStudy {
   void set_faint(StudiedEffect& effect) const {
     for (const EffectFamily& family : effect.families) {
       FaintStart start{.change = change_at(family, *effect.effect, faint_share)};
-      const Chain chain = extended_chain(*effect.effect, family.values(faint_share));
+      Chain chain{.structure = point_.experiment().nominal};
+      effect.effect->extend(chain, family.values(faint_share), point_.experiment().scales);
       start.of_variance = !chain.noise.empty() || chain.reference_variance > 0.;
       effect.faint.push_back(std::move(start));
     }
-  }
-
-  Chain extended_chain(const Effect& effect, const std::vector<double>& values) const {
-    Chain chain{.structure = point_.experiment().nominal};
-    effect.extend(chain, values, point_.experiment().scales);
-    return chain;
   }
 
   /// Pairs of a detected effect and an alternative that may not be distinguished from it.
@@ -241,7 +220,7 @@ class PowerStudy {
                        SensorKind kind) const {
     const EffectPower *one = known(effect.effect->id), *other = known(alternative.effect->id);
     return one != nullptr && other != nullptr && one->on(kind).detected && other->shown &&
-           !contains(one->on(kind).alike, other->effect);
+           std::ranges::count(one->on(kind).alike, other->effect) == 0;
   }
 
   bool are_alike(const OpenPair& pair) const {

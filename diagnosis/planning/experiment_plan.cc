@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "diagnosis/planning/planned_menu.h"
+#include "diagnosis/planning/planned_records.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
 
@@ -64,67 +64,6 @@ std::vector<EffectPower> by_table(const MenuEntry& entry, std::vector<EffectPowe
   return effects;
 }
 
-class Planner {
- public:
-  Planner(const NominalModel& nominal, const std::vector<PlannedInput>& inputs,
-          const ChannelNoise& noise, const PlanOptions& options)
-      : nominal_(nominal),
-        inputs_(inputs),
-        noise_(noise),
-        options_(options),
-        experiment_(prepared(nominal, inputs, noise)) {}
-
-  ExperimentPlan run() {
-    ExperimentPlan plan{.noise = noise_};
-    for (const PlannedInput& input : inputs_)
-      plan.records.push_back({input.name,
-                              signals::to_string(signals::Excitation{!input.acceleration.empty(),
-                                                                     !input.wind.empty()}),
-                              duration_of({input})});
-    plan.effects = effect_powers(
-        experiment_, noise_, {.n_threads = options_.n_threads, .on_effect = options_.on_effect});
-    plan.undecided = undecided_probability(plan.effects);
-    for (const MenuEntry& entry : experiment_menu())
-      plan.steps.push_back(step_of(entry, plan.effects));
-    std::stable_sort(plan.steps.begin(), plan.steps.end(),
-                     [](const PlannedStep& a, const PlannedStep& b) { return a.gain > b.gain; });
-    return plan;
-  }
-
- private:
-  PlannedStep step_of(const MenuEntry& entry, const std::vector<EffectPower>& before) const {
-    PlannedStep step{.name = entry.name, .what = entry.what};
-    const auto added = added_inputs(entry.name, nominal_, inputs_);
-    step.by_rule = !added.has_value();
-    if (added) {
-      step.duration_s = duration_of(*added);
-      set_gain(step, before, with_records(*added, before));
-    } else {
-      set_gain(step, before, by_table(entry, before));
-    }
-    return step;
-  }
-
-  std::vector<EffectPower> with_records(const std::vector<PlannedInput>& added,
-                                        const std::vector<EffectPower>& before) const {
-    std::vector<PlannedInput> inputs = inputs_;
-    inputs.insert(inputs.end(), added.begin(), added.end());
-    Experiment experiment = prepared(nominal_, inputs, noise_);
-    experiment.scales = experiment_.scales;
-    return effect_powers(experiment, noise_,
-                         {.limits = false,
-                          .n_threads = options_.n_threads,
-                          .fewer_records = &before,
-                          .on_effect = options_.on_effect});
-  }
-
-  const NominalModel& nominal_;
-  const std::vector<PlannedInput>& inputs_;
-  const ChannelNoise& noise_;
-  const PlanOptions& options_;
-  Experiment experiment_;
-};
-
 void check_noise(const ChannelNoise& noise) {
   const auto refuse = [](double value, const std::string& name) {
     if (!std::isfinite(value) || value <= 0.)
@@ -148,7 +87,38 @@ ExperimentPlan plan_experiments(const NominalModel& nominal,
                                 const std::vector<PlannedInput>& inputs, const ChannelNoise& noise,
                                 const PlanOptions& options) {
   check_noise(noise);
-  return Planner(nominal, inputs, noise, options).run();
+  const Experiment experiment = prepared(nominal, inputs, noise);
+  ExperimentPlan plan{.noise = noise};
+  for (const PlannedInput& input : inputs)
+    plan.records.push_back(
+        {input.name,
+         signals::to_string(signals::Excitation{!input.acceleration.empty(), !input.wind.empty()}),
+         duration_of({input})});
+  plan.effects = effect_powers(experiment, noise,
+                               {.n_threads = options.n_threads, .on_effect = options.on_effect});
+  plan.undecided = undecided_probability(plan.effects);
+  const auto with_records = [&](const std::vector<PlannedInput>& added) {
+    std::vector<PlannedInput> all = inputs;
+    all.insert(all.end(), added.begin(), added.end());
+    Experiment larger = prepared(nominal, all, noise);
+    larger.scales = experiment.scales;
+    return effect_powers(larger, noise,
+                         {.limits = false,
+                          .n_threads = options.n_threads,
+                          .fewer_records = &plan.effects,
+                          .on_effect = options.on_effect});
+  };
+  for (const MenuEntry& entry : experiment_menu()) {
+    const auto added = added_inputs(entry.name, nominal, inputs);
+    PlannedStep step{.name = entry.name,
+                     .what = entry.what,
+                     .by_rule = !added.has_value(),
+                     .duration_s = added ? duration_of(*added) : 0.};
+    set_gain(step, plan.effects, added ? with_records(*added) : by_table(entry, plan.effects));
+    plan.steps.push_back(std::move(step));
+  }
+  std::ranges::stable_sort(plan.steps, std::ranges::greater(), &PlannedStep::gain);
+  return plan;
 }
 
 double undecided_probability(const std::vector<EffectPower>& effects) {

@@ -2,48 +2,48 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "diagnosis/model/json_number.h"
+#include "diagnosis/model/json.h"
 #include "diagnosis/model/words.h"
 
 namespace vibrissa::diagnosis {
+
+static void to_json(Json& out, const PlannedRecord& record) {
+  out = {
+      {"name", record.name}, {"excitation", record.excitation}, {"duration_s", record.duration_s}};
+}
+
+static void to_json(Json& out, const EffectPower& effect) {
+  const auto on = [&](const Detectability& sensor) -> Json {
+    return {{"nats_at_typical", effect.shown ? Json(sensor.nats) : Json(nullptr)},
+            {"detected_at_typical", sensor.detected},
+            {"limit", sensor.limit},
+            {"detected_at_any_size", sensor.detected_at_any_size},
+            {"alike", sensor.alike}};
+  };
+  out = {{"effect", effect.effect},
+         {"shown", effect.shown},
+         {"needs", effect.shown ? Json(nullptr) : Json(effect.needs)},
+         {"parameter", effect.parameter},
+         {"unit", effect.unit},
+         {"typical", effect.typical},
+         {"exact", on(effect.exact)},
+         {"as_built", on(effect.as_built)}};
+}
+
+static void to_json(Json& out, const PlannedStep& step) {
+  out = {{"name", step.name},
+         {"what", step.what},
+         {"simulated", !step.by_rule},
+         {"duration_s", step.by_rule ? Json(nullptr) : Json(step.duration_s)},
+         {"gain", step.gain},
+         {"finds", step.finds},
+         {"separates", step.separates}};
+}
+
 namespace {
 
-using json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
-
-json detectability_json(const EffectPower& effect, SensorKind kind) {
-  const Detectability& detectability = effect.on(kind);
-  return {{"nats_at_typical", effect.shown ? json_number(detectability.nats) : json(nullptr)},
-          {"detected_at_typical", detectability.detected},
-          {"limit", detectability.limit ? json_number(*detectability.limit) : json(nullptr)},
-          {"detected_at_any_size", detectability.detected_at_any_size},
-          {"alike", detectability.alike}};
-}
-
-json effect_json(const EffectPower& effect) {
-  return {{"effect", effect.effect},
-          {"shown", effect.shown},
-          {"needs", effect.shown ? json(nullptr) : json(effect.needs)},
-          {"parameter", effect.parameter},
-          {"unit", effect.unit},
-          {"typical", json_number(effect.typical)},
-          {"exact", detectability_json(effect, SensorKind::exact)},
-          {"as_built", detectability_json(effect, SensorKind::as_built)}};
-}
-
-json step_json(const PlannedStep& step) {
-  json separates = json::array();
-  for (const auto& [a, b] : step.separates) separates.push_back({a, b});
-  return {{"name", step.name},
-          {"what", step.what},
-          {"simulated", !step.by_rule},
-          {"duration_s", step.by_rule ? json(nullptr) : json_number(step.duration_s)},
-          {"gain", json_number(step.gain)},
-          {"finds", step.finds},
-          {"separates", separates}};
-}
 
 std::string with_unit(double value, const std::string& unit) {
   return three_digits(value) + (unit == "1" ? "" : " " + unit);
@@ -78,13 +78,6 @@ Words filled(const std::string& head, const Words& words, std::size_t most_lines
   return lines;
 }
 
-Words chosen(const ExperimentPlan& plan, const std::function<bool(const EffectPower&)>& which) {
-  Words out;
-  for (const EffectPower& effect : plan.effects)
-    if (which(effect)) out.push_back(effect.effect);
-  return out;
-}
-
 std::string records_line(const ExperimentPlan& plan) {
   double duration_s = 0.;
   std::map<std::string, int> kinds;
@@ -100,11 +93,12 @@ std::string records_line(const ExperimentPlan& plan) {
 }
 
 std::string detected_line(const ExperimentPlan& plan) {
-  const Words detected = chosen(plan, [](const EffectPower& e) { return e.as_built.detected; });
-  const Words shown = chosen(plan, [](const EffectPower& e) { return e.shown; });
-  return "Detected at typical strength: " + std::to_string(detected.size()) + " of " +
+  const auto is_detected = [](const EffectPower& e) { return e.as_built.detected; };
+  const auto detected = std::ranges::count_if(plan.effects, is_detected),
+             shown = std::ranges::count_if(plan.effects, &EffectPower::shown);
+  return "Detected at typical strength: " + std::to_string(detected) + " of " +
          std::to_string(plan.effects.size()) + " effects" +
-         (detected.size() == shown.size() ? "" : "; the others are detected only from:");
+         (detected == shown ? "" : "; the others are detected only from:");
 }
 
 /// Effects that are shown but too weak at typical strength, with the size from which on they are
@@ -178,23 +172,16 @@ Words step_lines(const ExperimentPlan& plan) {
 }  // namespace
 
 std::string plan_json(const ExperimentPlan& plan) {
-  json records = json::array(), effects = json::array(), steps = json::array();
-  for (const PlannedRecord& record : plan.records)
-    records.push_back({{"name", record.name},
-                       {"excitation", record.excitation},
-                       {"duration_s", json_number(record.duration_s)}});
-  for (const EffectPower& effect : plan.effects) effects.push_back(effect_json(effect));
-  for (const PlannedStep& step : plan.steps) steps.push_back(step_json(step));
-  const json document{{"schema", "vibrissa-plan-1"},
+  const Json document{{"schema", "vibrissa-plan-1"},
                       {"noise",
-                       {{"moment_n_m", json_number(plan.noise.moment_n_m)},
-                        {"acceleration_m_s2", json_number(plan.noise.acceleration_m_s2)}}},
+                       {{"moment_n_m", plan.noise.moment_n_m},
+                        {"acceleration_m_s2", plan.noise.acceleration_m_s2}}},
                       {"detection_threshold_nats", detection_threshold_nats},
                       {"nats_to_tell_apart", nats_to_tell_apart},
-                      {"records", records},
-                      {"undecided_probability", json_number(plan.undecided)},
-                      {"effects", effects},
-                      {"experiments", steps}};
+                      {"records", plan.records},
+                      {"undecided_probability", plan.undecided},
+                      {"effects", plan.effects},
+                      {"experiments", plan.steps}};
   return document.dump(2) + "\n";
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "diagnosis/localisation/location.h"
+#include "diagnosis/model/json.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::diagnosis {
@@ -187,6 +188,13 @@ const std::vector<MenuEntry>& experiment_menu() {
         {"mount_compliance", "error unchanged, as the stage is not turned"},
         {"reference_noise", "unchanged"}}}};
   return menu;
+}
+
+void to_json(Json& out, const NextExperiment& next) {
+  out = {{"name", next.name},
+         {"why", next.why},
+         {"would_separate", next.would_separate},
+         {"split_probability", next.split_probability}};
 }
 
 NextExperiment next_experiment(const std::vector<Candidate>& candidates,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct NextExperiment {
   /// Probability that the experiment distinguishes two answers drawn from the remaining ones.
   double split_probability = 0.;
 };
+
+void to_json(nlohmann::ordered_json& out, const NextExperiment& next);
 
 /// The experiment that best distinguishes the answers of the confidence set and of the
 /// indistinguishable sets. possible: names of the experiments that the bench can make; empty: all.

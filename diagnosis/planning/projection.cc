@@ -122,8 +122,7 @@ class LeastSquaresProjection {
         continue;
       }
       Eigen::VectorXd z = z_;
-      double h = description(index).step;
-      if (z(i) + h > high_(i)) h = -h;
+      const double h = description(index).step_at(z(i));
       z(i) += h;
       columns_.col(i) = (residual_ - residual(z)) / h;
       if (!columns_.col(i).allFinite()) columns_.col(i).setZero();
@@ -240,8 +239,7 @@ NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noi
   for (std::size_t i = 0; i < fit_parameters_.size(); ++i) {
     Eigen::VectorXd x = x_;
     const auto index = static_cast<Eigen::Index>(i);
-    double h = fit_parameters_[i].description.step;
-    if (x(index) + h > fit_parameters_[i].description.prior.high) h = -h;
+    const double h = fit_parameters_[i].description.step_at(x(index));
     x(index) += h;
     columns_.push_back(change(x) / h);
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
 
 namespace vibrissa::diagnosis {

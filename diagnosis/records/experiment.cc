@@ -9,9 +9,6 @@
 #include <numeric>
 #include <optional>
 
-#include "diagnosis/records/accelerometer_noise.h"
-#include "diagnosis/records/evaluated_samples.h"
-#include "diagnosis/records/noise_at_bins.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/error.h"
 
@@ -36,9 +33,9 @@ std::size_t transient_samples(const NominalModel& nominal, double rate_hz) {
 }
 
 /// Averages whole periods in place: lines that are not multiples of 1/period become zero.
-void average_periods(std::vector<Complex>& spectrum, std::size_t n_periods) {
+void average_periods(std::vector<Complex>& spectrum, std::size_t number) {
   for (std::size_t k = 0; k < spectrum.size(); ++k)
-    if (k % n_periods != 0) spectrum[k] = 0.;
+    if (k % number != 0) spectrum[k] = 0.;
 }
 
 /// Excited harmonics by period length in samples. A harmonic that exceeds the noise in one record
@@ -56,13 +53,14 @@ ExcitedHarmonics excited_harmonics(const signals::Dataset& dataset, signals::Spl
   ExcitedHarmonics excited;
   for (const DatasetRecord& entry : dataset.records) {
     const std::size_t period = entry.period_samples, n = entry.record.n_samples();
-    if (entry.split != split || !entry.excitation.base || period == 0 || n % period != 0) continue;
-    if (!entry.record.has(channel::base_acceleration)) continue;
+    if (entry.split != split || !entry.excitation.base || !is_periodic(entry) ||
+        !entry.record.has(channel::base_acceleration))
+      continue;
     const std::vector<Complex> spectrum =
         spectrum_of(entry.record.channel(channel::base_acceleration));
     std::vector<bool>& mask = excited.try_emplace(period, period / 2 + 1, false).first->second;
     for (std::size_t h = 1; h < mask.size(); ++h)
-      if (stands_out(spectrum[h * (n / period)], static_cast<double>(n) * noise * noise))
+      if (stands_out(spectrum[h * n_periods(entry)], static_cast<double>(n) * noise * noise))
         mask[h] = true;
   }
   return excited;
@@ -118,10 +116,9 @@ std::vector<std::size_t> driven_lines(const PreparedRecord& record, const Datase
                                       const ExcitedHarmonics& excited) {
   std::vector<std::size_t> lines;
   const auto found = excited.find(entry.period_samples);
-  const std::size_t n_periods = record.periodic ? record.n_samples / entry.period_samples : 1;
+  const std::size_t step = n_periods(entry);
   for (std::size_t k = 1; k <= record.n_samples / 2; ++k)
-    if (!record.periodic ||
-        (k % n_periods == 0 && found != excited.end() && found->second[k / n_periods]))
+    if (!record.periodic || (k % step == 0 && found != excited.end() && found->second[k / step]))
       lines.push_back(k);
   return lines;
 }
@@ -165,27 +162,20 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
     out.noise_share.assign(out.acceleration.size(), 1.);
     return;
   }
-  if (!entry.excitation.base) {
-    for (std::size_t k = 1; k + 1 < noise_of.end; ++k)
+  for (std::size_t k = 1; k + 1 < noise_of.end; ++k)
+    if (!entry.excitation.base || k % n_periods(entry) != 0) {
       out.acceleration_noise_power += std::norm(noise_of.spectrum[k]);
-    out.n_acceleration_noise = noise_of.end - 2;
+      ++out.n_acceleration_noise;
+    }
+  if (!entry.excitation.base) {
     out.acceleration.assign(out.acceleration.size(), 0.);
     out.noise_share.assign(out.acceleration.size(), 0.);
     return;
   }
-  if (out.periodic) {
-    const std::size_t n_periods = out.n_samples / entry.period_samples;
-    for (std::size_t k = 1; k + 1 < noise_of.end; ++k)
-      if (k % n_periods != 0) {
-        out.acceleration_noise_power += std::norm(noise_of.spectrum[k]);
-        ++out.n_acceleration_noise;
-      }
-    average_periods(out.acceleration, n_periods);
-    average_periods(out.source_acceleration, n_periods);
-  }
-  out.noise_share =
-      signal_share(out.acceleration, n * noise * noise, driven_lines(out, entry, excited));
+  average_periods(out.acceleration, n_periods(entry));
+  average_periods(out.source_acceleration, n_periods(entry));
   const double noise_power = n * noise * noise;
+  out.noise_share = signal_share(out.acceleration, noise_power, driven_lines(out, entry, excited));
   for (std::size_t k = 0; k < out.acceleration.size(); ++k) {
     const double share = out.noise_share[k];
     // The Wiener gain removes signal from a line that is far above its neighbours (noise alone:
@@ -200,16 +190,15 @@ void prepare_acceleration(PreparedRecord& out, const DatasetRecord& entry,
 PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& entry,
                               std::size_t number, double acceleration_noise,
                               const ExcitedHarmonics& excited, const InputNoise treatment) {
-  PreparedRecord out;
-  out.name = entry.name;
-  out.excitation = entry.excitation;
-  out.number = number;
-  out.readout = entry.readout;
-  out.clock_start_s = entry.clock_start_s;
-  out.magnet = entry.setup.magnet;
-  out.sampling_rate_hz = entry.record.sampling_rate_hz();
-  out.n_samples = entry.record.n_samples();
-  out.periodic = is_periodic(entry);
+  PreparedRecord out{.name = entry.name,
+                     .excitation = entry.excitation,
+                     .number = number,
+                     .readout = entry.readout,
+                     .magnet = entry.setup.magnet,
+                     .sampling_rate_hz = entry.record.sampling_rate_hz(),
+                     .clock_start_s = entry.clock_start_s,
+                     .n_samples = entry.record.n_samples(),
+                     .periodic = is_periodic(entry)};
   const bool moved = entry.excitation.base || entry.excitation.wind;
   if (out.periodic || !moved) {
     out.n_evaluated = out.n_samples - out.n_samples % 2;
@@ -292,9 +281,8 @@ Scales scales_of(const Experiment& experiment) {
   for (const PreparedRecord& record : experiment.records) {
     const double n = static_cast<double>(record.n_samples);
     scales.duration_s = std::max(scales.duration_s, n / record.sampling_rate_hz);
-    double power = 0.;
-    for (const Complex& m : record.moment) power += 2. * std::norm(m);
-    const double level = std::sqrt(power) / static_cast<double>(record.n_evaluated);
+    const double level =
+        std::sqrt(2. * total_power(record.moment)) / static_cast<double>(record.n_evaluated);
     scales.moment_rms_n_m = std::max(scales.moment_rms_n_m, level);
     scales.joint_moment_n_m = std::max(scales.joint_moment_n_m, 3. * level);
   }
@@ -352,108 +340,22 @@ Complex PreparedRecord::line_s(const std::size_t k) const {
                   static_cast<double>(n_samples)};
 }
 
-namespace {
-
-/// Smallest power per line of any eighth of the spectrum, by the median: noise plus remaining
-/// signal.
-double quietest_power(const std::vector<Complex>& spectrum) {
-  constexpr std::size_t n_parts = 8;
-  double least = std::numeric_limits<double>::infinity();
-  const std::size_t n = (spectrum.size() - 2) / n_parts;
-  for (std::size_t part = 0; part < n_parts; ++part) {
-    const auto first = spectrum.begin() + static_cast<std::ptrdiff_t>(1 + part * n);
-    std::vector<double> power = powers({first, first + static_cast<std::ptrdiff_t>(n)});
-    const auto middle = power.begin() + static_cast<std::ptrdiff_t>(n / 2);
-    std::nth_element(power.begin(), middle, power.end());
-    least = std::min(least, *middle / std::numbers::ln2);
-  }
-  return least;
+std::vector<double> evaluated_samples(const PreparedRecord& record, std::span<const Complex> bins) {
+  assert(bins.size() == record.n_bins());
+  std::vector<Complex> whole(record.n_evaluated / 2 + 1, 0.);
+  std::copy(bins.begin(), bins.end(), whole.begin() + 1);
+  return samples_of(whole, record.n_evaluated);
 }
 
-/// Lines of a channel that show its noise.
-NoiseLines lines_of(const DatasetRecord& entry, const std::string& name) {
-  const auto x = entry.record.channel(name);
-  if (name == channel::base_acceleration)
-    return noise_lines(x, entry.record.sampling_rate_hz(), entry.excitation.base);
-  return all_lines(x);
+std::vector<Complex> evaluated_bins(const PreparedRecord& record, std::span<const double> samples) {
+  const std::vector<Complex> lines = spectrum_of(samples.subspan(record.first, record.n_evaluated));
+  return {lines.begin() + 1, lines.end() - 1};
 }
 
-/// Smallest value over all fit records.
-double quietest_deviation(const signals::Dataset& dataset, const std::string& name) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const DatasetRecord& entry : dataset.records)
-    if (entry.split == signals::Split::fit && entry.record.has(name))
-      least = std::min(least, quietest_power(spectrum_of(entry.record.channel(name))) /
-                                  static_cast<double>(entry.record.n_samples()));
-  return std::isfinite(least) ? std::sqrt(least) : 0.;
-}
-
-/// The quietest part of the acceleration; at most the usual noise where the drive leaves no part
-/// quiet.
-double quietest_part_of_drive(const signals::Dataset& dataset) {
-  constexpr double quiet = 0.25;
-  const double least = quietest_deviation(dataset, channel::base_acceleration);
-  double largest = 0.;
-  for (const DatasetRecord& entry : dataset.records) {
-    if (entry.split != signals::Split::fit || !entry.record.has(channel::base_acceleration))
-      continue;
-    double square = 0.;
-    for (const double a : entry.record.channel(channel::base_acceleration)) square += a * a;
-    largest = std::max(largest, square / static_cast<double>(entry.record.n_samples()));
-  }
-  return least > quiet * std::sqrt(largest) ? std::min(usual_acceleration_noise, least) : least;
-}
-
-/// Quantisation noise of a 13-bit step. Smaller values occur only in simulated records, which no
-/// model follows more closely.
-double least_noise(const signals::Dataset& dataset, const std::string& name) {
-  const double of_peak = 1. / (8192. * std::sqrt(12.));
-  double peak = 0.;
-  for (const DatasetRecord& entry : dataset.records)
-    if (entry.split == signals::Split::fit && entry.record.has(name))
-      for (const double value : entry.record.channel(name)) peak = std::max(peak, std::abs(value));
-  return of_peak * peak;
-}
-
-}  // namespace
-
-ChannelNoise channel_noise(const signals::Dataset& dataset) {
-  double moment = 0., acceleration = 0., n_moment = 0., n_acceleration = 0.;
-  for (const DatasetRecord& entry : dataset.records) {
-    const bool quiet = entry.excitation == signals::Excitation{};
-    if (entry.split != signals::Split::fit) continue;
-    const double n = static_cast<double>(entry.record.n_samples());
-    const auto add = [&](const std::string& name, double& sum, double& count, bool still) {
-      if (!entry.record.has(name)) return;
-      const NoiseLines lines = lines_of(entry, name);
-      const std::size_t period = entry.period_samples;
-      const std::size_t n_periods = period > 0 && entry.record.n_samples() % period == 0
-                                        ? entry.record.n_samples() / period
-                                        : 1;
-      // The part that does not repeat with the period is noise, except in the moment under wind,
-      // because gusts do not repeat.
-      const bool repeats =
-          n_periods > 1 && !(name == channel::base_moment && entry.excitation.wind);
-      // Only the upper half of the spectrum, because slow drift is no sample noise.
-      for (std::size_t k = lines.end / 2; k + 1 < lines.end; ++k)
-        if (still || (repeats && k % n_periods != 0)) {
-          sum += std::norm(lines.spectrum[k]) / n;
-          count += 1.;
-        }
-    };
-    add(channel::base_moment, moment, n_moment, quiet);
-    add(channel::base_acceleration, acceleration, n_acceleration, !entry.excitation.base);
-  }
-  ChannelNoise noise;
-  noise.moment_n_m = n_moment > 0. ? std::sqrt(moment / n_moment)
-                                   : quietest_deviation(dataset, channel::base_moment);
-  noise.acceleration_m_s2 = n_acceleration > 0. ? std::sqrt(acceleration / n_acceleration)
-                                                : quietest_part_of_drive(dataset);
-  noise.acceleration_is_measured = n_acceleration > 0.;
-  noise.moment_n_m = std::max(noise.moment_n_m, least_noise(dataset, channel::base_moment));
-  noise.acceleration_m_s2 =
-      std::max(noise.acceleration_m_s2, least_noise(dataset, channel::base_acceleration));
-  return noise;
+std::vector<Complex> bins_of_lines(const PreparedRecord& record,
+                                   const std::vector<Complex>& whole) {
+  if (record.n_evaluated == record.n_samples) return {whole.begin() + 1, whole.end() - 1};
+  return evaluated_bins(record, samples_of(whole, record.n_samples));
 }
 
 Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dataset& dataset,

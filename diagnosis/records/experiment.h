@@ -5,6 +5,7 @@
 
 #include "diagnosis/model/effect.h"
 #include "diagnosis/model/updated_model.h"
+#include "diagnosis/records/channel_noise.h"
 #include "diagnosis/records/noise_colour.h"
 #include "signals/files/dataset.h"
 
@@ -26,21 +27,21 @@ struct PreparedRecord {
   std::size_t first = 0,
               n_evaluated = 0;  // evaluated samples (free of transients)
 
-  std::vector<Complex> acceleration;  // k = 0 .. n/2, with reduced noise; empty: not measured
+  std::vector<Complex> acceleration{};  // k = 0 .. n/2, with reduced noise; empty: not measured
   std::vector<Complex>
-      source_acceleration;    // of its source's samples; empty: no sample-and-hold repeats
+      source_acceleration{};  // of its source's samples; empty: no sample-and-hold repeats
   double unknown_age_s = 0.;  // standard deviation of the reading time of the source
-  std::vector<Complex> cross_acceleration;  // empty: not measured
-  std::vector<double> wind;                 // one value per sample; empty: not measured
+  std::vector<Complex> cross_acceleration{};  // empty: not measured
+  std::vector<double> wind{};                 // one value per sample; empty: not measured
   /// Share of the accelerometer noise that remains at line k of the whole record.
-  std::vector<double> noise_share;
+  std::vector<double> noise_share{};
   /// The same at the evaluated bins.
-  std::vector<double> bin_noise_share;
+  std::vector<double> bin_noise_share{};
   ChannelColours colours{};              // of the noise of both channels
   double acceleration_noise_power = 0.;  // sum |A_k|^2 at rest, for the noise variance
   std::size_t n_acceleration_noise = 0;  // number of lines in the sum
 
-  std::vector<Complex> moment;  // bins 1 .. of the evaluated part
+  std::vector<Complex> moment{};  // bins 1 .. of the evaluated part
   std::size_t n_bins() const { return moment.size(); }
   double bin_hz() const { return sampling_rate_hz / static_cast<double>(n_evaluated); }
   /// Line of the whole record nearest to evaluated bin b (b = 0 is bin 1 of the DFT).
@@ -51,6 +52,23 @@ struct PreparedRecord {
   bool is_still() const { return wind.empty() && has_zero_inputs; }
   bool has_zero_inputs = false;  // both accelerations are empty or zero
 };
+
+/// Whitened bins of a record under a fit.
+struct WhitenedRecord {
+  std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
+  std::vector<double> deviation;  // sqrt(variance) [N m]
+  std::vector<double> own_share;  // share of process noise in the variance
+};
+
+/// Samples of a record's evaluated part from its bins (as PreparedRecord::moment), without the mean
+/// and the component at half the sampling rate.
+std::vector<double> evaluated_samples(const PreparedRecord& record, std::span<const Complex> bins);
+
+/// Bins of the evaluated part, as PreparedRecord::moment, from the samples of a whole record.
+std::vector<Complex> evaluated_bins(const PreparedRecord& record, std::span<const double> samples);
+
+/// The same from the lines k = 0 .. n/2 of a whole record.
+std::vector<Complex> bins_of_lines(const PreparedRecord& record, const std::vector<Complex>& whole);
 
 /// Preparation of a record: with reduced input noise (fit records) or as measured.
 enum class InputNoise { reduced, as_measured };
@@ -87,10 +105,6 @@ struct Experiment {
   Chain nominal_chain() const { return UpdatedModel(nominal, known).chain(); }
 };
 
-/// Usual accelerometer noise (ADXL345 at rest), standard deviation per sample [m/s^2];
-/// docs/theory.md (T15) gives 0.008 g as an upper bound.
-inline constexpr double usual_acceleration_noise = 0.05;
-
 /// Smallest record length that has evaluated samples after the transients.
 std::size_t fewest_samples(const NominalModel& nominal, const signals::DatasetRecord& entry);
 
@@ -113,15 +127,5 @@ bool shows(const Experiment& experiment, const Effect& effect);
 /// requested and none of them has an excitation.
 Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dataset& dataset,
                               signals::Split split, InputNoise noise);
-
-/// Noise standard deviations per sample of both channels, from records at rest and from differences
-/// between periods; otherwise from the quietest part of the spectrum, which is an upper bound (for
-/// the acceleration at most the usual noise where no part is quiet). Proven by
-/// tests/diagnosis/records/experiment_test.cc.
-struct ChannelNoise {
-  double moment_n_m = 0., acceleration_m_s2 = 0.;
-  bool acceleration_is_measured = false;  // at rest or from repeats
-};
-ChannelNoise channel_noise(const signals::Dataset& dataset);
 
 }  // namespace vibrissa::diagnosis

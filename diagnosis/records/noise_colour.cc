@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "diagnosis/records/accelerometer_noise.h"
+#include "diagnosis/records/channel_noise.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -86,22 +86,22 @@ NoiseColour noise_colour(const std::span<const NoiseLine> measured) {
 
 namespace {
 
-/// Lines k that are not divisible by n_periods; all lines when there is one period.
+/// Lines k that are not multiples of step; all lines when it is 1.
 void add_lines(std::vector<NoiseLine>& out, const signals::Record& record, const NoiseLines& lines,
-               const std::size_t n_periods) {
+               const std::size_t step) {
   const double n = static_cast<double>(record.n_samples());
   for (std::size_t k = 1; k + 1 < lines.end; ++k) {
     const double f = static_cast<double>(k) * record.sampling_rate_hz() / n;
     const bool upper = k >= lines.end / 2;
-    if (n_periods > 1 && (k % n_periods == 0 || (f > below_modes_hz && !upper))) continue;
+    if (step > 1 && (k % step == 0 || (f > below_modes_hz && !upper))) continue;
     out.push_back({f, std::norm(lines.spectrum[k]) / n, upper});
   }
 }
 
 void add_moment(std::vector<NoiseLine>& out, const signals::Record& record,
-                const std::size_t n_periods) {
+                const std::size_t step) {
   if (!record.has(signals::channel::base_moment)) return;
-  add_lines(out, record, all_lines(record.channel(signals::channel::base_moment)), n_periods);
+  add_lines(out, record, all_lines(record.channel(signals::channel::base_moment)), step);
 }
 
 void add_still_acceleration(std::vector<NoiseLine>& out, const signals::Record& record) {
@@ -121,12 +121,9 @@ ChannelColours channel_colours(const signals::Dataset& dataset) {
     // Only records with the sampling rate of the first one, because others need a different level.
     if (rate_hz == 0.) rate_hz = record.sampling_rate_hz();
     if (record.sampling_rate_hz() != rate_hz) continue;
-    const std::size_t period = entry.period_samples;
-    const std::size_t n_periods =
-        period > 0 && record.n_samples() % period == 0 ? record.n_samples() / period : 1;
     const bool still = entry.excitation == signals::Excitation{};
-    if (still || (n_periods > 1 && !entry.excitation.wind))
-      add_moment(moment, record, still ? 1 : n_periods);
+    if (still || (n_periods(entry) > 1 && !entry.excitation.wind))
+      add_moment(moment, record, still ? 1 : n_periods(entry));
     if (!entry.excitation.base) add_still_acceleration(acceleration, record);
   }
   return {noise_colour(moment), noise_colour(acceleration)};

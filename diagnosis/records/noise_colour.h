@@ -28,7 +28,8 @@ struct NoiseLine {
 NoiseColour noise_colour(std::span<const NoiseLine> lines);
 
 /// Noise colour of both channels, from fit records at rest (for the acceleration: with the base at
-/// rest); for the moment also from differences between periods well below the first mode.
+/// rest); for the moment also from differences between periods well below the first mode. Proven by
+/// tests/diagnosis/records/noise_colour_test.cc.
 struct ChannelColours {
   NoiseColour moment, acceleration;
 };

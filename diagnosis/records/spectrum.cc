@@ -6,6 +6,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "signals/base/median.h"
 #include "signals/spectra/fft.h"
 
 namespace vibrissa::diagnosis {
@@ -16,6 +17,11 @@ signals::RealFft& plan(const std::size_t n) {
   const auto found = plans.find(n);
   if (found != plans.end()) return found->second;
   return plans.emplace(n, signals::RealFft(n)).first->second;
+}
+
+double sinc_squared(const double x) {
+  const double angle = std::numbers::pi * x;
+  return std::abs(angle) < 1e-9 ? 1. : std::pow(std::sin(angle) / angle, 2);
 }
 
 }  // namespace
@@ -33,6 +39,15 @@ std::vector<double> samples_of(std::span<const Complex> spectrum, const std::siz
   std::copy(spectrum.begin(), spectrum.end(), fft.spectrum().begin());
   fft.inverse();
   return {fft.time().begin(), fft.time().end()};
+}
+
+std::vector<Complex> passed(std::vector<Complex> spectrum, const std::size_t n,
+                            const double rate_hz,
+                            const std::function<Complex(Complex s)>& response) {
+  for (std::size_t k = 0; k < spectrum.size(); ++k)
+    spectrum[k] *= response(
+        {0., 2. * std::numbers::pi * rate_hz * static_cast<double>(k) / static_cast<double>(n)});
+  return spectrum;
 }
 
 std::vector<double> upsampled(std::span<const Complex> spectrum, const std::size_t n,
@@ -86,6 +101,19 @@ double total_power(std::span<const Complex> x) {
   return sum;
 }
 
+double mean_square(std::span<const double> x) {
+  double sum = 0.;
+  for (const double v : x) sum += v * v;
+  return sum / static_cast<double>(x.size());
+}
+
+double rms_about_mean(std::span<const double> x) {
+  const double mean = std::accumulate(x.begin(), x.end(), 0.) / static_cast<double>(x.size());
+  double square = 0.;
+  for (const double v : x) square += (v - mean) * (v - mean);
+  return std::sqrt(square / static_cast<double>(x.size()));
+}
+
 std::vector<double> neighbour_mean(std::span<const double> x, const std::size_t reach) {
   std::vector<double> running(x.size() + 1, 0.), out(x.size());
   std::partial_sum(x.begin(), x.end(), running.begin() + 1);
@@ -100,9 +128,8 @@ double colour(std::vector<double> power) {
   if (power.empty()) return 1.;
   const double mean =
       std::accumulate(power.begin(), power.end(), 0.) / static_cast<double>(power.size());
-  const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
-  std::nth_element(power.begin(), middle, power.end());
-  return *middle > 0. ? mean * std::numbers::ln2 / *middle : 1.;
+  const double median = signals::median(std::move(power));
+  return median > 0. ? mean * std::numbers::ln2 / median : 1.;
 }
 
 std::size_t fast_length(std::size_t n) {
@@ -113,6 +140,28 @@ std::size_t fast_length(std::size_t n) {
     if (rest == 1) break;
   }
   return n;
+}
+
+std::vector<double> share_at_bins(std::span<const double> share_at_lines,
+                                  const std::size_t n_samples, const std::size_t n_evaluated) {
+  if (n_evaluated + 1 >= n_samples) return {share_at_lines.begin() + 1, share_at_lines.end() - 1};
+  constexpr double reach = 12.;  // lines; farther lines contribute less than a hundredth
+  const double bin_per_line = static_cast<double>(n_evaluated) / static_cast<double>(n_samples);
+  std::vector<double> bins(n_evaluated / 2 - 1);
+  for (std::size_t b = 0; b < bins.size(); ++b) {
+    const double at_line = static_cast<double>(b + 1) / bin_per_line;
+    const auto first = static_cast<std::size_t>(std::max(0., std::ceil(at_line - reach)));
+    const auto last =
+        std::min(share_at_lines.size() - 1, static_cast<std::size_t>(at_line + reach));
+    double sum = 0., weights = 0.;
+    for (std::size_t k = first; k <= last; ++k) {
+      const double weight = sinc_squared((static_cast<double>(k) - at_line) * bin_per_line);
+      sum += weight * share_at_lines[k];
+      weights += weight;
+    }
+    bins[b] = sum / weights;
+  }
+  return bins;
 }
 
 }  // namespace vibrissa::diagnosis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,11 @@ namespace vibrissa::diagnosis {
 /// cached per thread.
 std::vector<Complex> spectrum_of(std::span<const double> x);
 std::vector<double> samples_of(std::span<const Complex> spectrum, std::size_t n);
+
+/// The spectrum at the output of a linear path with this response to s = j 2 pi f, whose input has
+/// n samples.
+std::vector<Complex> passed(std::vector<Complex> spectrum, std::size_t n, double rate_hz,
+                            const std::function<Complex(Complex s)>& response);
 
 /// The samples of a spectrum at factor times its rate (band-limited interpolation), factor n of
 /// them.
@@ -30,8 +36,23 @@ std::vector<double> powers(std::span<const Complex> x);
 /// Sum of |x|^2.
 double total_power(std::span<const Complex> x);
 
+/// Mean of the squares, about zero.
+double mean_square(std::span<const double> x);
+/// Root mean square about the mean.
+double rms_about_mean(std::span<const double> x);
+
 /// Mean of each value and its existing neighbours up to reach indices away.
 std::vector<double> neighbour_mean(std::span<const double> x, std::size_t reach);
+
+/// Noise power at the bins 1 .. n_evaluated/2 - 1 of a part, relative to white noise of unit share,
+/// for noise with these shares at the lines 0 .. n_samples/2 of the whole record. A line whose
+/// period does not divide the part spreads over several bins:
+///   bin(b) = sum_k share(k) sinc^2(d_k) / sum_k sinc^2(d_k),   d_k = k n_evaluated / n_samples -
+///   b.
+/// For a part that is the whole record (of even length) bins and lines are identical. Proven by
+/// tests/diagnosis/records/share_at_bins_test.cc.
+std::vector<double> share_at_bins(std::span<const double> share_at_lines, std::size_t n_samples,
+                                  std::size_t n_evaluated);
 
 /// Largest even length up to n whose transform is fast (factors 2, 3, 5, 7).
 std::size_t fast_length(std::size_t n);

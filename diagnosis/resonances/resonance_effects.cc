@@ -64,6 +64,21 @@ ResonanceEffect own_prior(const std::string& id, const Parameter& parameter, con
           .usual_high = usual_high};
 }
 
+/// From a value to the factor on a part of the mode, and back.
+struct Map {
+  std::function<double(double)> to_factor, to_value;
+};
+
+ResonanceEffect acting(ResonanceEffect out, const ResonanceEffect::Part part, const Map& map,
+                       std::string remark) {
+  out.part = part;
+  out.to_factor = map.to_factor;
+  out.to_value = map.to_value;
+  out.remark = std::move(remark);
+  return out;
+}
+
+/// The silicone's modulus ratio, by two ways to know the modulus.
 ResonanceEffect silicone(const std::optional<double> modulus_pa) {
   constexpr double rounding = 1.01;
   const double spread = yeoh_modulus_pa / gent_modulus_pa;
@@ -73,75 +88,8 @@ ResonanceEffect silicone(const std::optional<double> modulus_pa) {
     low = gent_modulus_pa / *modulus_pa;
     high = yeoh_modulus_pa / *modulus_pa;
   }
-  ResonanceEffect out = own_prior(
-      "stiffness", log_usual("silicone_modulus_ratio", "1", low, high, 1e-3, 1e3, 1.), low, high);
-  out.to_factor = out.to_value = [](double ratio) { return ratio; };
-  out.remark = "the silicone has another modulus";
-  return out;
-}
-
-ResonanceEffect inertia() {
-  ResonanceEffect out = own_prior("mass", log_usual("ratio", "1", 0.9, 1.1, 0.3, 3., 1.), 0.7, 1.4);
-  out.part = ResonanceEffect::Part::inertia;
-  out.to_factor = out.to_value = [](double ratio) { return ratio; };
-  out.remark = "possible origins: infill, glue, magnet";
-  return out;
-}
-
-ResonanceEffect series_spring() {
-  ResonanceEffect out = catalogue_effect("base_compliance", "stiffness_ratio", 1., 20.);
-  out.part = ResonanceEffect::Part::series;
-  out.to_factor = out.to_value = [](double ratio) { return 1. / ratio; };
-  out.remark = "stiffness k_s / k0 of a spring below the silicone";
-  return out;
-}
-
-ResonanceEffect mount(const double simulated_hz) {
-  ResonanceEffect out = catalogue_effect("mount_compliance", "frequency", 60., 200.);
-  out.part = ResonanceEffect::Part::mount;
-  out.to_factor = [simulated_hz](double hz) { return hz / simulated_hz; };
-  out.to_value = [simulated_hz](double ratio) { return ratio * simulated_hz; };
-  out.mass_ratio = catalogue_parameter(*out.effect, "mass_ratio");
-  out.remark = "a second resonance would appear nearby";
-  return out;
-}
-
-ResonanceEffect temperature() {
-  Parameter shift{.name = "shift",
-                  .unit = "1",
-                  .prior = {.kind = Prior::Kind::student, .scale = 0.1, .low = -0.4, .high = 0.4}};
-  ResonanceEffect out = own_prior("temperature_drift", shift, -0.3, 0.3);
-  out.to_factor = [](double shift) { return 1. + shift; };
-  out.to_value = [](double factor) { return factor - 1.; };
-  out.remark = "a shift of 0.1 needs 20 K at 0.5 %/K";
-  return out;
-}
-
-ResonanceEffect softening() {
-  ResonanceEffect out = catalogue_effect("softening_history", "softening", 0.02, 0.4);
-  out.to_factor = [](double depth) { return 1. - depth; };
-  out.to_value = [](double factor) { return 1. - factor; };
-  out.remark = "softening of the silicone at the test level";
-  return out;
-}
-
-/// By the describing function of a cubic spring at the peak amplitude.
-ResonanceEffect cubic() {
-  ResonanceEffect out = catalogue_effect("hardening", "cubic_ratio", -0.3, 0.5);
-  out.to_factor = [](double ratio) { return 1. + 0.75 * ratio; };
-  out.to_value = [](double factor) { return (factor - 1.) / 0.75; };
-  out.remark = "k3 A^2 / k at the peak amplitude of the test";
-  return out;
-}
-
-/// An element parallel to the joint's spring, which adds at most its own stiffness.
-ResonanceEffect beside_the_spring(const std::string& id, const std::string& parameter,
-                                  const double usual_low, const double usual_high) {
-  ResonanceEffect out = catalogue_effect(id, parameter, usual_low, usual_high);
-  out.to_factor = [](double strength) { return 1. + strength; };
-  out.to_value = [](double factor) { return factor - 1.; };
-  out.remark = "it can only raise the resonance";
-  return out;
+  return own_prior("stiffness", log_usual("silicone_modulus_ratio", "1", low, high, 1e-3, 1e3, 1.),
+                   low, high);
 }
 
 }  // namespace
@@ -216,15 +164,43 @@ std::optional<double> ResonanceEffect::solve(const ModeChange& others, const dou
 
 std::vector<ResonanceEffect> resonance_effects(const double simulated_hz,
                                                const std::optional<double> silicone_modulus_pa) {
-  return {silicone(silicone_modulus_pa),
-          inertia(),
-          series_spring(),
-          mount(simulated_hz),
-          temperature(),
-          softening(),
-          cubic(),
-          beside_the_spring("viscoelastic", "strength", 0.02, 1.),
-          beside_the_spring("joint_friction", "stiffness_ratio", 0.1, 0.8)};
+  using Part = ResonanceEffect::Part;
+  const Map same{[](double x) { return x; }, [](double x) { return x; }},
+      inverse{[](double x) { return 1. / x; }, [](double x) { return 1. / x; }},
+      added{[](double x) { return 1. + x; }, [](double factor) { return factor - 1.; }},
+      taken{[](double x) { return 1. - x; }, [](double factor) { return 1. - factor; }},
+      // By the describing function of a cubic spring at the peak amplitude.
+      cubic{[](double x) { return 1. + 0.75 * x; }, [](double f) { return (f - 1.) / 0.75; }},
+      frequency{[=](double hz) { return hz / simulated_hz; },
+                [=](double ratio) { return ratio * simulated_hz; }};
+  const Parameter shift{
+      .name = "shift",
+      .unit = "1",
+      .prior = {.kind = Prior::Kind::student, .scale = 0.1, .low = -0.4, .high = 0.4}};
+  // Elements parallel to the joint's spring add at most their own stiffness.
+  const std::string can_only_raise = "it can only raise the resonance";
+  std::vector<ResonanceEffect> out{
+      acting(silicone(silicone_modulus_pa), Part::joint, same, "the silicone has another modulus"),
+      acting(own_prior("mass", log_usual("ratio", "1", 0.9, 1.1, 0.3, 3., 1.), 0.7, 1.4),
+             Part::inertia, same, "possible origins: infill, glue, magnet"),
+      acting(catalogue_effect("base_compliance", "stiffness_ratio", 1., 20.), Part::series, inverse,
+             "stiffness k_s / k0 of a spring below the silicone"),
+      acting(catalogue_effect("mount_compliance", "frequency", 60., 200.), Part::mount, frequency,
+             "a second resonance would appear nearby"),
+      acting(own_prior("temperature_drift", shift, -0.3, 0.3), Part::joint, added,
+             "a shift of 0.1 needs 20 K at 0.5 %/K"),
+      acting(catalogue_effect("softening_history", "softening", 0.02, 0.4), Part::joint, taken,
+             "softening of the silicone at the test level"),
+      acting(catalogue_effect("hardening", "cubic_ratio", -0.3, 0.5), Part::joint, cubic,
+             "k3 A^2 / k at the peak amplitude of the test"),
+      acting(catalogue_effect("viscoelastic", "strength", 0.02, 1.), Part::joint, added,
+             can_only_raise),
+      acting(catalogue_effect("joint_friction", "stiffness_ratio", 0.1, 0.8), Part::joint, added,
+             can_only_raise)};
+  for (ResonanceEffect& effect : out)
+    if (effect.part == Part::mount)
+      effect.mass_ratio = catalogue_parameter(*effect.effect, "mass_ratio");
+  return out;
 }
 
 }  // namespace vibrissa::diagnosis

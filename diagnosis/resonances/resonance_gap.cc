@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/model/hypothesis.h"
 #include "diagnosis/model/words.h"
+#include "diagnosis/nominal/nominal_from_model.h"
 #include "diagnosis/resonances/solution_line.h"
 #include "diagnosis/search/confidence_set.h"
 #include "signals/base/error.h"
@@ -53,8 +55,7 @@ NeededValue needed(const ResonanceEffect& effect, const double value) {
           .unit = effect.parameter.unit,
           .value = value,
           .usual_low = effect.usual_low,
-          .usual_high = effect.usual_high,
-          .inside = value >= effect.usual_low && value <= effect.usual_high};
+          .usual_high = effect.usual_high};
 }
 
 /// Values of one effect at the ends of the 95 % interval of the frequency ratio.
@@ -77,8 +78,7 @@ NeededValue modal_stiffness(const double silicone_ratio, const double share) {
           .unit = "1",
           .value = ratio,
           .usual_low = 0.3,
-          .usual_high = 1.5,
-          .inside = ratio >= 0.3 && ratio <= 1.5};
+          .usual_high = 1.5};
 }
 
 /// Modulus ratios for a silicone share of one standard deviation less and more.
@@ -100,7 +100,7 @@ std::string share_note(const ResonanceModel& model, const double modal_ratio) {
 std::string note_of(const ResonanceEffects& effects, const ResonanceExplanation& explanation) {
   std::vector<std::string> notes;
   for (const NeededValue& value : explanation.parameters)
-    if (!value.inside)
+    if (!value.inside())
       notes.push_back(value.name + " outside its usual range " + three_digits(value.usual_low) +
                       " .. " + three_digits(value.usual_high));
   for (const ResonanceEffect* effect : effects) notes.push_back(effect->remark);
@@ -151,8 +151,7 @@ std::vector<NeededValue> needed_values(const ResonanceEffects& effects, const Re
                      .unit = mass->unit,
                      .value = point.change.mount_mass,
                      .usual_low = mass->prior.low,
-                     .usual_high = mass->prior.high,
-                     .inside = true});
+                     .usual_high = mass->prior.high});
   }
   return out;
 }
@@ -169,8 +168,7 @@ ResonanceExplanation explain(const ResonanceEffects& effects, const ResonanceGap
     return out;
   }
   out.parameters = needed_values(effects, gap, *point);
-  out.inside_usual_range = std::all_of(out.parameters.begin(), out.parameters.end(),
-                                       [](const NeededValue& value) { return value.inside; });
+  out.inside_usual_range = std::ranges::all_of(out.parameters, &NeededValue::inside);
   out.damping_left = gap.damping_left(point->change);
   out.note = note_of(effects, out);
   if (effects.size() == 1 && out.effects.front() == "stiffness")
@@ -192,9 +190,7 @@ ResonanceExplanation without_effects(const ResonanceGap& gap, const std::size_t 
                        .value = *gap.damping_change,
                        .usual_low = 0.3,
                        .usual_high = 3.}};
-    NeededValue& ratio = out.parameters.front();
-    ratio.inside = ratio.value >= ratio.usual_low && ratio.value <= ratio.usual_high;
-    out.inside_usual_range = ratio.inside;
+    out.inside_usual_range = out.parameters.front().inside();
   }
   if (!gap.frequencies_agree()) out.note = "the frequencies differ by more than their deviation";
   return out;
@@ -239,6 +235,23 @@ std::vector<ResonanceExplanation> all_explanations(const ResonanceGap& gap,
 }
 
 }  // namespace
+
+ResonanceModel resonance_model_from(const signals::ReducedModel& model, const double simulated_hz) {
+  constexpr double same_sensor = 0.1;
+  const NominalModel nominal = nominal_from(model);
+  const double hz = nominal.modes.front().frequency_rad_s / (2. * std::numbers::pi);
+  if (!(std::abs(hz / simulated_hz - 1.) <= same_sensor))
+    throw signals::UserError("model '" + model.name + "' has its first resonance at " +
+                             three_digits(hz) + " Hz, but the simulated resonance is given as " +
+                             three_digits(simulated_hz) + " Hz: give the model that belongs to it");
+  ResonanceModel out{.joint_share = nominal.joint_share,
+                     .joint_share_deviation = nominal.joint_share_deviation,
+                     .silicone_modulus_pa = std::nullopt};
+  for (const signals::Sensitivity& sensitivity : model.sensitivities)
+    if (sensitivity.parameter == "silicone_modulus" && sensitivity.nominal_value > 0.)
+      out.silicone_modulus_pa = sensitivity.nominal_value;
+  return out;
+}
 
 std::string ResonanceExplanation::name() const {
   return joined_name(effects);

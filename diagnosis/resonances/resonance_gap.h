@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnosis/planning/next_experiment.h"
+#include "signals/model/reduced_model.h"
 
 namespace vibrissa::diagnosis {
 
@@ -26,13 +27,20 @@ struct ResonanceModel {
   std::optional<double> silicone_modulus_pa = 2.04e6;
 };
 
+/// The silicone's share in the compliance of the first mode and its modulus, from a model of this
+/// program, when the model has that sensitivity. Throws UserError when the model's first mode
+/// differs from the simulated frequency by more than a tenth: the model then belongs to another
+/// sensor. Proven by tests/diagnosis/resonances/resonance_model_test.cc.
+ResonanceModel resonance_model_from(const signals::ReducedModel& model, double simulated_hz);
+
 /// The value that an explanation needs for one parameter.
 struct NeededValue {
   std::string effect{}, name{}, unit{};
   double value = 0.;
   std::optional<std::array<double, 2>> ci95{};  // from the standard deviations of the resonances
   double usual_low = 0., usual_high = 0.;
-  bool inside = false;
+
+  bool inside() const { return value >= usual_low && value <= usual_high; }
 };
 
 /// Effects that together change the simulated resonance to the measured one.

@@ -1,51 +1,43 @@
 #include "diagnosis/resonances/resonance_gap_text.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "diagnosis/model/hypothesis.h"
+#include "diagnosis/model/json.h"
 #include "diagnosis/model/words.h"
 #include "signals/base/number_text.h"
 
 namespace vibrissa::diagnosis {
+
+static void to_json(Json& out, const ResonanceData& data) {
+  out = {{"frequency_hz", data.frequency_hz},
+         {"frequency_relative_deviation", data.relative_deviation},
+         {"damping_ratio", data.damping_ratio},
+         {"damping_relative_deviation", data.damping_relative_deviation}};
+}
+
+static void to_json(Json& out, const NeededValue& value) {
+  out = {{"effect", value.effect},
+         {"name", value.name},
+         {"value", value.value},
+         {"unit", value.unit},
+         {"ci95", value.ci95},
+         {"usual_range", {value.usual_low, value.usual_high}},
+         {"inside_usual_range", value.inside()}};
+}
+
+static void to_json(Json& out, const ResonanceExplanation& explanation) {
+  out = {{"effect", explanation.name()},
+         {"effects", explanation.effects},
+         {"odds", explanation.odds},
+         {"possible", explanation.possible},
+         {"parameters", explanation.parameters},
+         {"inside_usual_range", explanation.inside_usual_range},
+         {"damping_ratio_left", explanation.damping_left},
+         {"note", explanation.note}};
+}
+
 namespace {
-
-using json = nlohmann::ordered_json;
-
-template <typename T>
-json optional(const std::optional<T>& value) {
-  return value ? json(*value) : json(nullptr);
-}
-
-json data_json(const ResonanceData& data) {
-  return {{"frequency_hz", data.frequency_hz},
-          {"frequency_relative_deviation", data.relative_deviation},
-          {"damping_ratio", optional(data.damping_ratio)},
-          {"damping_relative_deviation", data.damping_relative_deviation}};
-}
-
-json value_json(const NeededValue& value) {
-  return {{"effect", value.effect},
-          {"name", value.name},
-          {"value", value.value},
-          {"unit", value.unit},
-          {"ci95", optional(value.ci95)},
-          {"usual_range", {value.usual_low, value.usual_high}},
-          {"inside_usual_range", value.inside}};
-}
-
-json explanation_json(const ResonanceExplanation& explanation) {
-  json parameters = json::array();
-  for (const NeededValue& value : explanation.parameters) parameters.push_back(value_json(value));
-  return {{"effect", explanation.name()},
-          {"effects", explanation.effects},
-          {"odds", explanation.odds},
-          {"possible", explanation.possible},
-          {"parameters", parameters},
-          {"inside_usual_range", explanation.inside_usual_range},
-          {"damping_ratio_left", optional(explanation.damping_left)},
-          {"note", explanation.note}};
-}
 
 bool is_combination(const ResonanceExplanation& explanation) {
   return explanation.effects.size() > 1;
@@ -65,10 +57,10 @@ std::string explanation_line(const ResonanceExplanation& explanation) {
   if (!values.empty()) text += ": " + joined(values, ", ");
   for (const NeededValue& value : explanation.parameters)
     // The modal ratio follows from the modulus.
-    if (!value.inside ||
+    if (!value.inside() ||
         (&value == &explanation.parameters.back() && explanation.effects.size() == 1))
       if (value.name != "mass_ratio")
-        text += std::string(value.inside ? ", usual " : ", outside ") +
+        text += std::string(value.inside() ? ", usual " : ", outside ") +
                 three_digits(value.usual_low) + " .. " + three_digits(value.usual_high);
   if (explanation.damping_left) text += "; damping x " + three_digits(*explanation.damping_left);
   return text;
@@ -134,25 +126,18 @@ std::string resonance_line(const ResonanceDiagnosis& diagnosis) {
 
 }  // namespace
 
-json resonance_gap_json(const ResonanceDiagnosis& diagnosis) {
-  json explanations = json::array();
-  for (const ResonanceExplanation& e : diagnosis.explanations)
-    explanations.push_back(explanation_json(e));
+Json resonance_gap_json(const ResonanceDiagnosis& diagnosis) {
   return {{"schema", "vibrissa-resonance-gap-1"},
-          {"simulated", data_json(diagnosis.simulated)},
-          {"measured", data_json(diagnosis.measured)},
+          {"simulated", diagnosis.simulated},
+          {"measured", diagnosis.measured},
           {"silicone_share_of_compliance", diagnosis.model.joint_share},
           {"silicone_share_deviation", diagnosis.model.joint_share_deviation},
-          {"silicone_modulus_pa", optional(diagnosis.model.silicone_modulus_pa)},
+          {"silicone_modulus_pa", diagnosis.model.silicone_modulus_pa},
           {"modal_ratio", diagnosis.modal_ratio},
           {"verdict", diagnosis.verdict},
-          {"explanations", explanations},
+          {"explanations", diagnosis.explanations},
           {"confidence_set", diagnosis.confidence_set},
-          {"next_experiment",
-           {{"name", diagnosis.next.name},
-            {"why", diagnosis.next.why},
-            {"would_separate", diagnosis.next.would_separate},
-            {"split_probability", diagnosis.next.split_probability}}}};
+          {"next_experiment", diagnosis.next}};
 }
 
 std::string resonance_gap_text(const ResonanceDiagnosis& diagnosis) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/prediction/chain_simulation.h"
-#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
 
 namespace vibrissa::diagnosis {

@@ -37,9 +37,7 @@ class Inputs {
     std::vector<double> acceleration, wind;
   };
   static double rms(const std::vector<double>& x) {
-    double sum = 0.;
-    for (const double v : x) sum += v * v;
-    return x.empty() ? 0. : std::sqrt(sum / static_cast<double>(x.size()));
+    return x.empty() ? 0. : std::sqrt(mean_square(x));
   }
   const Series& add(const PreparedRecord& record) {
     Series& series = series_[record.number];

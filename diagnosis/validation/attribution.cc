@@ -4,12 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 
 #include "diagnosis/prediction/chain_simulation.h"
-#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
-#include "diagnosis/validation/held_out.h"
 #include "signals/base/student.h"
 
 namespace vibrissa::diagnosis {
@@ -92,7 +92,14 @@ double sum(const BlockPowers& powers, const std::vector<std::size_t>& blocks) {
 
 std::vector<std::size_t> counted(const std::size_t n) {
   std::vector<std::size_t> out(n);
-  for (std::size_t i = 0; i < n; ++i) out[i] = i;
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  return out;
+}
+
+/// All flags have one value but one.
+std::vector<bool> but_one(const std::size_t n, const std::size_t one, const bool value) {
+  std::vector<bool> out(n, value);
+  out[one] = !value;
   return out;
 }
 
@@ -113,11 +120,9 @@ std::vector<std::size_t> players_of(ErrorOfChanges& errors, const double reducib
   const double of_all = sum(errors.with(all), blocks), of_none = sum(errors.with(none), blocks);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t c = 0; c < n; ++c) {
-    std::vector<bool> but = all, alone = none;
-    but[c] = false;
-    alone[c] = true;
-    const double matters = std::max(std::abs(sum(errors.with(but), blocks) - of_all),
-                                    std::abs(of_none - sum(errors.with(alone), blocks)));
+    const double matters =
+        std::max(std::abs(sum(errors.with(but_one(n, c, true)), blocks) - of_all),
+                 std::abs(of_none - sum(errors.with(but_one(n, c, false)), blocks)));
     if (matters > least * reducible) order.emplace_back(-matters, c);
   }
   std::sort(order.begin(), order.end());
@@ -191,7 +196,8 @@ Attribution attribute_gap(const Experiment& fitted_on, const Experiment& records
   Attribution out;
   ErrorOfChanges errors(fitted_on, records, fit);
   const std::size_t n = errors.changes().size();
-  const ErrorScore score = score_held_out(fitted_on, records, fit, {.n_resamples = 0}).overall;
+  out.error = score_held_out(fitted_on, records, fit, {.n_resamples = 0}).overall;
+  const ErrorScore& score = out.error;
   const BlockPowers before = errors.with(std::vector<bool>(n, false));
   const std::vector<std::size_t> blocks = counted(before.size());
   const double whole = sum(before, blocks),
@@ -205,9 +211,8 @@ Attribution attribute_gap(const Experiment& fitted_on, const Experiment& records
   const std::vector<double> shares = shares_in(errors, players, blocks, reducible);
   for (std::size_t p = 0; p < players.size(); ++p) {
     const Effect& effect = *errors.changes()[players[p]];
-    std::vector<bool> alone(n, false), but(n, true);
-    alone[players[p]] = true;
-    but[players[p]] = false;
+    const std::vector<bool> alone = but_one(n, players[p], false),
+                            but = but_one(n, players[p], true);
     const bool nuisance = !fit.hypothesis.contains(effect.id);
     out.changes.push_back({.id = effect.id,
                            .calibration = effect.calibration,

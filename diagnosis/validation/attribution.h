@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/validation/held_out.h"
 #include "diagnosis/validation/parameter_estimates.h"
 
 namespace vibrissa::diagnosis {
@@ -31,6 +32,7 @@ struct AttributedChange {
 /// Which change closes how much of the gap, in free simulation. Reducible gap: mean square error of
 /// the nominal model minus that of the noise, both relative to the measured moment.
 struct Attribution {
+  ErrorScore error{};  // of the whole fit, in these records
   double reducible = 0.;
   std::vector<AttributedChange> changes{};  // largest share first
   double unexplained = 0.;                  // share of the reducible gap that is left

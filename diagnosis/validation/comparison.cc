@@ -1,9 +1,13 @@
 #include "diagnosis/validation/comparison.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "diagnosis/prediction/chain_simulation.h"
-#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/prediction/linear_response.h"
+#include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
 
 namespace vibrissa::diagnosis {
@@ -17,6 +21,33 @@ const PreparedRecord* strongest_periodic(const Experiment& experiment) {
       best = &record;
   }
   return best;
+}
+
+constexpr double lowest_share = 0.2, highest_share = 4.;
+
+const PreparedRecord* moved_record(const Experiment& experiment) {
+  for (const PreparedRecord& record : experiment.records)
+    if (record.excitation.base && record.magnet) return &record;
+  return nullptr;
+}
+
+/// Magnitude of the reading per base acceleration.
+double gain_at(const LinearResponse& response, const signals::Readout readout,
+               const double frequency_hz) {
+  const LinearPart part = response.at({0., 2. * std::numbers::pi * frequency_hz}, readout);
+  return std::abs(part.base * part.sensor);
+}
+
+std::optional<double> peak_hz(const LinearResponse& response, const signals::Readout readout,
+                              const double low_hz, const double high_hz) {
+  constexpr int n = 4000;
+  const double step = std::log(high_hz / low_hz) / n;
+  std::vector<double> size;
+  for (int i = 0; i <= n; ++i)
+    size.push_back(gain_at(response, readout, low_hz * std::exp(step * i)));
+  const auto peak = std::max_element(size.begin(), size.end());
+  if (peak == size.begin() || peak == size.end() - 1) return std::nullopt;
+  return low_hz * std::exp(step * static_cast<double>(peak - size.begin()));
 }
 
 }  // namespace
@@ -55,6 +86,26 @@ TraceComparison compare_trace(const Experiment& fitted_on, const Experiment& hel
     return out;
   }
   return out;
+}
+
+std::optional<ResonanceChange> resonance_change(const Experiment& experiment,
+                                                const UpdatedModel& fitted) {
+  const PreparedRecord* const record = moved_record(experiment);
+  if (record == nullptr || experiment.nominal.modes.empty()) return std::nullopt;
+  const Chain simulated_chain = experiment.nominal_chain(), measured_chain = fitted.chain();
+  const LinearResponse simulated(simulated_chain), measured(measured_chain);
+  const double mode_hz = experiment.nominal.modes.front().frequency_rad_s / (2. * std::numbers::pi);
+  double highest_hz = 0.;
+  for (const PreparedRecord& other : experiment.records)
+    highest_hz = std::max(highest_hz, 0.5 * other.sampling_rate_hz);
+  highest_hz = std::min(highest_hz, highest_share * mode_hz);
+  const auto simulated_hz = peak_hz(simulated, record->readout, lowest_share * mode_hz, highest_hz),
+             measured_hz = peak_hz(measured, record->readout, lowest_share * mode_hz, highest_hz);
+  if (!simulated_hz || !measured_hz) return std::nullopt;
+  const double slow_hz = lowest_share * *simulated_hz;
+  return ResonanceChange{
+      *simulated_hz, *measured_hz,
+      gain_at(measured, record->readout, slow_hz) / gain_at(simulated, record->readout, slow_hz)};
 }
 
 }  // namespace vibrissa::diagnosis

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "diagnosis/fit/hypothesis_fit.h"
+#include "diagnosis/records/experiment.h"
 
 namespace vibrissa::diagnosis {
 
@@ -31,5 +33,18 @@ ResponseComparison compare_response(const Experiment& experiment, const Hypothes
 /// experiment of the fit.
 TraceComparison compare_trace(const Experiment& fitted_on, const Experiment& held_out,
                               const HypothesisFit& fit);
+
+/// Peak frequency of the response to base acceleration, and its gain well below the peak: of the
+/// simulation and of the updated model.
+struct ResonanceChange {
+  double simulated_hz = 0., measured_hz = 0.;
+  double slow_gain_ratio = 1.;  // measured / simulated, at a fifth of the simulated peak frequency
+};
+
+/// fitted: the updated model. Peaks are searched between a fifth and four times the first mode's
+/// frequency, below half the highest sampling rate. Nothing without a mode, without base motion, or
+/// without a peak. Proven by tests/diagnosis/validation/resonance_change_test.cc.
+std::optional<ResonanceChange> resonance_change(const Experiment& experiment,
+                                                const UpdatedModel& fitted);
 
 }  // namespace vibrissa::diagnosis

@@ -9,7 +9,7 @@
 
 #include "diagnosis/fit/noise_levels.h"
 #include "diagnosis/prediction/chain_simulation.h"
-#include "diagnosis/records/evaluated_samples.h"
+#include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/error.h"
 #include "signals/base/student.h"
@@ -145,6 +145,12 @@ void add(Block& sum, const Block& b, double moment_factor = 1., double accelerat
   sum.floor.own += b.floor.own;
 }
 
+Block total(const std::vector<Block>& blocks) {
+  Block sum;
+  for (const Block& block : blocks) add(sum, block);
+  return sum;
+}
+
 std::optional<double> gap_closed(const Block& sum) {
   const double floor = sum.floor.moment + sum.floor.acceleration;
   if (!(sum.before > floor)) return std::nullopt;
@@ -187,18 +193,16 @@ std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
                                median + factor * (quantile(0.975) - median)};
 }
 
-std::optional<VibrationLeft> vibration_left(const std::vector<Block>& blocks) {
-  Block sum;
-  for (const Block& block : blocks) add(sum, block);
+std::optional<BeforeAfter> vibration_left_db(const std::vector<Block>& blocks) {
+  const Block sum = total(blocks);
   if (!(sum.measured > 0.)) return std::nullopt;
   const auto db = [&](double power) { return 10. * std::log10(power / sum.measured); };
-  return VibrationLeft{db(sum.before), db(sum.after)};
+  return BeforeAfter{db(sum.before), db(sum.after)};
 }
 
 ErrorScore score(const std::string& name, const std::vector<Block>& blocks,
                  const NoiseLevels& levels, const HeldOutOptions& options) {
-  Block sum;
-  for (const Block& block : blocks) add(sum, block);
+  const Block sum = total(blocks);
   const double floor = sum.floor.moment + sum.floor.acceleration;
   const auto relative = [&](double square) { return std::sqrt(square / sum.measured); };
   ErrorScore out{.record = name,
@@ -213,7 +217,8 @@ ErrorScore score(const std::string& name, const std::vector<Block>& blocks,
 
 std::vector<Block> blocks_of(const PreparedRecord& record, const Samples& before,
                              const Samples& after, const Samples& measured, std::size_t first,
-                             const FloorParts& floor, double block_s) {
+                             const FloorParts& floor) {
+  constexpr double block_s = 0.25;
   const auto length = std::max<std::size_t>(
       1, static_cast<std::size_t>(std::lround(block_s * record.sampling_rate_hz)));
   std::vector<Block> blocks;
@@ -263,13 +268,12 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
     FloorParts floor = floor_parts(record, prediction, chain, levels.moment.variance,
                                    levels.acceleration.variance);
     if (out.not_predictable.empty()) floor.own = 0.;
-    const std::vector<Block> blocks =
-        blocks_of(record, before, after, measured, first, floor, options.block_s);
+    const std::vector<Block> blocks = blocks_of(record, before, after, measured, first, floor);
     out.records.push_back(score(record.name, blocks, levels, options));
     all.insert(all.end(), blocks.begin(), blocks.end());
     if (!record.excitation.wind) of_base.insert(of_base.end(), blocks.begin(), blocks.end());
   }
-  out.vibration_left = vibration_left(of_base);
+  out.vibration_left_db = vibration_left_db(of_base);
   if (all.empty()) throw signals::UserError("every held_out record is at rest: nothing to score");
   if (ramp) {
     std::erase(out.not_predictable, "sensor_drift");

@@ -26,16 +26,16 @@ struct ErrorScore {
   std::optional<std::array<double, 2>> gap_closed_ci95{};
 };
 
-/// Vibration left after subtracting the prediction, in records with base motion only [dB relative
-/// to the measured moment].
-struct VibrationLeft {
-  double before_db = 0.;  // prediction by the nominal model
-  double after_db = 0.;   // prediction by the fit's chain
+/// A quantity with the simulation as it was given, and with the updated one.
+struct BeforeAfter {
+  double before = 0., after = 0.;
 };
 
 struct HeldOutScore {
   ErrorScore overall{};
-  std::optional<VibrationLeft> vibration_left{};  // nothing: no record with base motion only
+  /// Vibration left after subtracting the prediction, relative to the measured moment; nothing
+  /// without a record with base motion only.
+  std::optional<BeforeAfter> vibration_left_db{};
   std::vector<ErrorScore> records{};
   /// Irreducible effects whose time course was estimated from the first half of each record. With
   /// hum or sensor_drift in the fit only the second halves are scored.
@@ -45,7 +45,6 @@ struct HeldOutScore {
 };
 
 struct HeldOutOptions {
-  double block_s = 0.25;
   std::size_t n_resamples = 500;
   std::uint64_t seed = 1;
 };

@@ -80,8 +80,7 @@ class Directions {
       const FitParameter& fit_parameter = fit.fit_parameters[i];
       const auto index = static_cast<Eigen::Index>(i);
       Eigen::VectorXd x = fit.x;
-      double h = fit_parameter.description.step;
-      if (x(index) + h > fit_parameter.description.prior.high) h = -h;
+      const double h = fit_parameter.description.step_at(x(index));
       x(index) += h;
       columns.push_back(changes_.of(noisy_chain(experiment, fit.fit_parameters, x)) / h);
       list_.push_back(
@@ -162,27 +161,16 @@ class Sets {
   std::vector<bool> free_;
 };
 
-/// The hypothesis with one effect replaced by another.
-std::string exchanged(const Hypothesis& hypothesis, const Effect& effect,
-                      const Effect& alternative) {
-  return hypothesis.without(effect).with(alternative).name();
-}
-
 /// Effects whose own fit is as good as that of the named effect in the best fit.
 void add_refitted(const SearchResult& result, const HypothesisFit& best, const Effect& effect,
                   std::vector<std::vector<std::string>>& sets) {
   for (const Effect& alternative : effect_catalogue()) {
     if (best.hypothesis.contains(alternative.id)) continue;
-    const std::string name = exchanged(best.hypothesis, effect, alternative);
+    const std::string name = best.hypothesis.without(effect).with(alternative).name();
     for (const HypothesisFit& fit : result.fits)
       if (fit.hypothesis.name() == name && best.log_likelihood - fit.log_likelihood < enough_nats)
         sets.push_back({effect.id, alternative.id});
   }
-}
-
-/// Removes duplicates.
-void add_new(std::vector<std::vector<std::string>>& sets, std::vector<std::string> set) {
-  if (std::find(sets.begin(), sets.end(), set) == sets.end()) sets.push_back(std::move(set));
 }
 
 }  // namespace
@@ -200,7 +188,7 @@ std::vector<std::vector<std::string>> indistinguishable_sets(const Experiment& e
     const Effect& effect = find_effect(id);
     Eigen::VectorXd change = directions.change_of(effect, experiment, best);
     for (std::vector<std::string>& set : Sets(directions, effect, std::move(change)).run())
-      if (set.size() > 1) add_new(sets, std::move(set));
+      if (set.size() > 1 && std::ranges::count(sets, set) == 0) sets.push_back(std::move(set));
   }
   return sets;
 }

@@ -6,40 +6,22 @@
 #include "diagnosis/model/words.h"
 
 namespace vibrissa::diagnosis {
-namespace {
-
-std::string reason_of(Lack lack) {
-  switch (lack) {
-    case Lack::wind:
-      return "no usable fit record with wind";
-    case Lack::base:
-      return "no usable fit record with base motion";
-    case Lack::cross:
-      return "cross_acceleration_m_s2 is not measured";
-    case Lack::modes:
-      return "the simulation has no mode";
-    case Lack::duration:
-      return "the records with motion are too short";
-    case Lack::band:
-      return "the base does not move at its frequencies";
-    case Lack::repeats:
-      break;
-  }
-  return "";
-}
-
-}  // namespace
 
 std::vector<UntestedEffect> untested_effects(const Experiment& experiment) {
+  // In the order of Lack. Where no sample repeats, the effect is excluded and not untested.
+  constexpr const char* reasons[] = {"no usable fit record with base motion",
+                                     "no usable fit record with wind",
+                                     "cross_acceleration_m_s2 is not measured",
+                                     "",
+                                     "the simulation has no mode",
+                                     "the records with motion are too short",
+                                     "the base does not move at its frequencies"};
   std::vector<UntestedEffect> out;
   for (const Effect& effect : effect_catalogue()) {
     const std::vector<Lack> lack = lacks(experiment, effect);
-    const auto has = [&](Lack one) {
-      return std::find(lack.begin(), lack.end(), one) != lack.end();
-    };
-    // Where no sample repeats, the effect is excluded and not untested.
-    if (lack.empty() || has(Lack::repeats)) continue;
-    out.push_back({effect.id, reason_of(has(Lack::wind) ? Lack::wind : lack.front())});
+    if (lack.empty() || std::ranges::count(lack, Lack::repeats) > 0) continue;
+    const Lack first = std::ranges::count(lack, Lack::wind) > 0 ? Lack::wind : lack.front();
+    out.push_back({effect.id, reasons[static_cast<std::size_t>(first)]});
   }
   return out;
 }

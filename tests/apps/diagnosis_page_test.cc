@@ -36,7 +36,7 @@ diagnosis::Diagnosis example() {
   d.ranking = {first,
                {.name = "stiffness", .probability = 0.1},
                {.name = "delay", .probability = 1e-6, .parameters = {{"delay", "time", "s"}}}};
-  d.wind_speed = {.before_m_s = 0.15, .after_m_s = 0.012};
+  d.wind_speed_error_m_s = {.before = 0.15, .after = 0.012};
   d.findings = {{diagnosis::FindingKind::clipped_channel, hostile, "is clipped"}};
   d.next = {.name = "wide_band", .why = "it splits", .split_probability = 0.4};
   d.trace = {.record = hostile};

@@ -29,8 +29,7 @@ Diagnosis example() {
                .p_value = 1e-9}},
       .bands_hz = {{33., 41.}},
       .mode = 1,
-      .level_exponent = 0.,
-      .level_exponent_deviation = 0.1,
+      .level_exponent = LevelExponent{0., 0.1},
       .channels = {"base"},
       .links = {"structure"}};
   out.verdict = "delay+stiffness";
@@ -74,10 +73,10 @@ TEST(DiagnosisJson, TellsTheErrorOfTheWindSpeedWhereThereIsOne) {
   Diagnosis diagnosis = example();
   EXPECT_TRUE(nlohmann::json::parse(diagnosis_json(diagnosis))["wind_speed_error_m_s"].is_null());
   EXPECT_TRUE(nlohmann::json::parse(diagnosis_json(diagnosis))["separation_sdr_db"].is_null());
-  diagnosis.separation = SeparationQuality{3.5, 21.};
+  diagnosis.separation_sdr_db = BeforeAfter{3.5, 21.};
   EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["separation_sdr_db"],
             (nlohmann::json{{"before", 3.5}, {"after", 21.}}));
-  diagnosis.wind_speed = WindSpeedError{0.4, 0.05};
+  diagnosis.wind_speed_error_m_s = BeforeAfter{0.4, 0.05};
   EXPECT_EQ(nlohmann::json::parse(diagnosis_json(diagnosis))["wind_speed_error_m_s"],
             nlohmann::json({{"before", 0.4}, {"after", 0.05}}));
   EXPECT_THAT(unwrapped(verdict_text(diagnosis)),

@@ -1,4 +1,4 @@
-#include "diagnosis/material_estimates.h"
+#include "diagnosis/validation/parameter_estimates.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "diagnosis/model/updated_model_json.h"
+#include "diagnosis/model/updated_model.h"
 #include "signals/base/error.h"
 #include "tests/fuzz/file_of_bytes.h"
 

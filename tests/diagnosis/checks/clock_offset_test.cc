@@ -25,7 +25,7 @@ TEST(ClockOffset, OfTwoLoggersIsFoundAndUndone) {
     test::OneModeRig rig = test::noisy_rig();
     rig.stiffness = stiffness;
     const AlignedDataset aligned = align_clocks(nominal, two_loggers(50, rig));
-    EXPECT_TRUE(aligned.is_shifted);
+    EXPECT_TRUE(aligned.is_shifted());
     ASSERT_EQ(aligned.findings.size(), 3u);
     EXPECT_EQ(aligned.findings.front().kind, FindingKind::two_clocks);
     EXPECT_THAT(aligned.findings.front().message, testing::HasSubstr("s later than"));
@@ -50,7 +50,7 @@ TEST(ClockOffset, IsNoneOnOneClockWhateverTheSensorIs) {
       rig.stiffness = stiffness;
       rig.cubic = cubic;
       rig.delay_s = 2e-3;
-      EXPECT_FALSE(align_clocks(nominal, test::rig_dataset(rig)).is_shifted)
+      EXPECT_FALSE(align_clocks(nominal, test::rig_dataset(rig)).is_shifted())
           << stiffness << " " << cubic;
     }
 }

@@ -1,4 +1,4 @@
-#include "diagnosis/checks/dead_channels.h"
+#include "diagnosis/checks/data_checks.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include "diagnosis/model/effect.h"
 #include "diagnosis/prediction/chain_simulation.h"
@@ -124,9 +126,7 @@ TEST_P(EffectOfTheCatalogue, StartsWithinTheBoundsOfItsPriors) {
 
 TEST_P(EffectOfTheCatalogue, SaysWhatItIs) {
   const Effect& effect = find_effect(GetParam());
-  EXPECT_FALSE(effect.equation.empty());
   EXPECT_FALSE(effect.source.empty());
-  EXPECT_FALSE(effect.confused_with.empty());
   EXPECT_FALSE(to_string(effect.link).empty());
   for (const Parameter& parameter : effect.parameters) {
     EXPECT_FALSE(parameter.name.empty());
@@ -137,6 +137,20 @@ TEST_P(EffectOfTheCatalogue, SaysWhatItIs) {
         << effect.id << " " << parameter.name;
     EXPECT_LT(parameter.prior.low, parameter.prior.high);
   }
+}
+
+/// The entry has the equation (an indented line) and what distinguishes the effect.
+TEST_P(EffectOfTheCatalogue, HasAnEntryInThePage) {
+  std::ifstream file(std::string(VIBRISSA_SOURCE_DIR) + "/docs/effects.md");
+  std::ostringstream page;
+  page << file.rdbuf();
+  const std::string text = page.str();
+  const auto begin = text.find("### " + GetParam() + "\n");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string entry = text.substr(begin, text.find("\n## ", begin) - begin);
+  const std::string own = entry.substr(0, entry.find("\n### ", 1));
+  for (const char* const part : {"\n    ", "* Confused with: ", "* Source: "})
+    EXPECT_THAT(own, testing::HasSubstr(part));
 }
 
 std::vector<std::string> ids() {

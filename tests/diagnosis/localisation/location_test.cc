@@ -58,7 +58,7 @@ TEST(Location, PlacesASofterWhiskerAtItsModeUnderBaseMotionWithoutDistortion) {
   EXPECT_LT(location.bands_hz.front()[0], 33.);
   EXPECT_GT(location.bands_hz.back()[1], 35.);
   ASSERT_TRUE(location.level_exponent);
-  EXPECT_NEAR(*location.level_exponent, 0., 0.15);
+  EXPECT_NEAR(location.level_exponent->value, 0., 0.15);
   EXPECT_EQ(location.harmonics, Harmonics::none);
   EXPECT_FALSE(location.varies_in_time);
 }
@@ -70,7 +70,7 @@ TEST(Location, FindsOddDistortionThatGrowsWithTheSquareOfTheLevel) {
   EXPECT_THAT(location.channels, Contains("base"));
   EXPECT_EQ(location.harmonics, Harmonics::odd);
   ASSERT_TRUE(location.level_exponent);
-  EXPECT_GT(*location.level_exponent, 1.);
+  EXPECT_GT(location.level_exponent->value, 1.);
 }
 
 TEST(Location, TellsNoLevelExponentFromOneLevelOrWithoutAGap) {

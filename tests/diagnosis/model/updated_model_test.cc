@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/model/updated_model_json.h"
 #include "diagnosis/prediction/record_simulation.h"
 #include "signals/base/error.h"
 #include "tests/diagnosis/one_mode_rig.h"

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "diagnosis/planning/next_experiment.h"
-#include "diagnosis/planning/planned_menu.h"
 #include "signals/base/error.h"
 #include "tests/diagnosis/one_mode_rig.h"
 

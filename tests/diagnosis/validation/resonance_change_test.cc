@@ -1,4 +1,4 @@
-#include "diagnosis/validation/resonance_change.h"
+#include "diagnosis/validation/comparison.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/validation/separation_quality.h"
+#include "diagnosis/validation/wind_estimates.h"
 
 #include <gtest/gtest.h>
 
@@ -31,16 +31,16 @@ TEST(SeparationQualityTest, ATrueModelSeparatesWhatAWrongOneLeaves) {
   nominal.nominal.joint_share = 1.;
   UpdatedModel updated = nominal;
   updated.effects = {{.id = "stiffness", .values = {0.8, 0., 0.5}}};
-  const auto quality = separation_quality(nominal, updated, told_truth(rig));
+  const auto quality = separation_sdr_db(nominal, updated, told_truth(rig));
   ASSERT_TRUE(quality);
-  EXPECT_LT(quality->before_db, 3.);
-  EXPECT_GT(quality->after_db, 40.);
+  EXPECT_LT(quality->before, 3.);
+  EXPECT_GT(quality->after, 40.);
 }
 
 TEST(SeparationQualityTest, IsNothingWithoutTruth) {
   const UpdatedModel nominal = test::nominal_of(OneModeRig{}, true);
   EXPECT_FALSE(
-      separation_quality(nominal, nominal, test::rig_dataset(test::noisy_rig(), {.wind = true})));
+      separation_sdr_db(nominal, nominal, test::rig_dataset(test::noisy_rig(), {.wind = true})));
 }
 
 }  // namespace

@@ -1,15 +1,33 @@
-#include "diagnosis/validation/wind_speed_error.h"
+#include "diagnosis/validation/wind_estimates.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "diagnosis/prediction/record_simulation.h"
 #include "diagnosis/records/spectrum.h"
+#include "separation/metrics/metrics.h"
 
 namespace vibrissa::diagnosis {
 namespace {
 
 namespace channel = signals::channel;
+
+/// Visits held-out records with wind whose transients end, and their first sample after that.
+template <typename Visit>
+void for_each_windy(const signals::Dataset& real, const Visit& visit) {
+  constexpr double settling_s = 0.5;
+  for (const signals::DatasetRecord& entry : real.records) {
+    const auto first = static_cast<std::size_t>(settling_s * entry.record.sampling_rate_hz());
+    if (entry.split == signals::Split::held_out && entry.excitation.wind &&
+        first < entry.record.n_samples())
+      visit(entry, first);
+  }
+}
+
+std::optional<BeforeAfter> if_finite(const BeforeAfter& values) {
+  if (!std::isfinite(values.before) || !std::isfinite(values.after)) return std::nullopt;
+  return values;
+}
 
 /// Moment of a steady wind divided by u |u|, at the design wind speed [N m / (m/s)^2].
 double steady_drag(const UpdatedModel& model, double rate_hz) {
@@ -62,32 +80,48 @@ double square_error(std::span<const double> x, std::span<const double> truth, st
   return sum;
 }
 
+/// The measured moment minus the predicted vibration, without the first samples.
+void append_wind_estimate(const UpdatedModel& model, const signals::Record& record,
+                          std::size_t first, std::vector<double>& out) {
+  const std::vector<double> wind = subtract_vibration(model, record);
+  out.insert(out.end(), wind.begin() + static_cast<std::ptrdiff_t>(first), wind.end());
+}
+
 }  // namespace
 
-std::optional<WindSpeedError> wind_speed_error(const UpdatedModel& simulation,
-                                               const UpdatedModel& updated,
-                                               const signals::Dataset& real) {
-  // Transients have decayed by then.
-  constexpr double settling_s = 0.5;
+std::optional<BeforeAfter> wind_speed_error_m_s(const UpdatedModel& simulation,
+                                                const UpdatedModel& updated,
+                                                const signals::Dataset& real) {
   if (!simulation.nominal.has_wind) return std::nullopt;
   double before = 0., after = 0., n = 0.;
-  for (const signals::DatasetRecord& entry : real.records) {
-    if (entry.split != signals::Split::held_out || !entry.excitation.wind ||
-        !entry.record.has(channel::wind_speed))
-      continue;
-    const double rate_hz = entry.record.sampling_rate_hz();
-    const auto first = static_cast<std::size_t>(settling_s * rate_hz);
-    if (first >= entry.record.n_samples()) continue;
-    const std::size_t window = reach(simulation.nominal, rate_hz);
+  for_each_windy(real, [&](const signals::DatasetRecord& entry, std::size_t first) {
+    if (!entry.record.has(channel::wind_speed)) return;
+    const std::size_t window = reach(simulation.nominal, entry.record.sampling_rate_hz());
     const std::vector<double> truth = measured_speed(entry.record, window);
     before += square_error(wind_speed(simulation, entry.record, window), truth, first);
     after += square_error(wind_speed(updated, entry.record, window), truth, first);
     n += static_cast<double>(entry.record.n_samples() - first);
-  }
+  });
   if (n == 0.) return std::nullopt;
-  const WindSpeedError error{std::sqrt(before / n), std::sqrt(after / n)};
-  if (!std::isfinite(error.before_m_s) || !std::isfinite(error.after_m_s)) return std::nullopt;
-  return error;
+  return if_finite({std::sqrt(before / n), std::sqrt(after / n)});
+}
+
+std::optional<BeforeAfter> separation_sdr_db(const UpdatedModel& simulation,
+                                             const UpdatedModel& updated,
+                                             const signals::Dataset& real) {
+  if (!simulation.nominal.has_base) return std::nullopt;
+  std::vector<double> truth, before, after;
+  for_each_windy(real, [&](const signals::DatasetRecord& entry, std::size_t first) {
+    if (!entry.excitation.base || !entry.record.has(channel::base_acceleration) ||
+        !entry.record.has(channel::wind_moment))
+      return;
+    const auto wind = entry.record.channel(channel::wind_moment).subspan(first);
+    truth.insert(truth.end(), wind.begin(), wind.end());
+    append_wind_estimate(simulation, entry.record, first, before);
+    append_wind_estimate(updated, entry.record, first, after);
+  });
+  if (truth.empty()) return std::nullopt;
+  return if_finite({separation::sdr_db(truth, before), separation::sdr_db(truth, after)});
 }
 
 }  // namespace vibrissa::diagnosis

@@ -1,4 +1,3 @@
-#include "diagnosis/records/noise_at_bins.h"
 
 #include <gmock/gmock.h>
 

@@ -5,8 +5,12 @@
 #include <vector>
 
 #include "diagnosis/model/nominal_model.h"
+#include "signals/files/dataset.h"
 
 namespace vibrissa::diagnosis {
+
+/// Number of whole periods of a record; 1 where it is not periodic or its length is not a multiple.
+std::size_t n_periods(const signals::DatasetRecord& entry);
 
 /// Spectrum of an accelerometer's reading [m/s^2]; the lines below end show its noise.
 struct NoiseLines {
@@ -22,7 +26,21 @@ NoiseLines all_lines(std::span<const double> x);
 /// Excludes repeated samples and images of motion, which are not noise. With sample-and-hold
 /// repeats it uses the source's own series up to half the source's rate; with asynchronous sampling
 /// of a moving base, the series resampled to equal ages. Proven by
-/// tests/diagnosis/records/accelerometer_noise_test.cc.
+/// tests/diagnosis/records/channel_noise_test.cc.
 NoiseLines noise_lines(std::span<const double> reading, double rate_hz, bool moves);
+
+/// Usual accelerometer noise (ADXL345 at rest), standard deviation per sample [m/s^2];
+/// docs/theory.md (T15) gives 0.008 g as an upper bound.
+inline constexpr double usual_acceleration_noise = 0.05;
+
+/// Noise standard deviations per sample of both channels, from records at rest and from differences
+/// between periods; otherwise from the quietest part of the spectrum, which is an upper bound (for
+/// the acceleration at most the usual noise where no part is quiet). Proven by
+/// tests/diagnosis/records/experiment_test.cc.
+struct ChannelNoise {
+  double moment_n_m = 0., acceleration_m_s2 = 0.;
+  bool acceleration_is_measured = false;  // at rest or from repeats
+};
+ChannelNoise channel_noise(const signals::Dataset& dataset);
 
 }  // namespace vibrissa::diagnosis
