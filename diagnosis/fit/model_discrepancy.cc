@@ -6,7 +6,6 @@
 #include <map>
 #include <numbers>
 
-
 namespace vibrissa::diagnosis {
 namespace {
 
@@ -70,8 +69,7 @@ std::vector<Complex> quasi_static(const Experiment& experiment) {
   std::vector<Complex> out;
   for (const PreparedRecord& record : experiment.records) {
     std::vector<Complex> bins(record.n_bins());
-    if (!record.acceleration.empty())
-      bins = bins_of_lines(record, record.acceleration);
+    if (!record.acceleration.empty()) bins = bins_of_lines(record, record.acceleration);
     for (const Complex& value : bins) out.push_back(gain * value);
   }
   return out;

@@ -10,9 +10,11 @@ using Json = nlohmann::ordered_json;
 
 }  // namespace vibrissa::diagnosis
 
+namespace nlohmann {
+
 /// What is not there is null.
 template <typename T>
-struct nlohmann::adl_serializer<std::optional<T>> {
+struct adl_serializer<std::optional<T>> {
   template <typename J>
   static void to_json(J& out, const std::optional<T>& value) {
     if (value)
@@ -21,3 +23,5 @@ struct nlohmann::adl_serializer<std::optional<T>> {
       out = nullptr;
   }
 };
+
+}  // namespace nlohmann

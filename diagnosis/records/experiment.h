@@ -80,10 +80,10 @@ constexpr double power_without_cause(const double accuracy) {
   return 4. * accuracy * accuracy;
 }
 
-/// Power of the error, relative to the measured moment, below which nothing is sought: the first
-/// percentile of a simulation's accuracy, whose logarithm has the spread 1.
+/// Power of the error, relative to the measured moment, below which nothing is sought or named:
+/// 95 % of simulations of this accuracy, whose logarithm has the spread 1, have more.
 constexpr double least_error_power(const double accuracy) {
-  return 0.01 * accuracy * accuracy;
+  return 0.037 * accuracy * accuracy;
 }
 
 /// The prepared fit records of one sensor with the nominal model.
