@@ -73,11 +73,9 @@ void conclude(const FittedBvrm& fit, double explained_percent, const std::string
                        hertz(verdict.band.high_hz) + ": the model explains " + share + ".";
     return;
   }
-  if (!verdict.frequency_only.empty()) {
+  if (verdict.determined.empty() && !verdict.frequency_only.empty()) {
     verdict.sentence =
-        "Usable for the frequencies of resonances, not as a model: no damping is "
-        "resolved; the model explains " +
-        share + ".";
+        "Usable for the frequencies of resonances, not as a model: no damping is resolved.";
     return;
   }
   verdict.sentence = "Not usable: ";
@@ -165,7 +163,8 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
   return verdict;
 }
 
-Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& response) {
+Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& measured) {
+  const auto response = identified.conjugated ? conjugate_of(measured) : measured;
   Verdict verdict;
   verdict.band = {response.frequency_hz.front(), response.frequency_hz.back()};
   const bool exact = identified.held_out_fit_percent > 100. * (1. - exact_share);

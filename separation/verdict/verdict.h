@@ -36,6 +36,6 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
 /// two lines within its half-power width 2 zeta f has no damping that the lines tell, unless the
 /// model is exact; its frequency is told where the noise moves it by less than the lines are apart,
 /// and where its phase falls (phase_rises()).
-Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& response);
+Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& measured);
 
 }  // namespace vibrissa::separation

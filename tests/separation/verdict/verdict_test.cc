@@ -125,6 +125,15 @@ TEST(Verdict, TakesAPeakWhosePhaseRisesForNoResonance) {
   EXPECT_TRUE(verdict.frequency_only.empty());
   ASSERT_EQ(verdict.undetermined.size(), 1u);
   EXPECT_THAT(verdict.undetermined[0].reason, HasSubstr("the phase rises"));
+  EXPECT_TRUE(verdict.usable) << verdict.sentence;
+  // The sign convention of the file changes nothing.
+  for (const auto& response : {falling, conjugate_of(falling)}) {
+    const Verdict of_falling = judge(identify_response(response, {.order = 4}), response);
+    EXPECT_EQ(of_falling.determined.size(), 1u);
+    EXPECT_EQ(of_falling.frequency_only.size(), 1u);
+    EXPECT_TRUE(of_falling.undetermined.empty());
+    EXPECT_THAT(of_falling.sentence, StartsWith("Usable from"));
+  }
 }
 
 // An analyser's Hann window makes the lines beside a narrow peak, which looks like a second mode.
