@@ -80,6 +80,7 @@ TEST(UnusedOptions, OfModelsAndRecordsAreToldApart) {
       {"convert any.mat to.csv --separator tab", "--separator", "text tables"},
       {"check " + record + " --align motion", "--align", "--join"},
       {"check any.wav --decimal comma", "--decimal", "text tables"},
+      {"diagnose --sim x --real any.mat --separator tab", "--separator", "text tables"},
       {"convert " + record + " to.csv --mat-version 7.3", "--mat-version", ".mat"},
       {"excite --kind noise --grid odd", "--grid", "multisine"},
       {"excite --wav-format pcm24", "--wav-format", "--wav"},
