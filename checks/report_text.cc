@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "checks/numbered_reasons.h"
 #include "diagnosis/model/words.h"
 #include "signals/base/number_text.h"
 
@@ -51,7 +52,12 @@ std::string response_text(const ResponseFacts& response) {
   return wrapped(text);
 }
 
-std::string record_text(const RecordReport& report) {
+std::string number_text(const std::optional<std::size_t>& number) {
+  return number ? "[" + std::to_string(*number) + "] " : "";
+}
+
+std::string record_text(const RecordReport& report, const std::size_t place,
+                        const NumberedReasons& reasons) {
   std::string text =
       wrapped(report.name + ": " + signals::to_text(report.sampling_rate_hz) + " Hz, " +
               std::to_string(report.n_samples) + " samples, " + three_digits(report.duration_s) +
@@ -60,24 +66,29 @@ std::string record_text(const RecordReport& report) {
   for (const ChannelFacts& facts : report.channels) text += channel_text(facts);
   text += drive_text(report.drive);
   if (report.response && report.response->n_coherent > 0) text += response_text(*report.response);
-  for (const Finding& finding : report.findings)
-    text += wrapped("  " + to_string(finding.severity) + ": " + finding.sentence);
+  for (std::size_t i = 0; i < report.findings.size(); ++i)
+    text += wrapped("  " + number_text(reasons.of_finding(place, i)) +
+                    to_string(report.findings[i].severity) + ": " + report.findings[i].sentence);
   return text;
 }
 
 }  // namespace
 
 std::string check_text(const CheckResult& result) {
+  const NumberedReasons reasons(result);
   std::string text;
-  for (const RecordReport& report : result.records) text += record_text(report);
+  for (std::size_t i = 0; i < result.records.size(); ++i)
+    text += record_text(result.records[i], i, reasons);
   for (const std::string& guess : result.guesses) text += wrapped("guessed: " + guess);
   text += "\n";
   for (const CommandVerdict& verdict : result.serves) {
     std::string head = verdict.command;
     head.resize(10, ' ');
-    text += head + to_string(verdict.serves) + "\n";
-    for (const std::string& reason : verdict.reasons) text += wrapped("    - " + reason);
+    text += head + to_string(verdict.serves) +
+            (verdict.reasons.empty() ? "" : ": " + reasons.of_command(verdict)) + "\n";
   }
+  for (const auto& [number, sentence] : reasons.others())
+    text += wrapped("[" + std::to_string(number) + "] " + sentence);
   return text;
 }
 

@@ -29,13 +29,15 @@ sensor_case::Case read_case(const std::string& file, const std::vector<std::stri
   sensor_case::CaseOverrides options;
   options.case_file = file;
   options.settings = settings;
-  options.use = sensor_case::CaseUse::record;
+  // One list of settings serves both functions.
+  options.use = sensor_case::CaseUse::record_and_model;
   return options.load().read();
 }
 
 // Rate, start and channels of the record that `vibrissa simulate` writes.
 py::tuple simulate(const std::string& file, const std::vector<std::string>& settings) {
-  const sensor_case::Case parameters = read_case(file, settings);
+  sensor_case::Case parameters = read_case(file, settings);
+  parameters.sensor.model.sensitivities = false;  // only a model file holds them
   sensor_case::check_reduced_wind(parameters);
   sensor_case::refuse_gravity(parameters, "the reduced model");
   const sensor_case::Inputs inputs = sensor_case::make_inputs(parameters);

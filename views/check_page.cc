@@ -4,9 +4,11 @@
 #include <bit>
 #include <cmath>
 
+#include "checks/numbered_reasons.h"
 #include "diagnosis/model/words.h"
 #include "separation/verdict/coherence.h"
 #include "signals/base/number_text.h"
+#include "signals/record/channel_name.h"
 #include "signals/record/unusable_channel.h"
 #include "signals/spectra/frequency_response.h"
 
@@ -33,6 +35,12 @@ report::Curve trace_of(const signals::Record& record, const std::string& name) {
   return curve;
 }
 
+/// "m/s2", or 1 where the name states no unit.
+std::string density_unit(const std::string& name) {
+  const std::string unit = signals::unit_of_ending(signals::unit_at_the_end(name));
+  return unit.empty() ? "1" : unit;
+}
+
 void add_channel(const signals::Record& record, const std::string& name, report::Figure& figure) {
   if (signals::unusable_channel(record, name)) return;
   figure.panels.push_back(
@@ -46,7 +54,7 @@ void add_channel(const signals::Record& record, const std::string& name, report:
   for (const double density : spectrum.density) curve.y.push_back(std::sqrt(density));
   figure.panels.push_back({.title = "Spectrum of " + name,
                            .x_label = "Frequency [Hz]",
-                           .y_label = "per √Hz",
+                           .y_label = density_unit(name) + "/√Hz",
                            .log_y = true,
                            .curves = {std::move(curve)}});
 }
@@ -101,20 +109,28 @@ report::Table channel_table(const checks::RecordReport& record) {
   return table;
 }
 
-report::Table finding_table(const std::vector<checks::Finding>& findings) {
-  report::Table table({{"severity", ""},
+report::Table finding_table(const checks::RecordReport& record, const std::size_t place,
+                            const checks::NumberedReasons& reasons) {
+  report::Table table({{"number", ""},
+                       {"severity", ""},
                        {"kind", ""},
                        {"channel", ""},
                        {"value", ""},
                        {"unit", ""},
                        {"finding", ""}});
-  for (const checks::Finding& finding : findings)
-    table.add_row({checks::to_string(finding.severity), diagnosis::to_string(finding.kind),
+  for (std::size_t i = 0; i < record.findings.size(); ++i) {
+    const checks::Finding& finding = record.findings[i];
+    const auto number = reasons.of_finding(place, i);
+    table.add_row({number ? "[" + std::to_string(*number) + "]" : "",
+                   checks::to_string(finding.severity), diagnosis::to_string(finding.kind),
                    finding.channel, finding.value, finding.unit, finding.sentence});
+  }
   return table;
 }
 
-report::PageSection section_of(const checks::RecordReport& record, std::size_t number) {
+report::PageSection section_of(const checks::CheckResult& result, const std::size_t place,
+                               const std::size_t number) {
+  const checks::RecordReport& record = result.records[place];
   report::PageSection section{.heading = record.name,
                               .text = {signals::to_text(record.sampling_rate_hz) + " Hz, " +
                                        std::to_string(record.n_samples) + " samples, " +
@@ -126,9 +142,10 @@ report::PageSection section_of(const checks::RecordReport& record, std::size_t n
                             .caption = "Channels",
                             .table = channel_table(record)});
   if (!record.findings.empty())
-    section.tables.push_back({.name = "findings_" + std::to_string(number + 1),
-                              .caption = "Findings",
-                              .table = finding_table(record.findings)});
+    section.tables.push_back(
+        {.name = "findings_" + std::to_string(number + 1),
+         .caption = "Findings",
+         .table = finding_table(record, place, checks::NumberedReasons(result))});
   return section;
 }
 
@@ -148,10 +165,12 @@ std::string headline_of(std::span<const checks::CheckResult> results) {
 
 report::Table serves_table(std::span<const checks::CheckResult> results) {
   report::Table table({{"source", ""}, {"command", ""}, {"serves", ""}, {"reasons", ""}});
-  for (const checks::CheckResult& result : results)
+  for (const checks::CheckResult& result : results) {
+    const checks::NumberedReasons reasons(result);
     for (const checks::CommandVerdict& verdict : result.serves)
       table.add_row({result.source, verdict.command, checks::to_string(verdict.serves),
-                     diagnosis::joined(verdict.reasons, "; ")});
+                     reasons.of_command(verdict)});
+  }
   return table;
 }
 
@@ -173,15 +192,19 @@ report::Page check_page(std::span<const checks::CheckResult> results) {
   commands.tables.push_back({.name = "commands",
                              .caption = "Commands that the data serve",
                              .table = serves_table(results)});
-  for (const checks::CheckResult& result : results)
+  for (const checks::CheckResult& result : results) {
+    const checks::NumberedReasons reasons(result);
+    for (const auto& [reason, sentence] : reasons.others())
+      commands.text.push_back("[" + std::to_string(reason) + "] " + sentence + ".");
     for (const checks::Finding& finding : result.of_dataset)
-      commands.text.push_back(finding.sentence + ".");
+      if (!reasons.is_reason(finding.sentence)) commands.text.push_back(finding.sentence + ".");
+  }
   page.sections.push_back(std::move(commands));
   const std::vector<report::Figure> figures = check_plots(results);
   std::size_t number = 0;
   for (const checks::CheckResult& result : results)
-    for (const checks::RecordReport& record : result.records) {
-      page.sections.push_back(section_of(record, number));
+    for (std::size_t place = 0; place < result.records.size(); ++place) {
+      page.sections.push_back(section_of(result, place, number));
       for (const report::Figure& figure : figures)
         if (figure.name == figure_name(number)) page.sections.back().figures.push_back(figure);
       ++number;

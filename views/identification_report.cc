@@ -36,6 +36,14 @@ report::Table table_of(const std::vector<separation::ModeEstimate>& modes) {
   return table;
 }
 
+std::string frequency_text(const separation::Estimate& frequency_hz) {
+  return report::Cell(frequency_hz.value).rounded(6) +
+         (std::isfinite(frequency_hz.standard_deviation)
+              ? " ± " + report::Cell(frequency_hz.standard_deviation).rounded(2)
+              : "") +
+         " Hz";
+}
+
 }  // namespace
 
 report::Table identification_table(const separation::FittedBvrm& fit) {
@@ -47,13 +55,13 @@ std::string verdict_text(const separation::FittedBvrm& fit, const separation::Ve
   for (const std::size_t k : verdict.determined) modes.push_back(fit.modes[k]);
   std::string text = verdict.sentence + "\n";
   if (!modes.empty()) text += table_of(modes).to_text();
-  for (const auto& other : verdict.undetermined) {
-    const auto& mode = fit.modes[other.mode];
-    const double deviation = mode.frequency_hz.standard_deviation;
-    text += "not determined: " + report::Cell(mode.frequency_hz.value).rounded(6) +
-            (std::isfinite(deviation) ? " ± " + report::Cell(deviation).rounded(2) : "") +
-            " Hz, damping ratio " + report::Cell(mode.damping_ratio.value).rounded(4) + ": " +
-            other.reason + "\n";
+  for (const auto& entry : verdict.frequency_only)
+    text += "frequency only: " + frequency_text(fit.modes[entry.mode].frequency_hz) + ": " +
+            entry.reason + "\n";
+  for (const auto& entry : verdict.undetermined) {
+    const auto& mode = fit.modes[entry.mode];
+    text += "not determined: " + frequency_text(mode.frequency_hz) + ", damping ratio " +
+            report::Cell(mode.damping_ratio.value).rounded(4) + ": " + entry.reason + "\n";
   }
   return text;
 }

@@ -9,8 +9,8 @@ namespace vibrissa::views {
 
 report::Table identification_table(const separation::FittedBvrm& fit);
 
-/// The sentence of the verdict, the table of the determined modes, and a line for each pair of
-/// poles that is not determined.
+/// The sentence of the verdict, the table of the determined modes, a line for each resonance of
+/// which only the frequency is told and for each pair of poles that is not determined.
 std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict);
 
 /// One row per mode, and one row without damping for each undamped line.

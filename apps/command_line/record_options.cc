@@ -10,6 +10,7 @@
 
 #include "separation/clocks/joined_by_response.h"
 #include "signals/base/error.h"
+#include "signals/files/file_format.h"
 #include "signals/files/joined_recording.h"
 #include "signals/files/row_range.h"
 #include "signals/record/channel_name.h"
@@ -132,6 +133,7 @@ signals::ReadOptions RecordOptions::read_options() const {
 }
 
 signals::ReadOptions RecordOptions::options_of_each() const {
+  if (align && !join) throw signals::UserError("--align needs --join; leave it out");
   signals::ReadOptions options;
   options.sampling_rate_hz = rate_hz;
   options.remove_mean = remove_mean;
@@ -209,8 +211,22 @@ signals::Recording RecordOptions::read_joined(const std::string& file) const {
   return join_clocks(one, other);
 }
 
+void RecordOptions::refuse_unused(const std::string& file) const {
+  namespace formats = signals::formats;
+  const auto is_text = [](const std::string& name) {
+    return &formats::format_of(name) == &formats::file_formats().front();
+  };
+  if (is_text(file) || (join && is_text(*join))) return;
+  for (const auto& [name, is_given] : {std::pair{"--separator", separator.has_value()},
+                                       {"--decimal", decimal.has_value()},
+                                       {"--header-lines", header_lines.has_value()}})
+    if (is_given)
+      throw signals::UserError(std::string(name) + " is for text tables, and " + file +
+                               " is none; leave it out");
+}
+
 signals::Recording RecordOptions::read_pieces(const std::string& file) const {
-  if (align && !join) throw signals::UserError("--align needs --join; leave it out");
+  refuse_unused(file);
   signals::Recording recording =
       join ? read_joined(file) : signals::read_recording(file, options_of_each());
   if (!is_quiet()) say_how_read(file, recording.words);

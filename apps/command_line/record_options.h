@@ -34,6 +34,8 @@ struct RecordOptions {
   signals::Recording read_pieces(const std::string& file) const;
   /// What read_record is told. Throws UserError as read does, and for --join, which needs read().
   signals::ReadOptions read_options() const;
+  /// Throws UserError for options of a text table where the file is none.
+  void refuse_unused(const std::string& file) const;
   /// One further column of the same rows, in its own unit.
   std::vector<double> read_column(const std::string& file, const std::string& column) const;
 

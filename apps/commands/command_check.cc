@@ -24,6 +24,7 @@ struct CheckCommand {
 };
 
 checks::CheckResult check_source(const CheckCommand& options, const std::string& source) {
+  options.record.refuse_unused(source);
   if (!options.record.join) return checks::check_file(source, options.record.read_options());
   const signals::Recording recording = options.record.read_pieces(source);
   return checks::check_one(source, recording.pieces[recording.longest()], recording.words);

@@ -83,6 +83,7 @@ void diagnose_records(const DiagnoseCommand& options) {
   diagnosis::check_menu_names(options.possible_experiments);
   const bool show = options.common.is_talkative();
   options.simulation.check_one_is_given();
+  options.record.refuse_unused(*options.real);
   const signals::Dataset real = signals::read_dataset(*options.real, options.record.read_options());
   if (show)
     for (const std::string& reading : signals::short_readings(real.readings))

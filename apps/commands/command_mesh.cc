@@ -56,7 +56,9 @@ void print_audit(const meshes::MeshAudit& audit) {
 
 void audit(const MeshOptions& options) {
   refuse_overwriting({options.chosen.case_file}, {options.calculix_file});
-  const sensor_case::Case parameters = options.chosen.load().read();
+  CaseOptions chosen = options.chosen;
+  if (options.calculix_file) chosen.use = sensor_case::CaseUse::mesh_export;
+  const sensor_case::Case parameters = chosen.load().read();
   const auto materials = parameters.sensor.materials.by_region();
   dealii::Triangulation<3> mesh;
   if (parameters.sensor.model.mesh_file) {

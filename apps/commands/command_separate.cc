@@ -133,6 +133,7 @@ void separate_as_stream(const SeparateOptions& options) {
     throw signals::UserError(*options.model_file +
                              ": an updated model needs the whole record: leave --stream out, or "
                              "give a model of 'vibrissa identify'");
+  options.record.refuse_unused(options.record_file);
   signals::RecordStream record(options.record_file, options.record.read_options());
   std::vector<NamedSeparator> methods;
   if (options.model_file)

@@ -76,7 +76,11 @@ void simulate(const SimulateOptions& options) {
         "--inputs is for an updated model; a case file names its inputs itself");
   if (options.periodic)
     throw signals::UserError("--periodic belongs to --inputs of an updated model");
-  const sensor_case::Case parameters = options.chosen.load().read();
+  CaseOptions chosen = options.chosen;
+  if (options.model_file) chosen.use = sensor_case::CaseUse::record_and_model;
+  sensor_case::Case parameters = chosen.load().read();
+  // Only the model file holds them.
+  if (!options.model_file) parameters.sensor.model.sensitivities = false;
   refuse_overwriting(recordings_of(parameters), outputs);
   sensor_case::check_reduced_wind(parameters);
   sensor_case::refuse_gravity(parameters, "the reduced model");

@@ -104,11 +104,6 @@ SelectedOrder best_order(const FrequencyResponse& known, const FrequencyResponse
   return best;
 }
 
-FrequencyResponse conjugate_of(FrequencyResponse response) {
-  for (std::complex<double>& value : response.value) value = std::conj(value);
-  return response;
-}
-
 bool has_other_convention(const FrequencyResponse& measured,
                           const IdentifyResponseOptions& options) {
   constexpr std::size_t low_order = 6;
@@ -134,6 +129,11 @@ void widen_unresolved(const FrequencyResponse& response, FittedBvrm& fit) {
 }
 
 }  // namespace
+
+FrequencyResponse conjugate_of(FrequencyResponse response) {
+  for (std::complex<double>& value : response.value) value = std::conj(value);
+  return response;
+}
 
 double line_spacing_hz(const FrequencyResponse& response, const double at_hz) {
   const auto& f = response.frequency_hz;

@@ -39,6 +39,8 @@ struct IdentifiedResponse {
 IdentifiedResponse identify_response(const signals::FrequencyResponse& response,
                                      const IdentifyResponseOptions& options = {});
 
+/// The same response in the other sign convention.
+signals::FrequencyResponse conjugate_of(signals::FrequencyResponse response);
 /// Distance of the lines at a frequency [Hz].
 double line_spacing_hz(const signals::FrequencyResponse& response, double at_hz);
 /// Whether the peak of a mode is at least two lines wide at half power. Otherwise its lines are

@@ -58,14 +58,19 @@ void add_verdict(const Verdict& verdict, nlohmann::json& document) {
   document["verdict"] = verdict.sentence;
   document["band_hz"] = {verdict.band.low_hz, verdict.band.high_hz};
   const nlohmann::json all = document["modes"];
-  nlohmann::json modes = nlohmann::json::array(), others = nlohmann::json::array();
+  nlohmann::json modes = nlohmann::json::array();
   for (const std::size_t k : verdict.determined) modes.push_back(all[k]);
-  for (const UndeterminedMode& other : verdict.undetermined) {
-    others.push_back(all[other.mode]);
-    others.back()["reason"] = other.reason;
-  }
+  const auto with_reasons = [&](const std::vector<UndeterminedMode>& entries) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const UndeterminedMode& entry : entries) {
+      list.push_back(all[entry.mode]);
+      list.back()["reason"] = entry.reason;
+    }
+    return list;
+  };
   document["modes"] = std::move(modes);
-  document["not_determined"] = std::move(others);
+  document["frequency_only"] = with_reasons(verdict.frequency_only);
+  document["not_determined"] = with_reasons(verdict.undetermined);
 }
 
 nlohmann::json identified_response_json(const IdentifiedResponse& identified,

@@ -24,7 +24,8 @@ nlohmann::json identified_response_json(const IdentifiedResponse& identified,
 nlohmann::json identification_json(const Identification& identification);
 
 /// Adds "usable", "verdict" (the sentence), "band_hz" [low, high], and moves the modes that are not
-/// determined from "modes" to "not_determined", each with its "reason".
+/// determined from "modes" to "not_determined", those of which only the frequency is told to
+/// "frequency_only", each with its "reason".
 void add_verdict(const Verdict& verdict, nlohmann::json& document);
 
 /// {"modes": [{"frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd", "n_orders"}],

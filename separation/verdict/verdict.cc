@@ -4,9 +4,11 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "separation/identification/order_selection.h"
 #include "separation/verdict/coherence.h"
+#include "separation/verdict/peak_phase.h"
 #include "signals/spectra/frequency_response.h"
 
 namespace vibrissa::separation {
@@ -71,6 +73,11 @@ void conclude(const FittedBvrm& fit, double explained_percent, const std::string
                        hertz(verdict.band.high_hz) + ": the model explains " + share + ".";
     return;
   }
+  if (verdict.determined.empty() && !verdict.frequency_only.empty()) {
+    verdict.sentence =
+        "Usable for the frequencies of resonances, not as a model: no damping is resolved.";
+    return;
+  }
   verdict.sentence = "Not usable: ";
   if (explained_percent < 50.)
     verdict.sentence += explained_percent > 0. ? "the model explains only " + share
@@ -101,17 +108,35 @@ std::optional<std::string> reason_of_lines(const FittedBvrm& fit, const std::siz
   const ModeEstimate& mode = fit.modes[k];
   const double f = mode.frequency_hz.value;
   const double half_width = mode.damping_ratio.value * f, step = line_spacing_hz(response, f);
-  if (!is_resolved(mode, response))
+  if (!is_resolved(mode, response)) {
+    if (phase_rises(response, f))
+      return "the phase rises through this peak, and falls through a resonance of a sensor: the "
+             "moment vibrates there by itself or by another source; where the moment was recorded "
+             "in time, --output-only gives its frequency";
     return "the damping is not resolved: the peak is " + rounded(2. * half_width, 2) +
-           " Hz wide at half power, the lines are " + rounded(step, 3) +
-           " Hz apart; the frequency is found to +- " +
-           rounded(mode.frequency_hz.standard_deviation, 2) + " Hz";
+           " Hz wide at half power, the lines are " + rounded(step, 3) + " Hz apart";
+  }
   for (const ModeEstimate& other : fit.modes)
     if (!is_resolved(other, response) &&
         std::abs(other.frequency_hz.value - f) < half_width + 2. * step)
       return "it lies on the peak at " + hertz(other.frequency_hz.value) +
              ", which is narrower than the lines and so has the shape of the spectral window";
   return std::nullopt;
+}
+
+/// Takes the resonances whose frequency is told from those that are not determined.
+void set_frequencies_apart(const FittedBvrm& fit, const signals::FrequencyResponse& response,
+                           Verdict& verdict) {
+  std::vector<UndeterminedMode> others;
+  for (UndeterminedMode& entry : verdict.undetermined) {
+    const ModeEstimate& mode = fit.modes[entry.mode];
+    const Estimate& f = mode.frequency_hz;
+    const bool is_told = !reason_of_place(mode, verdict.band) && !is_resolved(mode, response) &&
+                         f.standard_deviation < line_spacing_hz(response, f.value) &&
+                         !phase_rises(response, f.value);
+    (is_told ? verdict.frequency_only : others).push_back(std::move(entry));
+  }
+  verdict.undetermined = std::move(others);
 }
 
 }  // namespace
@@ -138,7 +163,8 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
   return verdict;
 }
 
-Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& response) {
+Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& measured) {
+  const auto response = identified.conjugated ? conjugate_of(measured) : measured;
   Verdict verdict;
   verdict.band = {response.frequency_hz.front(), response.frequency_hz.back()};
   const bool exact = identified.held_out_fit_percent > 100. * (1. - exact_share);
@@ -150,6 +176,7 @@ Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResp
         return reason_of_lines(fit, k, response);
       },
       verdict);
+  if (!exact) set_frequencies_apart(fit, response, verdict);
   const double left = 1. - identified.held_out_fit_percent / 100.;
   conclude(fit, 100. * (1. - left * left), "the variance of lines that it has not seen", verdict);
   if (identified.conjugated)

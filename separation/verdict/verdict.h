@@ -10,7 +10,7 @@
 
 namespace vibrissa::separation {
 
-/// A pair of poles of a model that the data do not determine as a mode.
+/// A pair of poles of a model that the data do not determine as a mode, or not whole.
 struct UndeterminedMode {
   std::size_t mode = 0;  // place in the fit
   std::string reason;
@@ -22,6 +22,7 @@ struct Verdict {
   std::string sentence;                 // usable or not, for what band, how good on unseen data
   Band band;                            // where the data tell the model
   std::vector<std::size_t> determined;  // places in the fit
+  std::vector<UndeterminedMode> frequency_only;  // resonances whose damping the lines do not tell
   std::vector<UndeterminedMode> undetermined;
 };
 
@@ -33,7 +34,8 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
 
 /// The same for a frequency response, whose band is that of its lines. A resonance with less than
 /// two lines within its half-power width 2 zeta f has no damping that the lines tell, unless the
-/// model is exact.
-Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& response);
+/// model is exact; its frequency is told where the noise moves it by less than the lines are apart,
+/// and where its phase falls (phase_rises()).
+Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& measured);
 
 }  // namespace vibrissa::separation

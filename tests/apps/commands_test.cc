@@ -95,8 +95,7 @@ TEST(Identify, CleanRecordsOfBothSensorsFitHeldOutDataTo99Percent) {
     const auto simulated =
         vibrissa("simulate '" + case_file(name + "_sensor.prm") + "' --record '" + record +
                  "' --set Wind/Kind=none --set 'Records/Accelerometer noise=0' --set "
-                 "'Records/Moment noise=0'" +
-                 quick.substr(0, quick.find(" --set 'Output")) + " --quiet");
+                 "'Records/Moment noise=0' --set 'Model/Mesh resolution=1' --quiet");
     ASSERT_EQ(simulated.status, 0) << simulated.errors;
     const auto identified =
         vibrissa("identify '" + record + "' --json -o '" + folder.file("bvrm.json") + "'");
@@ -234,7 +233,7 @@ TEST(Bode, OfARecordAgreesWithThatOfItsModelAtThePeriodicLines) {
   const std::string settings =
       " --set Wind/Kind=none --set 'Records/Accelerometer noise=0' --set "
       "'Records/Moment noise=0' --set 'Model/Mesh resolution=1'"
-      " --set Model/Sensitivities=false --quiet";
+      " --quiet";
   ASSERT_EQ(vibrissa("simulate '" + case_file("flow_sensor.prm") + "' --record '" + record + "'" +
                      settings)
                 .status,

@@ -32,7 +32,15 @@ TEST(UnusedOptions, SettingsThatACommandDoesNotReadAreRefused) {
       {"modes", "Transient/Substeps=3", "does not use it"},
       {"mesh", "Model/Damping=material", "does not use it"},
       {"mesh", "Base motion/Kind=none", "does not use it"},
+      {"mesh", "Model/Number of modes=3", "'vibrissa mesh' without --calculix does not use it"},
+      {"mesh", "Materials/Silicone/c1=239000", "without --calculix does not use it"},
+      {"mesh --calculix x.inp", "Materials/Silicone/Loss factor=1", "does not use it"},
       {"bode", "Wind/Kind=none", "does not use it"},
+      {"bode", "Model/Sensitivities=false", "'vibrissa bode' does not use it"},
+      {"bode", "Materials/Silicone/c2=3", "does not use it"},
+      {"simulate", "Model/Sensitivities=false", "'vibrissa simulate' without --write-model"},
+      {"transient", "Model/Sensitivities=false", "does not use it"},
+      {"run", "Materials/Silicone/Prony moduli=0.1", "does not use it"},
       {"simulate", "Transient/Substeps=3", "does not use it"},
       {"simulate", "Separation/Step=0.2", "does not use it"},
       {"transient", "Records/Moment noise=1", "does not use it"},
@@ -46,6 +54,7 @@ TEST(UnusedOptions, SettingsWhoseConditionIsNotMetAreRefused) {
   const std::vector<std::array<std::string, 3>> refused = {
       {"simulate", "Wind/Sine frequencies=3", "Wind/Kind is turbulent"},
       {"run", "Base motion/Recorded/Scale=3", "Base motion/Kind is multisine"},
+      {"bode", "Materials/Silicone/Loss factor=0.1", "Model/Damping is modal"},
       {"transient", "Transient/Time tolerance=0.1", "Transient/Substep choice is fixed"}};
   for (const auto& [command, setting, reason] : refused)
     expect_unused(command + " " + flow() + " --set " + quoted(setting), "--set " + setting, reason);
@@ -68,6 +77,10 @@ TEST(UnusedOptions, OfModelsAndRecordsAreToldApart) {
       {"separate " + record + " --moment-deviation 1e-6", "--moment-deviation", "--sensor-model"},
       {"plan --sim x --rate 500", "--rate", "--sim"},
       {"diagnose --resonance 37:31 --max-effects 2", "--max-effects", "records"},
+      {"convert any.mat to.csv --separator tab", "--separator", "text tables"},
+      {"check " + record + " --align motion", "--align", "--join"},
+      {"check any.wav --decimal comma", "--decimal", "text tables"},
+      {"diagnose --sim x --real any.mat --separator tab", "--separator", "text tables"},
       {"convert " + record + " to.csv --mat-version 7.3", "--mat-version", ".mat"},
       {"excite --kind noise --grid odd", "--grid", "multisine"},
       {"excite --wav-format pcm24", "--wav-format", "--wav"},

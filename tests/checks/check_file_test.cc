@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "checks/numbered_reasons.h"
 #include "checks/report_json.h"
 #include "checks/report_text.h"
 #include "tests/checks/record_generator.h"
@@ -31,6 +33,34 @@ TEST(CheckFile, ServesIdentifyAndSaysWhatADiagnosisWillLack) {
   EXPECT_EQ(serves(result, 2), Serves::limited) << "no wind, one level, nothing at rest";
   EXPECT_TRUE(serves_all(result.serves));
   EXPECT_THAT(check_text(result), HasSubstr("no fit record at rest"));
+}
+
+std::size_t n_times(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+// The clipped channel concerns all four commands.
+TEST(CheckFile, SaysEachReasonOnceAndNamesItByItsNumber) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "r.csv";
+  signals::write_record(file, test::bad_record(test::Fault::clipped, 8004).record);
+  const CheckResult result = check_file(file, {});
+  const std::string text = check_text(result);
+  EXPECT_EQ(n_times(text, "is clipped"), 1u) << text;
+  EXPECT_EQ(n_times(text, "no fit record at rest"), 1u) << text;
+  const auto& findings = result.records[0].findings;
+  const auto clipped = std::ranges::find(findings, diagnosis::FindingKind::clipped_channel,
+                                         [](const Finding& finding) { return finding.kind; });
+  ASSERT_NE(clipped, findings.end());
+  const NumberedReasons reasons(result);
+  const auto number = reasons.of_finding(0, static_cast<std::size_t>(clipped - findings.begin()));
+  ASSERT_TRUE(number);
+  const std::string cited = "[" + std::to_string(*number) + "]";
+  EXPECT_THAT(text, HasSubstr(cited + " limits: "));
+  for (const CommandVerdict& verdict : result.serves)
+    EXPECT_THAT(reasons.of_command(verdict), HasSubstr(cited)) << verdict.command;
 }
 
 TEST(CheckFile, ReadsColumnsThatAreNoChannelsUnderTheirNames) {

@@ -1,5 +1,6 @@
 #include "separation/verdict/verdict.h"
 #include "separation/verdict/coherence.h"
+#include "separation/verdict/peak_phase.h"
 
 #include <gmock/gmock.h>
 
@@ -91,9 +92,48 @@ TEST(Verdict, TakesThePeakBetweenTwoLinesForAFrequencyWithoutDamping) {
   for (auto& value : response.value) value += 2. * std::complex(normal(random), normal(random));
   const Verdict verdict = judge(identify_response(response, {.order = 2}), response);
   EXPECT_TRUE(verdict.determined.empty());
-  ASSERT_EQ(verdict.undetermined.size(), 1u);
-  EXPECT_THAT(verdict.undetermined[0].reason, HasSubstr("not resolved"));
+  ASSERT_EQ(verdict.frequency_only.size(), 1u);
+  EXPECT_THAT(verdict.frequency_only[0].reason, HasSubstr("not resolved"));
+  EXPECT_TRUE(verdict.undetermined.empty());
   EXPECT_FALSE(verdict.usable);
+  EXPECT_THAT(verdict.sentence, StartsWith("Usable for the frequencies"));
+}
+
+// A machine's tone that is in the moment alone: a ratio of spectra has a peak there, which is no
+// answer to the base.
+TEST(Verdict, TakesAPeakWhosePhaseRisesForNoResonance) {
+  const Bvrm sensor{.modes = {make_modal_term(150., 0.02, 1.)}};
+  const Bvrm other{.modes = {make_modal_term(192.6, 2e-4, 0.05)}};
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  signals::FrequencyResponse response;
+  for (double f = 100.; f < 300.; f += 0.3125) response.frequency_hz.push_back(f);
+  response.value = separation::response(sensor, response.frequency_hz);
+  const auto with_peak = [&](const bool conjugated) {
+    signals::FrequencyResponse both = response;
+    const auto peak = separation::response(other, response.frequency_hz);
+    for (std::size_t i = 0; i < peak.size(); ++i)
+      both.value[i] += (conjugated ? std::conj(peak[i]) : peak[i]) +
+                       0.01 * std::complex(normal(random), normal(random));
+    return both;
+  };
+  const signals::FrequencyResponse rising = with_peak(true), falling = with_peak(false);
+  EXPECT_TRUE(phase_rises(rising, 192.6));
+  EXPECT_FALSE(phase_rises(falling, 192.6));
+  const Verdict verdict = judge(identify_response(rising, {.order = 4}), rising);
+  EXPECT_EQ(verdict.determined.size(), 1u);
+  EXPECT_TRUE(verdict.frequency_only.empty());
+  ASSERT_EQ(verdict.undetermined.size(), 1u);
+  EXPECT_THAT(verdict.undetermined[0].reason, HasSubstr("the phase rises"));
+  EXPECT_TRUE(verdict.usable) << verdict.sentence;
+  // The sign convention of the file changes nothing.
+  for (const auto& response : {falling, conjugate_of(falling)}) {
+    const Verdict of_falling = judge(identify_response(response, {.order = 4}), response);
+    EXPECT_EQ(of_falling.determined.size(), 1u);
+    EXPECT_EQ(of_falling.frequency_only.size(), 1u);
+    EXPECT_TRUE(of_falling.undetermined.empty());
+    EXPECT_THAT(of_falling.sentence, StartsWith("Usable from"));
+  }
 }
 
 // An analyser's Hann window makes the lines beside a narrow peak, which looks like a second mode.

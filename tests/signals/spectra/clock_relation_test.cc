@@ -49,6 +49,27 @@ TEST(ClockRelation, OfOneQuantityIsWithinATenthOfASampleAndTwoPpm) {
   EXPECT_GE(n_within, 18);
 }
 
+// What docs/files.md states.
+TEST(ClockRelation, TwentySecondsTellAThousandthOfASampleAndATenthOfAPpm) {
+  constexpr int n_sets = 10;
+  constexpr double rate_hz = 500.;
+  std::mt19937 random(45);
+  double offset = 0., drift = 0.;
+  for (unsigned int set = 0; set < n_sets; ++set) {
+    const Motion motion(200 + set);
+    const Draw draw = drawn(random);
+    const double late_s = draw.offset_s / 10.;
+    const auto at = [&](const double t) { return motion.at(t); };
+    const auto a = sampled(at, rate_hz, 0., 1., 26., random, 0.01);
+    const auto b = sampled(at, rate_hz, late_s, 1. + draw.drift, 20., random, 0.01);
+    const auto found = relate_clocks({a, rate_hz, 0.}, {b, rate_hz, 0.}, SharedMotion::quantity);
+    offset += std::pow(rate_hz * (found.offset_s - late_s), 2) / n_sets;
+    drift += std::pow(1e6 * (found.drift - draw.drift), 2) / n_sets;
+  }
+  EXPECT_LT(std::sqrt(offset), 1e-3);
+  EXPECT_LT(std::sqrt(drift), 0.1);
+}
+
 TEST(ClockRelation, OfAResponseHasItsDriftAndKeepsTheDelayOfTheSensor) {
   std::mt19937 random(42);
   for (unsigned int set = 0; set < 5; ++set) {
