@@ -1,6 +1,7 @@
 #include "trial/generator/signature.h"
 
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -93,9 +94,12 @@ WidenedNoise::WidenedNoise(const std::vector<LineChange>& unknown,
   Eigen::MatrixXd spread(3 * static_cast<Eigen::Index>(noise.size()), m);
   for (Eigen::Index i = 0; i < m; ++i)
     spread.col(i) = signature_of(unknown[static_cast<std::size_t>(i)], noise);
-  const Eigen::BDCSVD<Eigen::MatrixXd> parts(spread, Eigen::ComputeThinU);
-  directions_ = parts.matrixU();
-  lost_ = 1. - (1. + parts.singularValues().array().square()).rsqrt();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(spread);
+  const Eigen::MatrixXd root = qr.matrixQR().topRows(m).triangularView<Eigen::Upper>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(root * root.transpose());
+  directions_ = qr.householderQ() * Eigen::MatrixXd::Identity(spread.rows(), m);
+  directions_ *= parts.eigenvectors();
+  lost_ = 1. - (1. + parts.eigenvalues().cwiseMax(0.).array()).rsqrt();
 }
 
 Eigen::MatrixXd WidenedNoise::whitened(const Eigen::MatrixXd& signatures) const {
