@@ -128,9 +128,8 @@ report::Table finding_table(const checks::RecordReport& record, const std::size_
   return table;
 }
 
-report::PageSection section_of(const checks::CheckResult& result, const std::size_t place,
-                               const std::size_t number) {
-  const checks::RecordReport& record = result.records[place];
+report::PageSection section_of(const checks::RecordReport& record, const std::size_t place,
+                               const checks::NumberedReasons& reasons, const std::size_t number) {
   report::PageSection section{.heading = record.name,
                               .text = {signals::to_text(record.sampling_rate_hz) + " Hz, " +
                                        std::to_string(record.n_samples) + " samples, " +
@@ -142,10 +141,9 @@ report::PageSection section_of(const checks::CheckResult& result, const std::siz
                             .caption = "Channels",
                             .table = channel_table(record)});
   if (!record.findings.empty())
-    section.tables.push_back(
-        {.name = "findings_" + std::to_string(number + 1),
-         .caption = "Findings",
-         .table = finding_table(record, place, checks::NumberedReasons(result))});
+    section.tables.push_back({.name = "findings_" + std::to_string(number + 1),
+                              .caption = "Findings",
+                              .table = finding_table(record, place, reasons)});
   return section;
 }
 
@@ -202,13 +200,15 @@ report::Page check_page(std::span<const checks::CheckResult> results) {
   page.sections.push_back(std::move(commands));
   const std::vector<report::Figure> figures = check_plots(results);
   std::size_t number = 0;
-  for (const checks::CheckResult& result : results)
+  for (const checks::CheckResult& result : results) {
+    const checks::NumberedReasons reasons(result);
     for (std::size_t place = 0; place < result.records.size(); ++place) {
-      page.sections.push_back(section_of(result, place, number));
+      page.sections.push_back(section_of(result.records[place], place, reasons, number));
       for (const report::Figure& figure : figures)
         if (figure.name == figure_name(number)) page.sections.back().figures.push_back(figure);
       ++number;
     }
+  }
   return page;
 }
 

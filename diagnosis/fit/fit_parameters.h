@@ -22,7 +22,8 @@ struct FitParameter {
 };
 
 /// Indices of the parameters that belong to no effect; the levels of an unknown cause come last.
-/// The discrepancy (model_discrepancy.h) has two levels for each kind of record.
+/// The discrepancy (model_discrepancy.h) has three levels for each kind of record. Below its corner
+/// the flicker noise of the moment (density as 1 / f, Keshner 1982) exceeds the white noise.
 inline constexpr std::size_t index_of_moment_noise = 0, index_of_acceleration_noise = 1,
                              index_of_flicker = 2, index_of_joint_share = 3,
                              index_of_joint_loss = 4, index_of_discrepancy = 5,

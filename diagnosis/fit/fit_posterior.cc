@@ -25,6 +25,11 @@ std::vector<double> spread_out(std::vector<double> power) {
   return power;
 }
 
+/// Density of flicker noise at a bin relative to white noise.
+double flicker_at(const PreparedRecord& record, const std::size_t b, const Eigen::VectorXd& x) {
+  return std::exp(x(index_of_flicker)) / (record.bin_hz() * static_cast<double>(b + 1));
+}
+
 double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
   const double misfit = record.excitation.wind ? nominal.wind_misfit : nominal.base_misfit;
   return std::max(misfit, least_misfit);
@@ -116,15 +121,13 @@ Eigen::Index FitPosterior::unknown_index(std::size_t record, std::size_t b) cons
 
 std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Prediction& prediction,
                                            std::size_t record, double acceleration_variance) const {
-  const double moment = std::exp(2. * x(index_of_moment_noise)),
-               corner_hz = std::exp(x(index_of_flicker)),
-               bin_hz = experiment_.records[record].bin_hz();
+  const double moment = std::exp(2. * x(index_of_moment_noise));
   std::vector<double> out(prediction.mean.size());
   for (std::size_t b = 0; b < out.size(); ++b)
-    out[b] = moment * (1. + corner_hz / (bin_hz * static_cast<double>(b + 1))) *
-                 prediction.moment_noise[b] +
-             acceleration_variance * prediction.acceleration_noise[b] +
-             prediction.process_noise[b] + misfit_[record][b];
+    out[b] =
+        moment * (1. + flicker_at(experiment_.records[record], b, x)) * prediction.moment_noise[b] +
+        acceleration_variance * prediction.acceleration_noise[b] + prediction.process_noise[b] +
+        misfit_[record][b];
   const double incoherent = std::exp(2. * x(index_of_incoherence));
   for (std::size_t b = 0; b < out.size(); ++b) out[b] += incoherent * incoherent_[record][b];
   if (has_form_errors()) {
@@ -228,25 +231,21 @@ FitPosterior::BinVariances FitPosterior::variances(const Eigen::VectorXd& x,
 
 void FitPosterior::set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                                     const BinVariances& s, const double acceleration_variance,
-                                    const Eigen::Index index, Derivatives& out) const {
+                                    const std::size_t index, Derivatives& out) const {
   const double moment = std::exp(2. * x(index_of_moment_noise)),
-               corner_hz = std::exp(x(index_of_flicker)),
-               acceleration = std::exp(2. * x(index_of_acceleration_noise));
-  const auto slope = [&](std::size_t r, std::size_t b) {
-    if (index == static_cast<Eigen::Index>(index_of_acceleration_noise))
-      return 2. * acceleration * at[r].acceleration_noise[b];
-    const double flicker =
-        corner_hz / (experiment_.records[r].bin_hz() * static_cast<double>(b + 1));
-    const double share =
-        index == static_cast<Eigen::Index>(index_of_moment_noise) ? 2. * (1. + flicker) : flicker;
-    return moment * at[r].moment_noise[b] * share;
+               acceleration = 2. * std::exp(2. * x(index_of_acceleration_noise));
+  const auto slope = [&](const std::size_t r, const std::size_t b) {
+    if (index == index_of_acceleration_noise) return acceleration * at[r].acceleration_noise[b];
+    const double flicker = flicker_at(experiment_.records[r], b, x);
+    return moment * at[r].moment_noise[b] *
+           (index == index_of_flicker ? flicker : 2. * (1. + flicker));
   };
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r)
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
-      out.variance(row, index) = slope(r, b) / s[r][b];
-  if (index == static_cast<Eigen::Index>(index_of_acceleration_noise))
-    out.acceleration(index) = 2. * acceleration / acceleration_variance;
+      out.variance(row, static_cast<Eigen::Index>(index)) = slope(r, b) / s[r][b];
+  if (index == index_of_acceleration_noise)
+    out.acceleration(index_of_acceleration_noise) = acceleration / acceleration_variance;
 }
 
 /// Of the level of incoherent errors, of form errors or of the unknown cause.
@@ -338,7 +337,7 @@ Derivatives FitPosterior::whitened(const Eigen::VectorXd& x, const std::vector<P
   for (std::size_t i = 0; i < fit_parameters_.size(); ++i) {
     const auto index = static_cast<Eigen::Index>(i);
     if (i < n_noise_parameters)
-      set_noise_column(x, at, s, acceleration_variance, index, out);
+      set_noise_column(x, at, s, acceleration_variance, i, out);
     else if (fit_parameters_[i].effect == nullptr && i >= index_of_incoherence)
       set_level_column(x, s, index, out);
   }

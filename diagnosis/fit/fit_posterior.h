@@ -88,7 +88,7 @@ class FitPosterior {
                        const BinVariances& s, double acceleration_variance,
                        const Derivatives& derivatives) const;
   void set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                        const BinVariances& s, double acceleration_variance, Eigen::Index index,
+                        const BinVariances& s, double acceleration_variance, std::size_t index,
                         Derivatives& out) const;
   void set_level_column(const Eigen::VectorXd& x, const BinVariances& s, Eigen::Index index,
                         Derivatives& out) const;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "trial/generator/calibration_draw.h"
+#include "trial/generator/unknowns.h"
 
 namespace vibrissa::trial {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "trial/classes/circumstances.h"
 #include "trial/generator/unexplained_change.h"
-#include "trial/generator/unknowns.h"
 
 namespace vibrissa::trial {
 

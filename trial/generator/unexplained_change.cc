@@ -35,13 +35,12 @@ std::vector<double> smoothed(const std::vector<double>& power) {
   return out;
 }
 
-std::vector<double> power_of(const signals::Record& record) {
+/// Unscaled DFT of the moment, bins 1 to n/2 - 1.
+std::vector<std::complex<double>> moment_lines(const signals::Record& record) {
   const auto moment = record.channel(signals::channel::base_moment);
   const std::vector<std::complex<double>> lines =
       signals::real_fft(std::vector<double>(moment.begin(), moment.end()));
-  std::vector<double> out;
-  for (std::size_t k = 1; k < record.n_samples() / 2; ++k) out.push_back(std::norm(lines[k]));
-  return out;
+  return {lines.begin() + 1, lines.begin() + static_cast<std::ptrdiff_t>(record.n_samples() / 2)};
 }
 
 }  // namespace
@@ -84,7 +83,10 @@ std::vector<double> UnexplainedChange::wind_power(const World& world) const {
   std::vector<double> out;
   for (const signals::DatasetRecord& entry :
        record_session(structure_of(world.solid), world, at_rest).records) {
-    const std::vector<double> lines = smoothed(power_of(entry.record));
+    std::vector<double> power;
+    for (const std::complex<double>& line : moment_lines(entry.record))
+      power.push_back(std::norm(line));
+    const std::vector<double> lines = smoothed(power);
     out.insert(out.end(), lines.begin(), lines.end());
   }
   return out;
@@ -121,10 +123,8 @@ std::vector<std::complex<double>> UnexplainedChange::plain_moment(
   std::vector<std::complex<double>> out;
   for (const signals::DatasetRecord& entry :
        record_session(structure_of(plain_.solid), plain_, session).records) {
-    const auto moment = entry.record.channel(signals::channel::base_moment);
-    const auto lines = signals::real_fft(std::vector<double>(moment.begin(), moment.end()));
-    out.insert(out.end(), lines.begin() + 1,
-               lines.begin() + static_cast<std::ptrdiff_t>(entry.record.n_samples() / 2));
+    const std::vector<std::complex<double>> lines = moment_lines(entry.record);
+    out.insert(out.end(), lines.begin(), lines.end());
   }
   return out;
 }

@@ -82,13 +82,18 @@ TEST(Verdict, SetsPolesApartThatTheDataDoNotTell) {
   EXPECT_TRUE(judge(found, record).determined.empty());
 }
 
+signals::FrequencyResponse at_lines_of_an_analyser(const Bvrm& model) {
+  signals::FrequencyResponse out;
+  for (double f = 100.; f < 300.; f += 0.3125) out.frequency_hz.push_back(f);
+  out.value = separation::response(model, out.frequency_hz);
+  return out;
+}
+
 TEST(Verdict, TakesThePeakBetweenTwoLinesForAFrequencyWithoutDamping) {
   const Bvrm truth{.modes = {make_modal_term(212.1, 8e-4, 30.)}};
   std::mt19937_64 random(9);
   std::normal_distribution<double> normal;
-  signals::FrequencyResponse response;
-  for (double f = 100.; f < 300.; f += 0.3125) response.frequency_hz.push_back(f);
-  response.value = separation::response(truth, response.frequency_hz);
+  signals::FrequencyResponse response = at_lines_of_an_analyser(truth);
   for (auto& value : response.value) value += 2. * std::complex(normal(random), normal(random));
   const Verdict verdict = judge(identify_response(response, {.order = 2}), response);
   EXPECT_TRUE(verdict.determined.empty());
@@ -106,9 +111,7 @@ TEST(Verdict, TakesAPeakWhosePhaseRisesForNoResonance) {
   const Bvrm other{.modes = {make_modal_term(192.6, 2e-4, 0.05)}};
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
-  signals::FrequencyResponse response;
-  for (double f = 100.; f < 300.; f += 0.3125) response.frequency_hz.push_back(f);
-  response.value = separation::response(sensor, response.frequency_hz);
+  const signals::FrequencyResponse response = at_lines_of_an_analyser(sensor);
   const auto with_peak = [&](const bool conjugated) {
     signals::FrequencyResponse both = response;
     const auto peak = separation::response(other, response.frequency_hz);
