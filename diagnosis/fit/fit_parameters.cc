@@ -82,14 +82,16 @@ std::vector<FitParameter> common_parameters(const Experiment& experiment) {
   return out;
 }
 
-void add_parameters(const Effect& effect, const bool nuisance, const std::size_t n_modes,
+void add_parameters(const Experiment& experiment, const Effect& effect, const bool nuisance,
                     std::vector<FitParameter>& out) {
   for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
     out.push_back({&effect, i, effect.parameters[i], nuisance});
-    if (effect.parameters[i].mode > n_modes) out.back().description.prior.fix();
+    Prior& prior = out.back().description.prior;
+    if (effect.parameters[i].mode > experiment.nominal.modes.size()) prior.fix();
+    if (effect.parameters[i].in_moved_band)
+      prior.high = std::clamp(std::log(experiment.scales.moved_band_hz), prior.low, prior.high);
     // Half of all sensors are as simulated, within a part of the building tolerance; the tails are
     // heavy, because some are far off.
-    Prior& prior = out.back().description.prior;
     if (nuisance && i == 0 && prior.kind == Prior::Kind::normal) {
       prior.kind = Prior::Kind::student;
       prior.degrees_of_freedom = 1.;
@@ -113,13 +115,12 @@ std::size_t unknown_band(const double frequency_ratio) {
 std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
                                               const Hypothesis& hypothesis) {
   std::vector<FitParameter> out = common_parameters(experiment);
-  const std::size_t n_modes = experiment.nominal.modes.size();
   for (const std::string& id : nuisance_ids()) {
     const Effect& effect = find_effect(id);
     if (shows(experiment, effect) && !hypothesis.contains(id))
-      add_parameters(effect, true, n_modes, out);
+      add_parameters(experiment, effect, true, out);
   }
-  for (const Effect* effect : hypothesis.effects()) add_parameters(*effect, false, n_modes, out);
+  for (const Effect* effect : hypothesis.effects()) add_parameters(experiment, *effect, false, out);
   if (hypothesis.is_discrepancy())
     for (std::size_t i = 0; i < n_unknown_bands(); ++i)
       out.push_back({nullptr, i, log_uniform("unknown_cause", "1", 1e-4, 1., 0.), false});

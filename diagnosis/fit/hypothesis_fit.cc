@@ -91,6 +91,7 @@ Eigen::VectorXd further_start(const Experiment& experiment,
     if (fit_parameters[i].effect == further.effect)
       x(static_cast<Eigen::Index>(i)) =
           fit_parameters[i].description.coordinate(further.values[fit_parameters[i].parameter]);
+  clamp(fit_parameters, x);
   return x;
 }
 

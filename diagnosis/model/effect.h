@@ -47,7 +47,9 @@ struct Parameter {
   Prior prior{};
   double neutral = 0.;   // value (not x) at which the effect vanishes
   std::size_t mode = 0;  // acts only where the simulation has at least so many modes
-  double step = 1e-4;    // step of x for derivatives
+  /// A frequency below Scales::moved_band_hz.
+  bool in_moved_band = false;
+  double step = 1e-4;  // step of x for derivatives
   /// Largest change of x in one iteration of a fit, because basins of attraction may be narrow.
   double largest_step = std::numeric_limits<double>::infinity();
 
@@ -74,13 +76,14 @@ Parameter normal(std::string name, std::string unit, double centre, double scale
 /// flat.
 Parameter spread_over_modes(std::size_t mode);
 
-/// Reference values of the experiment that make parameters dimensionless.
+/// Reference values of the experiment, for parameters.
 struct Scales {
   double joint_moment_n_m = 1.;  // peak of the first mode's elastic moment in the fit records
   double duration_s = 1.;        // of the longest fit record
   double first_mode_rad_s = 1.;
   double static_gain = 1.;     // |M / a| at zero frequency, N m / (m/s^2)
   double moment_rms_n_m = 1.;  // largest of the fit records
+  double moved_band_hz = 0.;   // below it is nearly all of the base's motion, where it is widest
 };
 
 /// What the data must contain so that an effect can be detected.

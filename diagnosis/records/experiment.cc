@@ -252,7 +252,7 @@ double moved_seconds(const Experiment& experiment) {
   return sum;
 }
 
-/// Frequency below which nearly all of the base's motion is, in the record where it is highest.
+/// Scales::moved_band_hz.
 double moved_band_hz(const Experiment& experiment) {
   constexpr double nearly_all = 0.99;
   double out = 0.;
@@ -276,6 +276,7 @@ Scales scales_of(const Experiment& experiment) {
                                 ? nominal.modes.front().frequency_rad_s
                                 : 0.1 * std::numbers::pi * band_rate_hz(experiment);
   scales.joint_moment_n_m = 0.;
+  scales.moved_band_hz = moved_band_hz(experiment);
   scales.duration_s = 0.;
   scales.moment_rms_n_m = 0.;
   for (const PreparedRecord& record : experiment.records) {
@@ -320,7 +321,8 @@ std::vector<Lack> lacks(const Experiment& experiment, const Effect& effect) {
   if (experiment.nominal.modes.empty() && !acts_without_modes(effect)) out.push_back(Lack::modes);
   if (needs.moved_s > 0. && moved_seconds(experiment) <= needs.moved_s)
     out.push_back(Lack::duration);
-  if (needs.moved_hz > 0. && moved_band_hz(experiment) < needs.moved_hz) out.push_back(Lack::band);
+  if (needs.moved_hz > 0. && experiment.scales.moved_band_hz < needs.moved_hz)
+    out.push_back(Lack::band);
   return out;
 }
 

@@ -4,6 +4,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numbers>
 
 #include "trial/generator/calibration_draw.h"
@@ -17,30 +19,46 @@ void scale(LineChange& change, const double factor) {
   for (double& x : change.wind_power) x *= factor;
 }
 
-/// The part of a moment about a frequency: a triangle over the logarithm of frequency.
-LineChange around(const double octave, const double width,
-                  const std::vector<std::complex<double>>& moment,
-                  const std::vector<double>& frequencies_hz) {
-  LineChange out{.moment = moment};
-  for (std::size_t i = 0; i < moment.size(); ++i)
-    out.moment[i] *= std::max(0., 1. - std::abs(std::log2(frequencies_hz[i]) - octave) / width);
+/// Weights of the lines about each of a series of frequencies: triangles over the logarithm of
+/// frequency, a sixth of an octave apart.
+std::vector<std::vector<double>> neighbourhoods(const std::vector<double>& frequencies_hz) {
+  constexpr double width = 1. / 6.;
+  const auto [low, high] = std::ranges::minmax(frequencies_hz);
+  std::vector<std::vector<double>> out;
+  for (double octave = std::log2(low); octave < std::log2(high) + width; octave += width) {
+    std::vector<double>& weights = out.emplace_back();
+    for (const double hz : frequencies_hz)
+      weights.push_back(std::max(0., 1. - std::abs(std::log2(hz) - octave) / width));
+  }
   return out;
 }
 
-/// Relative error of a moment: its correlation falls to zero within a sixth of an octave.
+/// Relative error of a moment, smooth over frequency.
 void add_relative_error(std::vector<LineChange>& out, const double accuracy,
                         const std::vector<std::complex<double>>& moment,
                         const std::vector<double>& frequencies_hz) {
-  constexpr double width = 1. / 6.;
-  const auto [low, high] = std::ranges::minmax(frequencies_hz);
-  for (double octave = std::log2(low); octave < std::log2(high) + width; octave += width) {
-    const LineChange part = around(octave, width, moment, frequencies_hz);
+  for (const std::vector<double>& weights : neighbourhoods(frequencies_hz)) {
+    LineChange part{.moment = moment};
+    std::ranges::transform(moment, weights, part.moment.begin(), std::multiplies<>{});
     const auto is_there = [](const std::complex<double>& x) { return x != 0.; };
     if (std::ranges::none_of(part.moment, is_there)) continue;
     for (const std::complex<double> phase : {std::complex(1., 0.), std::complex(0., 1.)}) {
       LineChange& error = out.emplace_back(part);
       for (std::complex<double>& x : error.moment) x *= accuracy / std::numbers::sqrt2 * phase;
     }
+  }
+}
+
+/// Nobody knows the spectrum of a wind that was not measured: it may be any smooth one.
+void add_unseen_wind(std::vector<LineChange>& out, const UnexplainedChange& change) {
+  constexpr double any = 1e3;
+  const std::vector<double>& power = change.unseen_wind();
+  if (power.empty()) return;
+  for (const std::vector<double>& weights : neighbourhoods(change.frequencies_hz())) {
+    LineChange& error = out.emplace_back();
+    error.moment.resize(power.size());
+    std::ranges::transform(power, weights, std::back_inserter(error.wind_power),
+                           [](double p, double weight) { return any * p * weight; });
   }
 }
 
@@ -82,6 +100,7 @@ std::vector<LineChange> unknown_changes(const UnexplainedChange& change, const D
     find_unknown(id).apply(world, small * deviation, 0.5);
     scale(out.emplace_back(change_of(change, world, false)), 1. / small);
   }
+  add_unseen_wind(out, change);
   if (accuracy == 0.) return out;
   for (const std::vector<std::complex<double>>& moment : {change.by_base(), change.by_wind()})
     add_relative_error(out, accuracy, moment, change.frequencies_hz());

@@ -31,6 +31,8 @@ class UnexplainedChange {
   /// unmeasured wind counts as none.
   std::vector<std::complex<double>> by_base() const;
   std::vector<std::complex<double>> by_wind() const;
+  /// Power of the moment by a wind that nobody measures; empty where it is measured.
+  const std::vector<double>& unseen_wind() const { return unseen_wind_; }
   const std::vector<double>& frequencies_hz() const { return frequencies_hz_; }
   /// Variance of each line [(N m)^2] for white noise with these standard deviations on both
   /// channels [N m, m/s^2], and for an unmeasured wind.
@@ -48,7 +50,7 @@ class UnexplainedChange {
   std::vector<std::complex<double>> gains_;  // moment per base acceleration
   std::vector<double> lengths_;              // number of samples of the line's take
   std::vector<double> frequencies_hz_;
-  std::vector<double> unseen_wind_;  // wind_power(); empty where the wind is measured
+  std::vector<double> unseen_wind_;
 };
 
 }  // namespace vibrissa::trial
