@@ -163,10 +163,13 @@ class Searcher {
   void fit_promising(std::vector<Task> tasks) {
     std::stable_sort(tasks.begin(), tasks.end(),
                      [](const Task& a, const Task& b) { return a.hoped > b.hoped; });
-    for (std::size_t first = 0; first < tasks.size(); first += n_at_a_time) {
-      const bool is_hopeless = tasks[first].hoped < best_posterior() - hopeless_nats;
-      if (is_late() || (is_hopeless && !is_far_from_explained(tasks[first]))) return;
-      const std::size_t end = std::min(tasks.size(), first + n_at_a_time);
+    for (std::size_t first = 0, end = 0; first < tasks.size() && !is_late(); first = end) {
+      const double enough = best_posterior() - hopeless_nats;
+      const auto is_hopeful = [&](const Task& task) { return task.hoped >= enough; };
+      if (!is_hopeful(tasks[first]) && !is_far_from_explained(tasks[first])) return;
+      end = std::min(tasks.size(), first + n_at_a_time);
+      if (is_hopeful(tasks[first]))
+        while (!is_hopeful(tasks[end - 1])) --end;
       fit_all({tasks.begin() + static_cast<std::ptrdiff_t>(first),
                tasks.begin() + static_cast<std::ptrdiff_t>(end)});
     }
