@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "diagnosis/model/nominal_model.h"
 
@@ -40,19 +42,18 @@ Pole moved(const Pole& pole, const Complex q, const separation::Hold hold) {
   return {q, pole.r * (hold == separation::Hold::zero_order ? ratio : ratio * ratio)};
 }
 
-/// The lowest alias whose damping is the most usual.
-ModalTerm most_usual_alias(const ModalTerm& mode, const ModalTerm& strongest,
-                           const separation::Hold hold, const double sampling_rate_hz) {
+/// The mode and its aliases, the lowest first: they have the same samples.
+std::vector<ModalTerm> aliases(const ModalTerm& mode, const separation::Hold hold,
+                               const double sampling_rate_hz) {
   constexpr int n_multiples = 4;
   const Pole pole = pole_of(mode), conjugate{std::conj(pole.p), std::conj(pole.r)};
-  ModalTerm best = mode;
+  std::vector<ModalTerm> out{mode};
   for (int n = 1; n <= n_multiples; ++n)
     for (const Pole& from : {conjugate, pole}) {
       const Complex shift(0., 2. * std::numbers::pi * n * sampling_rate_hz);
-      const ModalTerm alias = term_of(moved(from, from.p + shift, hold));
-      if (strangeness(alias, strongest) < strangeness(best, strongest)) best = alias;
+      out.push_back(term_of(moved(from, from.p + shift, hold)));
     }
-  return best;
+  return out;
 }
 
 }  // namespace
@@ -66,10 +67,17 @@ separation::Bvrm with_modes_above_sampling(const separation::Bvrm& model,
   const ModalTerm strongest = *std::ranges::max_element(
       model.modes, {}, [](const ModalTerm& mode) { return std::abs(mode.static_gain_kg_m()); });
   for (ModalTerm& mode : out.modes) {
-    if (mode.damping_ratio() >= 1. || strangeness(mode, strongest) <= strange) continue;
-    const double static_gain = mode.static_gain_kg_m();
-    mode = most_usual_alias(mode, strongest, hold, sampling_rate_hz);
-    out.direct_term_kg_m += static_gain - mode.static_gain_kg_m();
+    const bool is_in_band = mode.frequency_hz() < 0.5 * sampling_rate_hz;
+    if (mode.damping_ratio() >= 1. || (is_in_band && strangeness(mode, strongest) <= strange))
+      continue;
+    // The static gain of what is not a mode.
+    const double rest = out.direct_term_kg_m + mode.static_gain_kg_m();
+    const auto unlikely = [&](const ModalTerm& alias) {
+      return std::pair(std::max(strange, strangeness(alias, strongest)),
+                       std::abs(rest - alias.static_gain_kg_m()));
+    };
+    mode = std::ranges::min(aliases(mode, hold, sampling_rate_hz), {}, unlikely);
+    out.direct_term_kg_m = rest - mode.static_gain_kg_m();
   }
   return out;
 }

@@ -59,11 +59,13 @@ signals::Dataset simulated(const NominalModel& truth, const Hold hold) {
   return out;
 }
 
-void expect_response(const NominalModel& found, const NominalModel& truth) {
+/// error: relative to the static gain. The samples of a held simulation do not tell its aliases.
+void expect_response(const NominalModel& found, const NominalModel& truth,
+                     const double error = 5e-3) {
   const double static_gain = std::abs(truth.base_response(0.));
   for (const double f : {3., 20., 37., 60., 105.}) {
     const Complex s(0., 2. * std::numbers::pi * f);
-    EXPECT_LT(std::abs(found.base_response(s) - truth.base_response(s)), 5e-3 * static_gain) << f;
+    EXPECT_LT(std::abs(found.base_response(s) - truth.base_response(s)), error * static_gain) << f;
   }
 }
 
@@ -75,8 +77,10 @@ TEST(ModeAboveSampling, AModeAboveTheSamplingOfAHeldSimulationIsFoundThere) {
 }
 
 TEST(ModeAboveSampling, AndThatOfOneThatInterpolates) {
-  const NominalModel truth = two_modes(470., 0.05);
-  expect_response(identify_nominal(simulated(truth, Hold::first_order)), truth);
+  for (const double hz : {470., 530.}) {
+    const NominalModel truth = two_modes(hz, 0.05);
+    expect_response(identify_nominal(simulated(truth, Hold::first_order)), truth, 5e-4);
+  }
 }
 
 /// The wind path of a simulation that holds its input: the first mode's force is held, too.
