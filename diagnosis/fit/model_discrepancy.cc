@@ -50,15 +50,18 @@ Eigen::VectorXd wide_forms(const std::vector<double>& edges, const double hz) {
   return out.array() - out.mean();
 }
 
-/// The wide forms and the residual as terms within a block.
-Eigen::MatrixXd wide_forms_of_block(const std::vector<double>& edges, const std::size_t above) {
+/// The wide forms of each kind of record and the residual as terms within a block of one kind.
+Eigen::MatrixXd wide_forms_of_block(const std::vector<double>& edges, const std::size_t above,
+                                    const std::size_t kind) {
   const std::size_t last = edges.size() - 1;
   const Eigen::VectorXd left = wide_forms(edges, edges[std::min(above == 0 ? 0 : above - 1, last)]),
                         right = wide_forms(edges, edges[std::min(above, last)]);
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n_of_simulation, left.size() + 1);
-  out.row(0).head(left.size()) = 0.5 * (left + right);
-  out.row(1).head(left.size()) = 0.5 / slope_share * (right - left);
-  out(2, left.size()) = 1. / residual_share;
+  const auto n_kinds = static_cast<Eigen::Index>(n_record_kinds);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n_of_simulation, n_kinds * left.size() + 1);
+  auto of_kind = out.middleCols(static_cast<Eigen::Index>(kind) * left.size(), left.size());
+  of_kind.row(0) = 0.5 * (left + right);
+  of_kind.row(1) = 0.5 / slope_share * (right - left);
+  out(2, out.cols() - 1) = 1. / residual_share;
   return out;
 }
 
@@ -99,7 +102,7 @@ ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment)
           known.try_emplace({kind, above}, static_cast<int>(kind_of_block_.size()));
       if (is_new) {
         kind_of_block_.push_back(kind);
-        wide_.push_back(wide_forms_of_block(edges, above));
+        wide_.push_back(wide_forms_of_block(edges, above, kind));
       }
       block_.back() = found->second;
       if (above > 0 && above < edges.size())
@@ -118,10 +121,10 @@ ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment)
 
 namespace {
 
-/// The last form is the residual of missing modes.
-std::size_t level_of_form(const std::size_t kind, const Eigen::Index form,
-                          const Eigen::Index n_forms) {
-  return kind + (form + 1 < n_forms ? 1 : 2) * n_record_kinds;
+/// The wide forms of each kind, then the residual of missing modes.
+std::size_t level_of_form(const Eigen::Index form, const Eigen::Index n_forms) {
+  const auto n_kinds = static_cast<Eigen::Index>(n_record_kinds);
+  return static_cast<std::size_t>(n_kinds + form / ((n_forms - 1) / n_kinds));
 }
 
 }  // namespace
@@ -134,7 +137,7 @@ Eigen::MatrixXd ModelDiscrepancy::forms_of_block(const std::size_t block,
       Eigen::MatrixXd::Zero(n_of_simulation + shapes_.changes.cols(), wide_[block].cols());
   for (Eigen::Index m = 0; m < out.cols(); ++m)
     out.col(m).head<n_of_simulation>() =
-        levels[level_of_form(kind, m, out.cols())] / levels[kind] * wide_[block].col(m);
+        levels[level_of_form(m, out.cols())] / levels[kind] * wide_[block].col(m);
   return out;
 }
 
@@ -142,9 +145,8 @@ Eigen::MatrixXd ModelDiscrepancy::prior_covariance(const int a, const int b,
                                                    const DiscrepancyLevels& levels) const {
   const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
   const Eigen::MatrixXd left = forms_of_block(i, levels), right = forms_of_block(j, levels);
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(left.rows(), left.rows());
-  if (a == b) out.setIdentity();
-  if (kind_of_block_[i] == kind_of_block_[j]) out += left * right.transpose();
+  Eigen::MatrixXd out = left * right.transpose();
+  if (a == b) out.diagonal().array() += 1.;
   return out;
 }
 
@@ -188,8 +190,7 @@ void ModelDiscrepancy::Solution::invert(const DiscrepancyLevels& levels) {
                      n_wide = of_->wide_.empty() ? 0 : of_->wide_.front().cols();
   const Eigen::MatrixXcd identity = Eigen::MatrixXcd::Identity(n_terms, n_terms),
                          wide_identity = Eigen::MatrixXcd::Identity(n_wide, n_wide);
-  PerKind wide_precision;
-  wide_precision.fill(wide_identity);
+  Eigen::MatrixXcd wide_precision = wide_identity;
   PerBlock gram = overlap(whitened_);
   for (std::size_t k = 0; k < gram.size(); ++k) {
     const Eigen::LLT<Eigen::MatrixXcd> llt(identity + gram[k]);
@@ -197,16 +198,14 @@ void ModelDiscrepancy::Solution::invert(const DiscrepancyLevels& levels) {
     inverse_.push_back(llt.solve(identity));
     forms_.push_back(of_->forms_of_block(k, levels));
     wide_.push_back(inverse_[k] * forms_[k]);
-    wide_precision[of_->kind_of_block_[k]] += wide_[k].adjoint() * gram[k] * forms_[k];
+    wide_precision += wide_[k].adjoint() * gram[k] * forms_[k];
   }
-  for (std::size_t kind = 0; kind < n_record_kinds; ++kind) {
-    const Eigen::LLT<Eigen::MatrixXcd> llt(wide_precision[kind]);
-    gain_ -= log_determinant(llt);
-    wide_covariance_[kind] = llt.solve(wide_identity);
-  }
+  const Eigen::LLT<Eigen::MatrixXcd> llt(wide_precision);
+  gain_ -= log_determinant(llt);
+  wide_covariance_ = llt.solve(wide_identity);
 }
 
-void ModelDiscrepancy::Solution::add_gradient(const PerKind& wide_weights) {
+void ModelDiscrepancy::Solution::add_gradient(const Eigen::VectorXcd& wide_weights) {
   const auto add = [&](const std::size_t level, const Complex weight, const double share) {
     gradient_[level] += 2. * std::norm(weight) - 2. * share;
     information_[level] += 4. * share * share;
@@ -215,16 +214,14 @@ void ModelDiscrepancy::Solution::add_gradient(const PerKind& wide_weights) {
     const std::size_t kind = of_->kind_of_block_[k];
     // What the wide forms leave to the block's own amplitudes.
     const Eigen::MatrixXcd seen = forms_[k] - wide_[k];
-    const Eigen::VectorXcd own = weights_[k] - forms_[k] * wide_weights[kind];
+    const Eigen::VectorXcd own = weights_[k] - forms_[k] * wide_weights;
     for (Eigen::Index a = 0; a < own.size(); ++a)
       add(a < n_of_simulation ? kind : index_of_form_level, own(a),
           1. - inverse_[k](a, a).real() -
-              (seen.row(a) * wide_covariance_[kind] * seen.row(a).adjoint()).value().real());
+              (seen.row(a) * wide_covariance_ * seen.row(a).adjoint()).value().real());
   }
-  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
-    for (Eigen::Index m = 0; m < wide_weights[kind].size(); ++m)
-      add(level_of_form(kind, m, wide_weights[kind].size()), wide_weights[kind](m),
-          1. - wide_covariance_[kind](m, m).real());
+  for (Eigen::Index m = 0; m < wide_weights.size(); ++m)
+    add(level_of_form(m, wide_weights.size()), wide_weights(m), 1. - wide_covariance_(m, m).real());
 }
 
 ModelDiscrepancy::Solution::PerBlock ModelDiscrepancy::Solution::overlap(
@@ -235,25 +232,19 @@ ModelDiscrepancy::Solution::PerBlock ModelDiscrepancy::Solution::overlap(
   return out;
 }
 
-ModelDiscrepancy::Solution::PerKind ModelDiscrepancy::Solution::wide_amplitudes(
-    const PerBlock& overlap) const {
-  PerKind out;
-  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
-    out[kind] = Eigen::MatrixXcd::Zero(wide_covariance_[kind].rows(),
-                                       overlap.empty() ? 0 : overlap.front().cols());
-  for (std::size_t k = 0; k < overlap.size(); ++k)
-    out[of_->kind_of_block_[k]] += wide_[k].adjoint() * overlap[k];
-  for (std::size_t kind = 0; kind < n_record_kinds; ++kind)
-    out[kind] = wide_covariance_[kind] * out[kind];
-  return out;
+Eigen::MatrixXcd ModelDiscrepancy::Solution::wide_amplitudes(const PerBlock& overlap) const {
+  Eigen::MatrixXcd products =
+      Eigen::MatrixXcd::Zero(wide_covariance_.rows(), overlap.empty() ? 0 : overlap.front().cols());
+  for (std::size_t k = 0; k < overlap.size(); ++k) products += wide_[k].adjoint() * overlap[k];
+  return wide_covariance_ * products;
 }
 
 ModelDiscrepancy::Solution::PerBlock ModelDiscrepancy::Solution::amplitudes(
     const PerBlock& overlap) const {
-  const PerKind wide = wide_amplitudes(overlap);
+  const Eigen::MatrixXcd wide = wide_amplitudes(overlap);
   PerBlock out;
   for (std::size_t k = 0; k < overlap.size(); ++k)
-    out.push_back(inverse_[k] * overlap[k] + wide_[k] * wide[of_->kind_of_block_[k]]);
+    out.push_back(inverse_[k] * overlap[k] + wide_[k] * wide);
   return out;
 }
 
@@ -270,7 +261,7 @@ Eigen::VectorXd ModelDiscrepancy::Solution::leverage() const {
     const auto u = whitened_.middleRows(s.first, s.n);
     const Eigen::MatrixXcd& wide = wide_[s.block];
     const Eigen::MatrixXcd covariance =
-        inverse_[s.block] + wide * wide_covariance_[of_->kind_of_block_[s.block]] * wide.adjoint();
+        inverse_[s.block] + wide * wide_covariance_ * wide.adjoint();
     out.segment(s.first, s.n) = (u * covariance).cwiseProduct(u.conjugate()).rowwise().sum().real();
   }
   return out;

@@ -12,9 +12,9 @@ namespace vibrissa::diagnosis {
 /// What moved the sensor in a record: base, wind, or both. Each kind has its own level of
 /// discrepancy.
 inline constexpr std::size_t n_record_kinds = 3;
-/// Three levels of each kind, within blocks, of the wide forms and of the residual of missing
-/// modes, and that of the effects' form errors.
-inline constexpr std::size_t n_discrepancy_levels = 3 * n_record_kinds,
+/// Two levels of each kind, within blocks and of the wide forms; that of the residual of missing
+/// modes; and that of the effects' form errors.
+inline constexpr std::size_t n_discrepancy_levels = 2 * n_record_kinds + 1,
                              index_of_form_level = n_discrepancy_levels;
 using DiscrepancyLevels = std::array<double, n_discrepancy_levels + 1>;
 /// Index of the kind; n_record_kinds for a record at rest.
@@ -36,10 +36,10 @@ struct DiscrepancyShapes {
 /// lacks or weighs otherwise (Ewins, Modal Testing, 2nd ed., 2000, residuals of high modes). h_m
 /// are the wide forms: a hat function over log f for each octave, linear within a block; without
 /// their mean, because a gain is a calibration parameter. One eps and one w serve all records of a
-/// kind, so they explain no error that depends on level, time or input. Blocks: a sixth of an
-/// octave, narrower near a resonance. The complex Gaussian with these terms integrated out by the
-/// Woodbury identity, first within the blocks, then over them (Kennedy and O'Hagan 2001, model
-/// discrepancy; Golub and Van Loan, 4th ed., 2013, 2.1.4). Proven by
+/// kind, and one r all records, so they explain no error that depends on level, time or input.
+/// Blocks: a sixth of an octave, narrower near a resonance. The complex Gaussian with these terms
+/// integrated out by the Woodbury identity, first within the blocks, then over them (Kennedy and
+/// O'Hagan 2001, model discrepancy; Golub and Van Loan, 4th ed., 2013, 2.1.4). Proven by
 /// tests/diagnosis/fit/model_discrepancy_test.cc.
 class ModelDiscrepancy {
  public:
@@ -74,27 +74,26 @@ class ModelDiscrepancy {
    private:
     friend class ModelDiscrepancy;
     using PerBlock = std::vector<Eigen::MatrixXcd>;
-    using PerKind = std::array<Eigen::MatrixXcd, n_record_kinds>;
     using Columns = Eigen::Ref<const Eigen::MatrixXcd, 0, Eigen::OuterStride<>>;
     /// Products of the terms with columns.
     PerBlock overlap(const Columns& columns) const;
     /// Amplitudes of the wide forms, and of all terms, most probable for an error of that overlap.
-    PerKind wide_amplitudes(const PerBlock& overlap) const;
+    Eigen::MatrixXcd wide_amplitudes(const PerBlock& overlap) const;
     PerBlock amplitudes(const PerBlock& overlap) const;
     void invert(const DiscrepancyLevels& levels);
-    void add_gradient(const PerKind& wide_weights);
+    void add_gradient(const Eigen::VectorXcd& wide_weights);
 
     const ModelDiscrepancy* of_ = nullptr;
-    Eigen::MatrixXcd whitened_;  // rows x terms
-    PerBlock inverse_;           // of 1 + U' U
-    PerBlock forms_;             // the wide forms in these terms: terms x forms
-    PerBlock wide_;              // inverse_ times forms_
-    PerKind wide_covariance_;    // of the wide amplitudes, given the errors
-    PerBlock weights_;           // posterior mean of the terms
+    Eigen::MatrixXcd whitened_;         // rows x terms
+    PerBlock inverse_;                  // of 1 + U' U
+    PerBlock forms_;                    // the wide forms in these terms: terms x forms
+    PerBlock wide_;                     // inverse_ times forms_
+    Eigen::MatrixXcd wide_covariance_;  // of the wide amplitudes, given the errors
+    PerBlock weights_;                  // posterior mean of the terms
     double gain_ = 0.;
     DiscrepancyLevels gradient_{}, information_{};
   };
-  /// Covariance of the terms of two blocks: I within one, and the wide forms of one kind.
+  /// Covariance of the terms of two blocks: I within one, and the wide forms.
   Eigen::MatrixXd prior_covariance(int block_a, int block_b, const DiscrepancyLevels& levels) const;
   Solution solve(const Eigen::VectorXcd& whitened_error, const Eigen::VectorXd& per_deviation,
                  const DiscrepancyLevels& levels) const;

@@ -49,7 +49,7 @@ class ModelDiscrepancyTest : public testing::Test {
     return out;
   }
 
-  const DiscrepancyLevels levels_{0.3, 0.1, 0.2, 0.5, 0.05, 0.4, 0.4};
+  const DiscrepancyLevels levels_{0.3, 0.1, 0.2, 0.5, 0.05, 0.4, 0.4, 0.2};
   Experiment experiment_;
   ModelDiscrepancy discrepancy_;
   Eigen::VectorXcd error_;
