@@ -14,11 +14,18 @@ struct NoisyBin {
   double share = 0., power = 0.;
 };
 
+/// An unknown addition to a record: squared score and information of its size, both times its
+/// variance.
+struct Addition {
+  double score = 0., information = 0.;
+};
+
 /// Change by an effect, over all bins of a fit's records.
 struct Overlap {
   double cross = 0.,
          own = 0.;  // inner product of the change of the mean with the residual, with itself
   std::vector<NoisyBin> noisy{};
+  std::vector<Addition> additions{};
   double of_mean() const { return own > 0. ? 2. * cross * cross / own : 0.; }
 
   /// Gain in twice the log likelihood by a multiple of the new noise's variance.
@@ -28,7 +35,12 @@ struct Overlap {
       const double more = multiple * bin.share;
       sum += bin.power * more / (1. + more) - std::log1p(more);
     }
-    return 2. * sum;
+    sum *= 2.;
+    for (const Addition& addition : additions) {
+      const double more = multiple * addition.information;
+      sum += multiple * addition.score / (1. + more) - std::log1p(more);
+    }
+    return sum;
   }
   /// The multiple with the largest gain, by golden-section search in its logarithm.
   double best_multiple() const {
@@ -75,8 +87,9 @@ struct FitResidual::State {
   FitPosterior posterior;
   Chain chain;
   Eigen::VectorXcd mean, error;  // whitened error, without per-record nuisance parameters
-  Eigen::VectorXd per_deviation, noise_power;  // power of the error without the discrepancy
-  Eigen::MatrixXd columns;                     // whitened derivatives of the mean
+  Eigen::VectorXcd noise;        // the error without the discrepancy
+  Eigen::VectorXd per_deviation;
+  Eigen::MatrixXd columns;  // whitened derivatives of the mean
   ModelDiscrepancy::Solution discrepancy;
 
   State(const Experiment& of, const HypothesisFit& best)
@@ -90,7 +103,7 @@ struct FitResidual::State {
     const FitPosterior::WhitenedErrors whitened = posterior.whitened_errors(fit.x, at);
     error = whitened.error;
     per_deviation = whitened.per_deviation;
-    noise_power = (error - discrepancy.mean()).cwiseAbs2();
+    noise = error - discrepancy.mean();
     mean.resize(error.size());
     Eigen::Index row = 0;
     for (const Prediction& prediction : at)
@@ -100,6 +113,17 @@ struct FitResidual::State {
       columns.middleRows(2 * i, 2) *= per_deviation(i);
   }
 
+  /// The addition to the record whose rows begin here.
+  Addition addition(const RecordNuisance& unknown, Eigen::Index row) const {
+    double score = 0., information = 0.;
+    for (const Complex& shape : unknown.shape) {
+      const Complex whitened = shape * per_deviation(row);
+      score += 2. * (std::conj(whitened) * noise(row++)).real();
+      information += 2. * std::norm(whitened);
+    }
+    return {score * score * unknown.variance, information * unknown.variance};
+  }
+
   Overlap overlap(const Effect& effect, const std::vector<double>& values) const {
     Chain extended = chain;
     effect.extend(extended, values, experiment.scales);
@@ -107,14 +131,17 @@ struct FitResidual::State {
     Eigen::VectorXcd change(mean.size());
     Overlap out;
     Eigen::Index row = 0;
-    for (const Prediction& there : moved)
+    for (const Prediction& there : moved) {
+      for (const RecordNuisance& unknown : there.unknowns)
+        out.additions.push_back(addition(unknown, row));
       for (std::size_t b = 0; b < there.mean.size(); ++b, ++row) {
         change(row) = (there.mean[b] - mean(row)) * per_deviation(row);
         const double v =
             (there.process_noise[b] + extended.reference_variance * there.acceleration_noise[b]) *
             per_deviation(row) * per_deviation(row);
-        out.noisy.push_back({v, noise_power(row)});
+        out.noisy.push_back({v, std::norm(noise(row))});
       }
+    }
     const Eigen::VectorXcd weighed = discrepancy.apply_inverse(change);
     out.cross = weighed.dot(error).real();
     Eigen::VectorXd along = Eigen::VectorXd::Zero(columns.cols());

@@ -9,9 +9,17 @@ namespace {
 
 class ResemblanceTest : public testing::Test {
  protected:
-  void measure(const test::OneModeRig& rig) {
-    experiment_ = prepare_experiment(test::nominal_of(rig, false), test::rig_dataset(rig, {}),
-                                     signals::Split::fit, InputNoise::reduced);
+  void measure(const test::OneModeRig& rig, const double rise = 0.) {
+    signals::Dataset records = test::rig_dataset(rig, {});
+    for (signals::DatasetRecord& entry : records.records) {
+      const auto moment = entry.record.channel(signals::channel::base_moment);
+      std::vector<double> drifted(moment.begin(), moment.end());
+      for (std::size_t i = 0; i < drifted.size(); ++i)
+        drifted[i] += rise * static_cast<double>(i) / static_cast<double>(drifted.size());
+      entry.record.set_channel(signals::channel::base_moment, std::move(drifted));
+    }
+    experiment_ = prepare_experiment(test::nominal_of(rig, false), records, signals::Split::fit,
+                                     InputNoise::reduced);
     fit_ = fit_hypothesis(experiment_, Hypothesis{});
   }
   Resemblance of(const std::string& effect, const std::vector<std::vector<double>>& tried) const {
@@ -52,6 +60,14 @@ TEST_F(ResemblanceTest, TellsPlaceAndSizeOfATone) {
   ASSERT_FALSE(found.values.empty());
   EXPECT_EQ(found.values[1], 50.1);
   EXPECT_NEAR(found.values[0], rig.hum, 0.3 * rig.hum);
+}
+
+TEST_F(ResemblanceTest, TellsARampThatLooksLikeFlickerNoise) {
+  test::OneModeRig rig = test::noisy_rig();
+  measure(rig, 2. * rig.moment_noise);
+  EXPECT_GT(of("sensor_drift", {{3e-6}}).gain, 20.);
+  measure(rig);
+  EXPECT_LT(of("sensor_drift", {{3e-6}}).gain, 6.);
 }
 
 TEST_F(ResemblanceTest, HasNoSizeBeyondTheRangeOfTheEffect) {
