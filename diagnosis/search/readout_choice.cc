@@ -45,8 +45,9 @@ bool is_rotation(const SimulationAndRecords& given, const Experiment& experiment
   reread.simulation_accuracy = experiment.simulation_accuracy;
   reread.measured_modes = experiment.measured_modes;
   const HypothesisFit& as_moment = result.fits[nonlinear->fit];
-  return fit_hypothesis(reread, as_moment.hypothesis).log_evidence >
-         as_moment.log_evidence + believed_nats;
+  const double prior = nonlinear->log_posterior - as_moment.log_evidence;
+  return fit_hypothesis(reread, as_moment.hypothesis).log_evidence + prior >
+         result.candidates.front().log_posterior + believed_nats;
 }
 
 }  // namespace vibrissa::diagnosis
