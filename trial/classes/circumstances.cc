@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "signals/base/error.h"
@@ -103,6 +104,14 @@ Circumstances circumstances_from(const nlohmann::json& document) {
   } catch (const nlohmann::json::exception& error) {
     throw signals::UserError(std::string("circumstances of a trial case: ") + error.what());
   }
+}
+
+bool is_a_calibration(const std::string& id) {
+  // A further mass is stiffness, damping and gain; a compliant base is stiffness.
+  static const std::set<std::string> ids{"stiffness", "base_compliance", "mass",
+                                         "damping",   "reference_gain",  "sensor_gain",
+                                         "drag_error"};
+  return ids.count(id) != 0;
 }
 
 }  // namespace vibrissa::trial

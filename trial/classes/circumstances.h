@@ -63,4 +63,8 @@ nlohmann::json to_json(const Circumstances& circumstances);
 /// tests/trial/classes/circumstances_test.cc.
 Circumstances circumstances_from(const nlohmann::json& document);
 
+/// Can unknown calibrations imitate this effect exactly? On sensors at a distance such effects have
+/// no meaning of their own.
+bool is_a_calibration(const std::string& id);
+
 }  // namespace vibrissa::trial

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace vibrissa::trial {
 namespace {
@@ -63,14 +62,6 @@ std::map<std::string, double> calibration_deviations(const Distance distance) {
           {"sensor_gain", deviation(paper_gain)},
           {"reference_gain", deviation(paper_gain)},
           {"drag_error", deviation(paper_drag)}};
-}
-
-bool is_a_calibration(const std::string& id) {
-  // A further mass is stiffness, damping and gain; a compliant base is stiffness.
-  static const std::set<std::string> ids{"stiffness", "base_compliance", "mass",
-                                         "damping",   "reference_gain",  "sensor_gain",
-                                         "drag_error"};
-  return ids.count(id) != 0;
 }
 
 }  // namespace vibrissa::trial

@@ -30,8 +30,4 @@ std::map<std::string, double> calibrations_of(const World& world);
 /// Standard deviation of each of these ratios at a distance about its mean; empty for exact.
 std::map<std::string, double> calibration_deviations(Distance distance);
 
-/// Can unknown calibrations imitate this effect exactly? On sensors at a distance such effects have
-/// no meaning of their own.
-bool is_a_calibration(const std::string& id);
-
 }  // namespace vibrissa::trial

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <set>
 
-#include "trial/generator/calibration_draw.h"
+#include "trial/classes/circumstances.h"
 #include "trial/generator/detection_limit.h"
 #include "trial/observer/box_integral.h"
 

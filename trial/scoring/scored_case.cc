@@ -174,12 +174,8 @@ std::optional<bool> resolved(const ScoredCase& c, const json& answer, const char
 }  // namespace
 
 std::string without_calibrations(const std::string& name) {
-  std::vector<std::string> ids;
-  for (const std::string& id : effect_ids(name)) {
-    const auto& calibrations = diagnosis::nuisance_ids();
-    if (std::find(calibrations.begin(), calibrations.end(), id) == calibrations.end())
-      ids.push_back(id);
-  }
+  std::vector<std::string> ids = effect_ids(name);
+  std::erase_if(ids, is_a_calibration);
   return joined_name(ids);
 }
 

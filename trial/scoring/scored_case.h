@@ -39,7 +39,8 @@ struct ScoredCase {
   bool is_off_in_calibrations() const;
 };
 
-/// Name of an answer without its calibration effects; "none" where nothing remains.
+/// Name of an answer without calibrations and what they imitate (is_a_calibration()); "none" where
+/// nothing remains.
 std::string without_calibrations(const std::string& name);
 
 /// Compares an answer with its label. Proven by tests/apps/trial_test.cc.
