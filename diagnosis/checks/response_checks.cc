@@ -27,25 +27,9 @@ struct Ratio {
 };
 
 double lowest_mode_hz(const NominalModel& nominal) {
-  double lowest = 0.;
-  for (const StructuralMode& mode : nominal.modes)
-    if (lowest == 0. || mode.frequency_rad_s < lowest) lowest = mode.frequency_rad_s;
-  return lowest / (2. * std::numbers::pi);
-}
-
-std::vector<Complex> base_driven(const NominalModel& nominal, const DatasetRecord& entry,
-                                 const std::string& input) {
-  return passed(spectrum_of(entry.record.channel(input)), entry.record.n_samples(),
-                entry.record.sampling_rate_hz(),
-                [&](Complex s) { return nominal.base_response(s); });
-}
-
-std::vector<Complex> wind_driven(const NominalModel& nominal, const DatasetRecord& entry) {
-  const auto u = entry.record.channel(channel::wind_speed);
-  std::vector<double> force(u.begin(), u.end());
-  for (double& value : force) value *= std::abs(value);
-  return passed(spectrum_of(force), force.size(), entry.record.sampling_rate_hz(),
-                [&](Complex s) { return nominal.wind_response(s); });
+  if (nominal.modes.empty()) return 0.;
+  return std::ranges::min(nominal.modes, {}, &StructuralMode::frequency_rad_s).frequency_rad_s /
+         (2. * std::numbers::pi);
 }
 
 class ResponseRatio {
@@ -179,25 +163,42 @@ bool is_driven(const DatasetRecord& entry, double acceleration_noise_m_s2) {
          9. * acceleration_noise_m_s2 * acceleration_noise_m_s2;
 }
 
-void check_base(const NominalModel& nominal, const DatasetRecord& entry,
+/// What the simulation predicts for what moved the sensor, against the reading.
+Ratios ratios_to(const NominalModel& nominal, const DatasetRecord& entry) {
+  const auto input = [&](const bool moved, const std::string& name) {
+    return moved ? entry.record.channel(name) : std::span<const double>();
+  };
+  return ratios_of(
+      nominal, {nominal_moment(nominal, entry.record.n_samples(), entry.record.sampling_rate_hz(),
+                               input(entry.excitation.base, channel::base_acceleration),
+                               input(entry.excitation.wind, channel::wind_speed)),
+                entry});
+}
+
+/// Are base acceleration and moment exchanged?
+bool are_exchanged(const NominalModel& nominal, const DatasetRecord& entry, const Ratio& as_named,
+                   std::vector<Finding>& findings) {
+  const auto exchanged =
+      ratios_of(nominal,
+                {nominal_moment(nominal, entry.record.n_samples(), entry.record.sampling_rate_hz(),
+                                entry.record.channel(channel::base_moment), {}),
+                 entry, channel::base_acceleration})
+          .all;
+  const bool implausible = std::abs(std::log10(as_named.median)) > 4.;
+  if (!implausible || !exchanged || exchanged->median <= 0.05 || exchanged->median >= 20. ||
+      exchanged->spread >= as_named.spread)
+    return false;
+  findings.push_back(
+      {FindingKind::swapped_columns, entry.name,
+       "base_acceleration_m_s2 and base_moment_N_m seem to be exchanged: the response is " +
+           three_digits(as_named.median) + " times the simulated one, and after the exchange " +
+           three_digits(exchanged->median) + " times"});
+  return true;
+}
+
+void check_base(const NominalModel& nominal, const DatasetRecord& entry, const Ratios& ratios,
                 std::vector<Finding>& findings) {
-  const Ratios ratios =
-      ratios_of(nominal, {base_driven(nominal, entry, channel::base_acceleration), entry});
-  if (!ratios.all) return;
-  const auto exchanged = ratios_of(nominal, {base_driven(nominal, entry, channel::base_moment),
-                                             entry, channel::base_acceleration})
-                             .all;
-  const bool implausible = std::abs(std::log10(ratios.all->median)) > 4.;
-  if (implausible && exchanged && exchanged->median > 0.05 && exchanged->median < 20. &&
-      exchanged->spread < ratios.all->spread) {
-    findings.push_back(
-        {FindingKind::swapped_columns, entry.name,
-         "base_acceleration_m_s2 and base_moment_N_m seem to be exchanged: the response is " +
-             three_digits(ratios.all->median) +
-             " times the simulated one, and after the exchange " + three_digits(exchanged->median) +
-             " times"});
-    return;
-  }
+  if (are_exchanged(nominal, entry, *ratios.all, findings)) return;
   const std::size_t n_before = findings.size();
   check_factor(ratios.factor(), entry.name, "base_acceleration_m_s2 and base_moment_N_m",
                mistakes_of_base, findings);
@@ -209,10 +210,7 @@ void check_base(const NominalModel& nominal, const DatasetRecord& entry,
              findings);
 }
 
-void check_wind(const NominalModel& nominal, const DatasetRecord& entry,
-                std::vector<Finding>& findings) {
-  const Ratios ratios = ratios_of(nominal, {wind_driven(nominal, entry), entry});
-  if (!ratios.all) return;
+void check_wind(const DatasetRecord& entry, const Ratios& ratios, std::vector<Finding>& findings) {
   check_factor(ratios.factor(), entry.name, "wind_speed_m_s and base_moment_N_m", mistakes_of_wind,
                findings);
   check_sign(ratios, entry.name,
@@ -221,34 +219,19 @@ void check_wind(const NominalModel& nominal, const DatasetRecord& entry,
              findings);
 }
 
-void check_both(const NominalModel& nominal, const DatasetRecord& entry,
-                std::vector<Finding>& findings) {
-  std::vector<Complex> predicted = base_driven(nominal, entry, channel::base_acceleration);
-  const std::vector<Complex> of_wind = wind_driven(nominal, entry);
-  for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k] += of_wind[k];
-  const Ratios ratios = ratios_of(nominal, {std::move(predicted), entry});
-  if (ratios.all)
-    check_factor(ratios.factor(), entry.name,
-                 "base_acceleration_m_s2, wind_speed_m_s and base_moment_N_m", mistakes_of_base,
-                 findings);
-}
-
 void check_rate(const NominalModel& nominal, const DatasetRecord& entry,
                 std::vector<Finding>& findings) {
   const double mode_hz = lowest_mode_hz(nominal), rate_hz = entry.record.sampling_rate_hz();
   if (0.5 * rate_hz > mode_hz) return;
   const std::string where = "sampled at " + signals::to_text(rate_hz) +
-                            " Hz, while the first mode is "
-                            "at " +
-                            three_digits(mode_hz) + " Hz: ";
+                            " Hz, while the first mode is at " + three_digits(mode_hz) + " Hz: ";
   // A plausible sampling rate is between the first mode's frequency and a thousand times that.
   constexpr double milli = 1e-3;
-  const bool in_ms = rate_hz < 0.1 * mode_hz && rate_hz / milli > mode_hz;
-  if (in_ms)
+  const bool in_ms = rate_hz / milli > mode_hz;
+  if (rate_hz < 0.1 * mode_hz)
     findings.push_back({FindingKind::wrong_unit, entry.name,
-                        where + "time_s seems to be in ms; multiply it by 1e-3"});
-  else if (rate_hz < 0.1 * mode_hz)
-    findings.push_back({FindingKind::wrong_unit, entry.name, where + "check the unit of time_s"});
+                        where + (in_ms ? "time_s seems to be in ms; multiply it by 1e-3"
+                                       : "check the unit of time_s")});
   else
     findings.push_back({FindingKind::slow_rate, entry.name,
                         where + "half the sampling rate is below it, and higher frequencies are "
@@ -263,12 +246,16 @@ void check_response(const NominalModel& nominal, const DatasetRecord& entry,
   if (!nominal.modes.empty() && (moved.base || moved.wind)) check_rate(nominal, entry, findings);
   if (!is_comparable(nominal, entry) || (!moved.base && !moved.wind)) return;
   if (moved.base && !is_driven(entry, acceleration_noise_m_s2)) return;
+  const Ratios ratios = ratios_to(nominal, entry);
+  if (!ratios.all) return;
   if (moved.base && moved.wind)
-    check_both(nominal, entry, findings);
+    check_factor(ratios.factor(), entry.name,
+                 "base_acceleration_m_s2, wind_speed_m_s and base_moment_N_m", mistakes_of_base,
+                 findings);
   else if (moved.base)
-    check_base(nominal, entry, findings);
+    check_base(nominal, entry, ratios, findings);
   else
-    check_wind(nominal, entry, findings);
+    check_wind(entry, ratios, findings);
 }
 
 }  // namespace vibrissa::diagnosis

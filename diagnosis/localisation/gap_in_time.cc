@@ -1,32 +1,29 @@
 #include "diagnosis/localisation/gap_in_time.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/statistics/bivariate_statistics.hpp>
 #include <cmath>
 #include <numeric>
 
 #include "diagnosis/localisation/significance_tests.h"
 #include "diagnosis/records/experiment.h"
+#include "diagnosis/records/spectrum.h"
 
 namespace vibrissa::diagnosis {
 namespace {
 
-/// Two-sided p-value of the slope of a straight line through blocks in time, by Student's t
-/// transformed to a normal deviate (Wallace 1959).
+/// Two-sided p-value of the slope of a straight line through blocks in time, by Student's t.
 double trend_p_value(const std::vector<double>& y) {
-  const double n = static_cast<double>(y.size()), middle = 0.5 * (n - 1.);
-  const double mean = std::accumulate(y.begin(), y.end(), 0.) / n;
-  double xy = 0., xx = 0., yy = 0.;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    const double x = static_cast<double>(i) - middle;
-    xy += x * (y[i] - mean);
-    xx += x * x;
-    yy += (y[i] - mean) * (y[i] - mean);
-  }
-  const double rest = yy - xy * xy / xx, dof = n - 2.;
-  if (!(rest > 0.)) return 1.;
-  const double t_square = xy * xy / xx / (rest / dof);
-  const double z = (8. * dof + 1.) / (8. * dof + 3.) * std::sqrt(dof * std::log1p(t_square / dof));
-  return std::min(1., 2. * normal_tail(z));
+  std::vector<double> x(y.size());
+  std::iota(x.begin(), x.end(), 0.);
+  const double r = boost::math::statistics::correlation_coefficient(x, y),
+               dof = static_cast<double>(y.size()) - 2.;
+  if (!(std::abs(r) < 1.)) return 1.;
+  const boost::math::students_t distribution(dof);
+  return 2. * boost::math::cdf(boost::math::complement(
+                  distribution, std::abs(r) * std::sqrt(dof / (1. - r * r))));
 }
 
 /// In-phase and quadrature gain of the measured moment relative to the predicted one, for each
@@ -41,16 +38,14 @@ std::vector<double> trend_p_values(const RecordGap& gap) {
   std::vector<double> gain, quadrature;
   for (std::size_t block = 0; block < n_blocks; ++block) {
     const std::size_t from = block * e.size() / n_blocks, to = (block + 1) * e.size() / n_blocks;
-    double pp = 0., pe = 0., qq = 0., qe = 0.;
-    for (std::size_t i = from; i < to; ++i) {
-      pp += p[i] * p[i];
-      pe += p[i] * e[i];
-      qq += q[i] * q[i];
-      qe += q[i] * e[i];
-    }
+    const auto part = [&](const std::vector<double>& x) {
+      return Eigen::Map<const Eigen::VectorXd>(x.data() + from,
+                                               static_cast<Eigen::Index>(to - from));
+    };
+    const double pp = part(p).squaredNorm(), qq = part(q).squaredNorm();
     if (!(pp > 0. && qq > 0.)) return {};
-    gain.push_back(pe / pp);
-    quadrature.push_back(qe / qq);
+    gain.push_back(part(p).dot(part(e)) / pp);
+    quadrature.push_back(part(q).dot(part(e)) / qq);
   }
   return {trend_p_value(gain), trend_p_value(quadrature)};
 }
@@ -64,21 +59,17 @@ GapInTime excess_of(const RecordGap& gap) {
     power += std::norm(whitened[b]);
   }
   const std::vector<double> samples = evaluated_samples(*gap.record, whitened);
-  const double square = std::inner_product(samples.begin(), samples.end(), samples.begin(), 0.);
-  if (!(square > 0.)) return {};
+  if (!(power > 0.)) return {};
   // Mean square of a sample when every bin contains noise alone.
-  const double noise =
-      square / static_cast<double>(samples.size()) * static_cast<double>(whitened.size()) / power;
+  const double noise = mean_square(samples) * static_cast<double>(whitened.size()) / power;
   GapInTime out{.record = gap.record->name};
   for (std::size_t part = 0; part < n_parts; ++part) {
     const std::size_t from = part * samples.size() / n_parts,
                       to = (part + 1) * samples.size() / n_parts;
-    double sum = 0.;
-    for (std::size_t i = from; i < to; ++i) sum += samples[i] * samples[i];
     out.time_s.push_back(
         (static_cast<double>(gap.record->first) + 0.5 * static_cast<double>(from + to)) /
         gap.record->sampling_rate_hz);
-    out.excess.push_back(sum / static_cast<double>(to - from) / noise);
+    out.excess.push_back(mean_square(std::span(samples).subspan(from, to - from)) / noise);
   }
   return out;
 }

@@ -1,5 +1,6 @@
 #include "diagnosis/localisation/gap_map.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -195,26 +196,24 @@ std::optional<LevelExponent> level_exponent(const std::vector<RecordGap>& gaps) 
     if (kind_of(*gap.record) == "base" && gap.record->periodic)
       if (const auto point = level_point(gap)) points.push_back(*point);
   if (points.size() < 2) return std::nullopt;
-  const auto [low, high] =
-      std::minmax_element(points.begin(), points.end(),
-                          [](const auto& a, const auto& b) { return a.log_level < b.log_level; });
+  const auto [low, high] = std::ranges::minmax(points, {}, &LevelPoint::log_level);
   constexpr double least_ratio = 1.3;
-  if (high->log_level - low->log_level < std::log(least_ratio)) return std::nullopt;
+  if (high.log_level - low.log_level < std::log(least_ratio)) return std::nullopt;
   // Scatter of the relative gap in addition to noise, because lines and phases differ between
   // records.
   constexpr double scatter = 0.05;
-  double w = 0., wx = 0., wy = 0., wxx = 0., wxy = 0.;
-  for (const LevelPoint& p : points) {
-    const double weight = 1. / (p.variance + scatter * scatter);
-    w += weight;
-    wx += weight * p.log_level;
-    wy += weight * p.log_gap;
-    wxx += weight * p.log_level * p.log_level;
-    wxy += weight * p.log_level * p.log_gap;
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixX2d line(n, 2);  // weighted: 1 and the level
+  Eigen::VectorXd right(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const LevelPoint& point = points[static_cast<std::size_t>(i)];
+    const double weight = 1. / std::sqrt(point.variance + scatter * scatter);
+    line.row(i) << weight, weight * point.log_level;
+    right(i) = weight * point.log_gap;
   }
-  const double spread = wxx - wx * wx / w;
-  const double slope = (wxy - wx * wy / w) / spread;
-  const double deviation = 1. / std::sqrt(spread);
+  const Eigen::Matrix2d covariance = (line.transpose() * line).inverse();
+  const double slope = (covariance * (line.transpose() * right))(1);
+  const double deviation = std::sqrt(covariance(1, 1));
   return LevelExponent{std::abs(slope) > 2. * deviation ? slope : 0., deviation};
 }
 

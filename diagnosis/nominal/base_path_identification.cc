@@ -194,10 +194,8 @@ void set_modes(NominalModel& model, const Bvrm& found) {
                            .base_rate = term.b1 / w});
   }
   // Joint laws act on the strongest mode of the band, so it comes first.
-  std::sort(model.modes.begin(), model.modes.end(),
-            [](const StructuralMode& a, const StructuralMode& b) {
-              return std::abs(a.base_gain) > std::abs(b.base_gain);
-            });
+  std::ranges::sort(model.modes, std::ranges::greater(),
+                    [](const StructuralMode& mode) { return std::abs(mode.base_gain); });
   model.base_direct = found.direct_term_kg_m;
 }
 

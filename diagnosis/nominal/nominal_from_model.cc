@@ -21,12 +21,9 @@ constexpr double other_plane = 1e-6;
 constexpr double usual_wind_m_s = 2.;
 
 std::size_t nearest_speed(const signals::WindLoad& wind) {
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < wind.speed_m_s.size(); ++i)
-    if (std::abs(wind.speed_m_s[i] - usual_wind_m_s) <
-        std::abs(wind.speed_m_s[best] - usual_wind_m_s))
-      best = i;
-  return best;
+  const auto nearest = std::ranges::min_element(
+      wind.speed_m_s, {}, [](const double speed) { return std::abs(speed - usual_wind_m_s); });
+  return static_cast<std::size_t>(nearest - wind.speed_m_s.begin());
 }
 
 void set_joint_share(NominalModel& nominal, const signals::ReducedModel& model, std::size_t first) {
@@ -97,18 +94,14 @@ NominalModel nominal_from(const signals::ReducedModel& model) {
     nominal.modes.push_back(out);
     numbers.push_back(k);
   }
-  const auto stronger = [&](std::size_t a, std::size_t b) {
-    return std::abs(nominal.modes[a].base_gain) > std::abs(nominal.modes[b].base_gain);
-  };
-  std::sort(numbers.begin(), numbers.end(), stronger);
-  if (numbers.empty() || nominal.modes[numbers.front()].base_gain == 0.)
+  const auto strength = [&](std::size_t k) { return std::abs(nominal.modes[k].base_gain); };
+  std::ranges::sort(numbers, std::ranges::greater(), strength);
+  if (numbers.empty() || strength(numbers.front()) == 0.)
     throw signals::UserError("model '" + model.name +
                              "': base acceleration along the axial direction excites no mode");
   set_joint_share(nominal, model, numbers.front());
-  const double strongest = std::abs(nominal.modes[numbers.front()].base_gain);
-  std::erase_if(numbers, [&](const std::size_t k) {
-    return std::abs(nominal.modes[k].base_gain) <= other_plane * strongest;
-  });
+  const double least = other_plane * strength(numbers.front());
+  std::erase_if(numbers, [&](const std::size_t k) { return strength(k) <= least; });
   std::vector<StructuralMode> modes;
   for (const std::size_t k : numbers) modes.push_back(nominal.modes[k]);
   nominal.modes = std::move(modes);

@@ -22,9 +22,9 @@ Eigen::VectorXd nominal_x(const std::vector<FitParameter>& fit_parameters,
   return x;
 }
 
-FisherChanges nominal_changes(const Experiment& experiment,
-                              const std::vector<FitParameter>& fit_parameters,
-                              const Eigen::VectorXd& x) {
+ReferencePoint nominal_point(const Experiment& experiment, const ChannelNoise& noise) {
+  std::vector<FitParameter> fit_parameters = make_fit_parameters(experiment, Hypothesis{});
+  const Eigen::VectorXd x = nominal_x(fit_parameters, noise);
   FitPosterior posterior(experiment, fit_parameters, Hypothesis{});
   const std::vector<Prediction> at = posterior.predict(x);
   posterior.update_slow_variance(x, at);
@@ -33,7 +33,7 @@ FisherChanges nominal_changes(const Experiment& experiment,
     for (const double variance :
          posterior.variance(x, at[r], r, posterior.acceleration_variance(x)))
       deviation.push_back(std::sqrt(variance));
-  return {experiment, std::move(deviation), noisy_chain(experiment, fit_parameters, x)};
+  return {experiment, std::move(fit_parameters), x, std::move(deviation)};
 }
 
 /// Remaining nats that count as zero.
@@ -42,7 +42,7 @@ constexpr double surely_followed = 0.5;
 /// Remaining distance between a change and its followers, including the cost of the followers.
 class LeastSquaresProjection {
  public:
-  LeastSquaresProjection(const NominalPoint& point, const Eigen::VectorXd& change,
+  LeastSquaresProjection(const ReferencePoint& point, const Eigen::VectorXd& change,
                          const std::vector<std::size_t>& fit_parameters,
                          const std::optional<Alternative>& alternative)
       : point_(point), change_(change), fit_parameters_(fit_parameters), alternative_(alternative) {
@@ -132,21 +132,19 @@ class LeastSquaresProjection {
     fresh_ = true;
   }
 
-  /// Best step of the chosen coordinates for a given step of the others.
+  /// Best step of the chosen coordinates for a given step of the others. Directions that differ
+  /// only by rounding count once.
   Eigen::VectorXd move_of(const std::vector<Eigen::Index>& free, const Eigen::VectorXd& moved,
                           const Eigen::VectorXd& uphill) const {
-    const Eigen::VectorXd right = (uphill - information_ * moved)(free);
+    constexpr double same = 1e-9;
     Eigen::MatrixXd matrix = information_(free, free);
     matrix.diagonal() *= 1. + damping_;
     const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-    Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * right);
-    // Directions that differ only by rounding count once.
-    constexpr double same = 1e-9;
-    for (Eigen::Index i = 0; i < along.size(); ++i)
-      along(i) = solver.eigenvalues()(i) > same ? along(i) / solver.eigenvalues()(i) : 0.;
-    return scale.asDiagonal() * (solver.eigenvectors() * along);
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
+    factors.setThreshold(same);
+    factors.compute(scale.asDiagonal() * matrix * scale.asDiagonal());
+    return scale.asDiagonal() *
+           factors.solve(scale.asDiagonal() * (uphill - information_ * moved)(free));
   }
 
   /// The other coordinates continue when one is held at its bound.
@@ -219,7 +217,7 @@ class LeastSquaresProjection {
       set_columns(false);
   }
 
-  const NominalPoint& point_;
+  const ReferencePoint& point_;
   const Eigen::VectorXd& change_;
   const std::vector<std::size_t>& fit_parameters_;
   const std::optional<Alternative>& alternative_;
@@ -231,11 +229,13 @@ class LeastSquaresProjection {
 
 }  // namespace
 
-NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noise)
+ReferencePoint::ReferencePoint(const Experiment& experiment,
+                               std::vector<FitParameter> fit_parameters, Eigen::VectorXd x,
+                               std::vector<double> deviation)
     : experiment_(experiment),
-      fit_parameters_(make_fit_parameters(experiment, Hypothesis{})),
-      x_(nominal_x(fit_parameters_, noise)),
-      changes_(nominal_changes(experiment, fit_parameters_, x_)) {
+      fit_parameters_(std::move(fit_parameters)),
+      x_(std::move(x)),
+      changes_(experiment, std::move(deviation), noisy_chain(experiment, fit_parameters_, x_)) {
   for (std::size_t i = 0; i < fit_parameters_.size(); ++i) {
     Eigen::VectorXd x = x_;
     const auto index = static_cast<Eigen::Index>(i);
@@ -245,18 +245,21 @@ NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noi
   }
 }
 
-Eigen::VectorXd NominalPoint::change(const Eigen::VectorXd& x) const {
-  return changes_.of(noisy_chain(experiment_, fit_parameters_, x));
+NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noise)
+    : ReferencePoint(nominal_point(experiment, noise)) {}
+
+Eigen::VectorXd ReferencePoint::change(const Eigen::VectorXd& x, const Effect* left_out) const {
+  return changes_.of(noisy_chain(experiment_, fit_parameters_, x, left_out));
 }
 
-Eigen::VectorXd NominalPoint::change(const Eigen::VectorXd& x, const Effect& effect,
-                                     const std::vector<double>& values) const {
+Eigen::VectorXd ReferencePoint::change(const Eigen::VectorXd& x, const Effect& effect,
+                                       const std::vector<double>& values) const {
   NoisyChain moved = noisy_chain(experiment_, fit_parameters_, x);
   effect.extend(moved.chain, values, experiment_.scales);
   return changes_.of(moved);
 }
 
-Projection project(const NominalPoint& point, const Eigen::VectorXd& change,
+Projection project(const ReferencePoint& point, const Eigen::VectorXd& change,
                    const std::vector<std::size_t>& fit_parameters,
                    const std::optional<Alternative>& alternative) {
   return LeastSquaresProjection(point, change, fit_parameters, alternative).run();

@@ -50,6 +50,23 @@ std::vector<Complex> passed(std::vector<Complex> spectrum, const std::size_t n,
   return spectrum;
 }
 
+std::vector<Complex> nominal_moment(const NominalModel& nominal, const std::size_t n,
+                                    const double rate_hz,
+                                    const std::span<const double> acceleration,
+                                    const std::span<const double> wind) {
+  std::vector<Complex> out(n / 2 + 1, 0.);
+  const auto add = [&](const std::span<const double> input, const auto& response) {
+    if (input.empty()) return;
+    const std::vector<Complex> part = passed(spectrum_of(input), n, rate_hz, response);
+    std::ranges::transform(out, part, out.begin(), std::plus());
+  };
+  add(acceleration, [&](Complex s) { return nominal.base_response(s); });
+  std::vector<double> force(wind.begin(), wind.end());
+  for (double& u : force) u = nominal.drag_curve.drag(u);
+  add(force, [&](Complex s) { return nominal.wind_response(s); });
+  return out;
+}
+
 std::vector<double> upsampled(std::span<const Complex> spectrum, const std::size_t n,
                               const std::size_t factor) {
   if (factor == 1) return samples_of(spectrum, n);
@@ -99,6 +116,12 @@ double total_power(std::span<const Complex> x) {
   double sum = 0.;
   for (const Complex& value : x) sum += std::norm(value);
   return sum;
+}
+
+std::vector<double> signed_squares(std::span<const double> u) {
+  std::vector<double> out(u.begin(), u.end());
+  for (double& value : out) value *= std::abs(value);
+  return out;
 }
 
 double mean_square(std::span<const double> x) {

@@ -25,12 +25,6 @@ const PreparedRecord* strongest_periodic(const Experiment& experiment) {
 
 constexpr double lowest_share = 0.2, highest_share = 4.;
 
-const PreparedRecord* moved_record(const Experiment& experiment) {
-  for (const PreparedRecord& record : experiment.records)
-    if (record.excitation.base && record.magnet) return &record;
-  return nullptr;
-}
-
 /// Magnitude of the reading per base acceleration.
 double gain_at(const LinearResponse& response, const signals::Readout readout,
                const double frequency_hz) {
@@ -90,8 +84,10 @@ TraceComparison compare_trace(const Experiment& fitted_on, const Experiment& hel
 
 std::optional<ResonanceChange> resonance_change(const Experiment& experiment,
                                                 const UpdatedModel& fitted) {
-  const PreparedRecord* const record = moved_record(experiment);
-  if (record == nullptr || experiment.nominal.modes.empty()) return std::nullopt;
+  const auto record = std::ranges::find_if(experiment.records, [](const PreparedRecord& one) {
+    return one.excitation.base && one.magnet;
+  });
+  if (record == experiment.records.end() || experiment.nominal.modes.empty()) return std::nullopt;
   const Chain simulated_chain = experiment.nominal_chain(), measured_chain = fitted.chain();
   const LinearResponse simulated(simulated_chain), measured(measured_chain);
   const double mode_hz = experiment.nominal.modes.front().frequency_rad_s / (2. * std::numbers::pi);

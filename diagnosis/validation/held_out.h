@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,7 +46,6 @@ struct HeldOutScore {
 
 struct HeldOutOptions {
   std::size_t n_resamples = 500;
-  std::uint64_t seed = 1;
 };
 
 /// Scores a fit on held-out records, prepared with Split::held_out and InputNoise::as_measured.

@@ -79,9 +79,8 @@ class Reduction {
   /// prediction can.
   bool leaves_much(std::size_t fit) {
     const Attribution& all = attribution(fit);
-    const auto& effects = result_.fits[fit].hypothesis.effects();
-    if (!std::ranges::all_of(effects, [](const Effect* e) { return is_predictable(*e); }))
-      return false;
+    for (const Effect* effect : result_.fits[fit].hypothesis.effects())
+      if (!is_predictable(*effect)) return false;
     // Without rest and repeats the noise is a guess.
     return experiment_.acceleration_noise_is_measured && all.unexplained >= least_share &&
            all.reducible * all.unexplained > power_without_cause(experiment_.simulation_accuracy);
@@ -105,23 +104,28 @@ class Reduction {
 
   /// Is the error that recalibration leaves so small that no unknown cause is worth a name?
   bool is_all_explained() {
-    const double recalibrated = error_power(known_.at("none"));
-    return recalibrated - floor_[&scored_] < power_without_cause(experiment_.simulation_accuracy);
+    return error_power(recalibrated()) - floor(recalibrated(), scored_) <
+           power_without_cause(experiment_.simulation_accuracy);
   }
 
  private:
-  /// Mean square error relative to the measured moment, in the scored records.
-  double error_power(std::size_t fit) { return error_power(fit, scored_); }
-  double error_power(std::size_t fit, const Experiment& records) {
-    const auto [found, is_new] = power_.try_emplace({fit, &records}, 0.);
-    if (is_new) {
-      const ErrorScore score =
+  /// The score of a fit, each computed once; its mean square error relative to the measured moment.
+  const ErrorScore& score(std::size_t fit, const Experiment& records) {
+    const auto [found, is_new] = scores_.try_emplace({fit, &records});
+    if (is_new)
+      found->second =
           score_held_out(experiment_, records, result_.fits[fit], {.n_resamples = 0}).overall;
-      found->second = score.nrmse_after * score.nrmse_after;
-      nominal_power_[&records] = score.nrmse_before * score.nrmse_before;
-      floor_[&records] = score.noise_floor * score.noise_floor;
-    }
     return found->second;
+  }
+  double error_power(std::size_t fit, const Experiment& records) {
+    return std::pow(score(fit, records).nrmse_after, 2);
+  }
+  double error_power(std::size_t fit) { return error_power(fit, scored_); }
+  double nominal_power(const Experiment& records) {
+    return std::pow(score(recalibrated(), records).nrmse_before, 2);
+  }
+  double floor(std::size_t fit, const Experiment& records) {
+    return std::pow(score(fit, records).noise_floor, 2);
   }
 
   /// What a fit without one effect leaves more than the whole fit, in fitted and unseen records
@@ -130,12 +134,12 @@ class Reduction {
     double returned = 0., worth = 0.;
     for (const Experiment* records : {&scored_, &fitted_}) {
       const double with = error_power(whole, *records),
-                   recalibrated = error_power(known_.at("none"), *records),
-                   gap = recalibrated - std::min(with, floor_[records]);
+                   gap = error_power(recalibrated(), *records) -
+                         std::min(with, floor(whole, *records));
       double left = error_power(without, *records);
       // Recalibration may make a simulation worse that has no gap.
       if (result_.fits[without].hypothesis.effects().empty())
-        left = std::min(left, nominal_power_[records]);
+        left = std::min(left, nominal_power(*records));
       returned += left - with + more;
       worth += std::max(least_share * gap, any_error());
     }
@@ -176,7 +180,7 @@ class Reduction {
     double returned = 0., worth = 0.;
     for (const Experiment* records : {&scored_, &fitted_}) {
       returned += error_power(without, *records) - error_power(whole, *records);
-      const double part = least_share * (nominal_power_[records] - floor_[records]);
+      const double part = least_share * (nominal_power(*records) - floor(whole, *records));
       worth += has_effects ? std::max(part, any_error()) : usual;
     }
     return returned < worth;
@@ -216,9 +220,8 @@ class Reduction {
   const Experiment& fitted_;  // its records as measured
   const Experiment& scored_;
   std::map<std::string, std::size_t> known_;  // hypothesis -> index of its fit
-  std::map<std::pair<std::size_t, const Experiment*>, double> power_;
+  std::map<std::pair<std::size_t, const Experiment*>, ErrorScore> scores_;
   std::map<std::size_t, Attribution> attributions_;
-  std::map<const Experiment*, double> floor_, nominal_power_;
 };
 
 }  // namespace
@@ -245,17 +248,13 @@ void name_answers(SearchResult& result, const Experiment& experiment, const Expe
       candidate.name = joined_name(std::move(ids));
       if (reduction.leaves_much(candidate.fit)) candidate.name = outside_catalogue;
     }
-    const auto same = std::find_if(named.begin(), named.end(), [&](const Candidate& other) {
-      return other.name == candidate.name;
-    });
+    const auto same = std::ranges::find(named, candidate.name, &Candidate::name);
     if (same == named.end())
       named.push_back(std::move(candidate));
     else
       same->probability += candidate.probability;
   }
-  std::stable_sort(named.begin(), named.end(), [](const Candidate& a, const Candidate& b) {
-    return a.probability > b.probability;
-  });
+  std::ranges::stable_sort(named, std::ranges::greater(), &Candidate::probability);
   result.candidates = std::move(named);
 }
 

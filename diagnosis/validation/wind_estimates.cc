@@ -53,17 +53,11 @@ std::size_t reach(const NominalModel& nominal, double rate_hz) {
   return static_cast<std::size_t>(0.5 * n_periods * period_s * rate_hz);
 }
 
-/// u from u |u|.
-std::vector<double> speed_of(std::vector<double> square) {
-  for (double& value : square) value = std::copysign(std::sqrt(std::abs(value)), value);
-  return square;
-}
-
-std::vector<double> measured_speed(const signals::Record& record, std::size_t reach) {
-  const auto wind = record.channel(channel::wind_speed);
-  std::vector<double> square(wind.begin(), wind.end());
-  for (double& value : square) value *= std::abs(value);
-  return speed_of(neighbour_mean(square, reach));
+/// Wind speed from its u |u| with the mean over neighbouring samples.
+std::vector<double> smooth_speed(const std::span<const double> square, const std::size_t reach) {
+  std::vector<double> out = neighbour_mean(square, reach);
+  for (double& value : out) value = std::copysign(std::sqrt(std::abs(value)), value);
+  return out;
 }
 
 std::vector<double> wind_speed(const UpdatedModel& model, const signals::Record& record,
@@ -71,20 +65,13 @@ std::vector<double> wind_speed(const UpdatedModel& model, const signals::Record&
   const double drag = steady_drag(model, record.sampling_rate_hz());
   std::vector<double> moment = wind_moment(model, record);
   for (double& value : moment) value /= drag;
-  return speed_of(neighbour_mean(moment, reach));
+  return smooth_speed(moment, reach);
 }
 
 double square_error(std::span<const double> x, std::span<const double> truth, std::size_t first) {
   double sum = 0.;
   for (std::size_t i = first; i < x.size(); ++i) sum += (x[i] - truth[i]) * (x[i] - truth[i]);
   return sum;
-}
-
-/// The measured moment minus the predicted vibration, without the first samples.
-void append_wind_estimate(const UpdatedModel& model, const signals::Record& record,
-                          std::size_t first, std::vector<double>& out) {
-  const std::vector<double> wind = subtract_vibration(model, record);
-  out.insert(out.end(), wind.begin() + static_cast<std::ptrdiff_t>(first), wind.end());
 }
 
 }  // namespace
@@ -97,7 +84,8 @@ std::optional<BeforeAfter> wind_speed_error_m_s(const UpdatedModel& simulation,
   for_each_windy(real, [&](const signals::DatasetRecord& entry, std::size_t first) {
     if (!entry.record.has(channel::wind_speed)) return;
     const std::size_t window = reach(simulation.nominal, entry.record.sampling_rate_hz());
-    const std::vector<double> truth = measured_speed(entry.record, window);
+    const std::vector<double> truth =
+        smooth_speed(signed_squares(entry.record.channel(channel::wind_speed)), window);
     before += square_error(wind_speed(simulation, entry.record, window), truth, first);
     after += square_error(wind_speed(updated, entry.record, window), truth, first);
     n += static_cast<double>(entry.record.n_samples() - first);
@@ -117,8 +105,12 @@ std::optional<BeforeAfter> separation_sdr_db(const UpdatedModel& simulation,
       return;
     const auto wind = entry.record.channel(channel::wind_moment).subspan(first);
     truth.insert(truth.end(), wind.begin(), wind.end());
-    append_wind_estimate(simulation, entry.record, first, before);
-    append_wind_estimate(updated, entry.record, first, after);
+    const auto append = [&](const UpdatedModel& model, std::vector<double>& out) {
+      const std::vector<double> estimate = subtract_vibration(model, entry.record);
+      out.insert(out.end(), estimate.begin() + static_cast<std::ptrdiff_t>(first), estimate.end());
+    };
+    append(simulation, before);
+    append(updated, after);
   });
   if (truth.empty()) return std::nullopt;
   return if_finite({separation::sdr_db(truth, before), separation::sdr_db(truth, after)});
