@@ -54,13 +54,14 @@ struct ResonanceEffect {
 
   const Effect* effect = nullptr;  // of the catalogue
   Part part = Part::joint;
+  struct Map {
+    std::function<double(double)> to_factor{}, to_value{};
+  } map{};                                 // from the value to the factor on the part, and back
   Parameter parameter{};                   // its name, unit and fitted coordinate
   UsualPrior prior{};                      // of the coordinate
   double usual_low = 0., usual_high = 0.;  // of the value (docs/effects.md)
-  std::function<double(double)> to_factor{},
-      to_value{};                         // from value to factor on the part, and back
-  std::optional<Parameter> mass_ratio{};  // of a mount
-  std::string remark{};                   // meaning of the value
+  std::optional<Parameter> mass_ratio{};   // of a mount
+  std::string remark{};                    // meaning of the value
 
   void apply(double value, ModeChange& change) const;
   /// The value that gives the changed mode a squared frequency ratio; nothing when no value does.

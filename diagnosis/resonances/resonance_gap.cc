@@ -209,8 +209,7 @@ void normalise(std::vector<ResonanceExplanation>& explanations) {
   double sum = 0.;
   for (const ResonanceExplanation& e : explanations) sum += e.odds;
   for (ResonanceExplanation& e : explanations) e.odds /= sum;
-  std::stable_sort(explanations.begin(), explanations.end(),
-                   [](const auto& a, const auto& b) { return a.odds > b.odds; });
+  std::ranges::stable_sort(explanations, std::ranges::greater(), &ResonanceExplanation::odds);
 }
 
 std::vector<ResonanceExplanation> all_explanations(const ResonanceGap& gap,

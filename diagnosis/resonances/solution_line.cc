@@ -1,8 +1,8 @@
 #include "diagnosis/resonances/solution_line.h"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <numbers>
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -61,9 +61,8 @@ void for_each_start(const ResonanceEffects& effects, const Visit& visit) {
   constexpr int n_masses = 24;
   int n_cells = 600;
   std::vector<Solution> points{{.density = 1., .prior = 1.}};
-  const auto mount = std::find_if(effects.begin(), effects.end(), [](const ResonanceEffect* e) {
-    return e->mass_ratio.has_value();
-  });
+  const auto mount = std::ranges::find_if(
+      effects, [](const ResonanceEffect* effect) { return effect->mass_ratio.has_value(); });
   if (mount != effects.end()) {
     points.clear();
     n_cells = 150;
@@ -97,12 +96,7 @@ void for_each_start(const ResonanceEffects& effects, const Visit& visit) {
 }  // namespace
 
 double normal_density(const double x, const double deviation) {
-  const double z = x / deviation;
-  return std::exp(-0.5 * z * z) / (deviation * std::sqrt(2. * std::numbers::pi));
-}
-
-double ResonanceGap::squared_ratio() const {
-  return std::exp(log_ratio);
+  return boost::math::pdf(boost::math::normal(0., deviation), x);
 }
 
 bool ResonanceGap::frequencies_agree() const {

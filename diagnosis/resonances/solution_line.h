@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct ResonanceGap {
   std::optional<double> simulated_damping{}, damping_change{};
   double damping_deviation = 0.;  // of ln damping_change
 
-  double squared_ratio() const;
+  double squared_ratio() const { return std::exp(log_ratio); }
   bool frequencies_agree() const;  // within two deviations
   bool dampings_agree() const;
   /// Ratio c / c0 that remains to be explained on a changed mode.
