@@ -19,6 +19,10 @@ std::string consequence(const Diagnosis& diagnosis);
 /// where there are none to describe.
 std::string unknown_sentence(const Diagnosis& diagnosis);
 
+/// The diagnosis as docs/records.md describes it, schema "vibrissa-diagnosis-2". Numbers that are
+/// not finite become null. Proven by tests/diagnosis/diagnosis_json_test.cc.
+std::string diagnosis_json(const Diagnosis& diagnosis);
+
 /// Lines of at most 100 characters, at most 24 lines for a terminal: entries that do not fit
 /// completely are left out.
 std::string verdict_text(const Diagnosis& diagnosis, std::size_t most_lines = 24);

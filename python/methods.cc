@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/model/updated_model.h"
 #include "diagnosis/nominal/nominal_from_model.h"
 #include "diagnosis/nominal/nominal_identification.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/verdict_text.h"
 #include "views/diagnosis_plots.h"

@@ -8,7 +8,6 @@
 #include "apps/command_line/refused_options.h"
 #include "apps/commands/resonance_diagnosis.h"
 #include "apps/jobs/nominal_input.h"
-#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/model/updated_model.h"
 #include "diagnosis/planning/next_experiment.h"
 #include "diagnosis/verdict_text.h"

@@ -1,6 +1,5 @@
 #include "diagnosis/localisation/gap_map.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -77,29 +76,6 @@ void correct(std::vector<ChannelGap>& map) {
       band.p_value = corrected[i++];
       channel.p_value = std::min(channel.p_value, band.p_value);
     }
-}
-
-/// Relative gap at the excited lines of one record, minus noise, and the level of its motion.
-struct LevelPoint {
-  double log_level = 0., log_gap = 0., variance = 0.;
-};
-
-std::optional<LevelPoint> level_point(const RecordGap& gap) {
-  const PreparedRecord& record = *gap.record;
-  double level = 0., error = 0., noise = 0., noise_square = 0., measured = 0.;
-  for (std::size_t b = 0; b < gap.error.size(); ++b) {
-    const double a = std::norm(record.acceleration[record.whole_line(b)]);
-    if (a == 0.) continue;
-    level += a;
-    error += std::norm(gap.error[b]);
-    noise += gap.variance[b];
-    noise_square += gap.variance[b] * (gap.variance[b] + 2. * std::norm(gap.error[b]));
-    measured += std::norm(record.moment[b]);
-  }
-  const double square = error - noise;
-  if (!(square > 3. * std::sqrt(noise_square)) || level == 0.) return std::nullopt;
-  return LevelPoint{0.5 * std::log(level) - std::log(static_cast<double>(record.n_samples)),
-                    0.5 * std::log(square / measured), 0.25 * noise_square / (square * square)};
 }
 
 }  // namespace
@@ -188,33 +164,6 @@ std::vector<std::string> gap_channels(const std::vector<ChannelGap>& map, bool a
   if (channels.empty() && has("product")) channels.push_back("product");
   if (at_rest) channels.push_back("rest");
   return channels;
-}
-
-std::optional<LevelExponent> level_exponent(const std::vector<RecordGap>& gaps) {
-  std::vector<LevelPoint> points;
-  for (const RecordGap& gap : gaps)
-    if (kind_of(*gap.record) == "base" && gap.record->periodic)
-      if (const auto point = level_point(gap)) points.push_back(*point);
-  if (points.size() < 2) return std::nullopt;
-  const auto [low, high] = std::ranges::minmax(points, {}, &LevelPoint::log_level);
-  constexpr double least_ratio = 1.3;
-  if (high.log_level - low.log_level < std::log(least_ratio)) return std::nullopt;
-  // Scatter of the relative gap in addition to noise, because lines and phases differ between
-  // records.
-  constexpr double scatter = 0.05;
-  const auto n = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixX2d line(n, 2);  // weighted: 1 and the level
-  Eigen::VectorXd right(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const LevelPoint& point = points[static_cast<std::size_t>(i)];
-    const double weight = 1. / std::sqrt(point.variance + scatter * scatter);
-    line.row(i) << weight, weight * point.log_level;
-    right(i) = weight * point.log_gap;
-  }
-  const Eigen::Matrix2d covariance = (line.transpose() * line).inverse();
-  const double slope = (covariance * (line.transpose() * right))(1);
-  const double deviation = std::sqrt(covariance(1, 1));
-  return LevelExponent{std::abs(slope) > 2. * deviation ? slope : 0., deviation};
 }
 
 }  // namespace vibrissa::diagnosis

@@ -48,14 +48,4 @@ std::optional<std::size_t> nearest_mode(const NominalModel& nominal,
 /// Kinds of records with a gap: base, wind, product (only when both act) and rest.
 std::vector<std::string> gap_channels(const std::vector<ChannelGap>& map, bool at_rest);
 
-/// Exponent of the relative gap, which grows as level^value.
-struct LevelExponent {
-  double value = 0.;  // 0 where it does not differ significantly from 0
-  double deviation = 0.;
-};
-
-/// Exponent from the excited lines of periodic base records, minus noise; nothing when there is one
-/// level only or no gap under base motion.
-std::optional<LevelExponent> level_exponent(const std::vector<RecordGap>& gaps);
-
 }  // namespace vibrissa::diagnosis

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/localisation/gap_harmonics.h"
-#include "diagnosis/localisation/gap_in_time.h"
 #include "diagnosis/localisation/gap_map.h"
+#include "diagnosis/localisation/gap_properties.h"
 #include "diagnosis/search/search.h"
 
 namespace vibrissa::diagnosis {

@@ -56,6 +56,14 @@ ExperimentPlan plan_experiments(const NominalModel& nominal,
                                 const std::vector<PlannedInput>& inputs, const ChannelNoise& noise,
                                 const PlanOptions& options = {});
 
+/// Schema "vibrissa-plan-1": assumed records and noise, effects with their detection limits and
+/// indistinguishable alternatives, experiments of the menu. Numbers that are not finite become
+/// null. Proven by tests/diagnosis/planning/experiment_plan_json_test.cc.
+std::string plan_json(const ExperimentPlan& plan);
+
+/// The plan as at most 20 lines of at most 100 characters for a terminal.
+std::string plan_text(const ExperimentPlan& plan);
+
 /// Probability that one effect, drawn from the catalogue's prior at its typical strength, stays
 /// undetected or is mistaken for an indistinguishable one (each of these is named in proportion to
 /// its prior). Half of all sensors are of the kind exact, half as_built.

@@ -1,4 +1,4 @@
-#include "diagnosis/planning/experiment_plan_json.h"
+#include "diagnosis/planning/experiment_plan.h"
 
 #include <algorithm>
 #include <map>
@@ -59,25 +59,6 @@ std::string limit_words(const EffectPower& effect) {
   return name + " " + with_unit(*detectability.limit, effect.unit);
 }
 
-/// Words separated by commas on lines of at most 100 characters; the last line ends in dots when
-/// there are more than most_lines.
-Words filled(const std::string& head, const Words& words, std::size_t most_lines) {
-  constexpr std::size_t longest = 96;
-  Words lines{head};
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string word = words[i] + (i + 1 < words.size() ? "," : "");
-    if (lines.back().size() + 1 + word.size() > longest) {
-      if (lines.size() == most_lines) {
-        lines.back() += " ...";
-        return lines;
-      }
-      lines.push_back("   ");
-    }
-    lines.back() += " " + word;
-  }
-  return lines;
-}
-
 std::string records_line(const ExperimentPlan& plan) {
   double duration_s = 0.;
   std::map<std::string, int> kinds;
@@ -126,7 +107,7 @@ Words limits_lines(const ExperimentPlan& plan) {
   for (const EffectPower& effect : plan.effects)
     if (effect.as_built.detected) words.push_back(limit_words(effect));
   if (words.empty()) return {};
-  return filled("Detected from:", words, most_lines);
+  return wrapped("Detected from: " + joined(words, ", "), most_lines);
 }
 
 Words alike_lines(const ExperimentPlan& plan) {

@@ -16,17 +16,9 @@ struct ResidualCurve {
 /// the residual divided by the chain's response to a moment of the joint, at the lines where the
 /// response is at least a tenth of its largest value. With J, p and K of JointModel that response
 /// is J p / (K (1 + (1 - p) J) + p J): base moments at rest do not show a static moment.
-class ResidualMoment {
- public:
-  ResidualMoment(const Experiment& experiment, const Chain& chain);
-
-  ResidualCurve over_angle() const { return binned(angle_); }
-  ResidualCurve over_rate() const { return binned(rate_); }
-
- private:
-  ResidualCurve binned(const std::vector<double>& quantity) const;
-  /// Of all records that move, one sample after the other, in shares of the scales.
-  std::vector<double> angle_, rate_, moment_;
+struct ResidualMoment {
+  ResidualCurve over_angle{}, over_rate{};  // all in shares of the scales
 };
+ResidualMoment residual_moment(const Experiment& experiment, const Chain& chain);
 
 }  // namespace vibrissa::diagnosis

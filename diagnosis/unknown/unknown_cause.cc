@@ -43,14 +43,10 @@ class Model {
     Eigen::VectorXd coefficients{};
   };
 
-  Chain with(const Choice& choice) const {
+  Eigen::VectorXd predicted(std::span<const PreparedRecord> records, const Choice& choice) const {
     Chain chain = chain_;
     for (std::size_t i = 0; i < choice.terms.size(); ++i)
       terms_[choice.terms[i]].add(chain, choice.coefficients(static_cast<Eigen::Index>(i)));
-    return chain;
-  }
-  Eigen::VectorXd predicted(std::span<const PreparedRecord> records, const Choice& choice) const {
-    const Chain chain = with(choice);
     return stacked(records, ChainSimulator(chain).means(records));
   }
   /// The choice with a further term of coefficient zero.
@@ -220,9 +216,7 @@ UnknownCause describe_unknown(const Experiment& experiment, const Experiment& sc
       out.terms[i].coefficient = choice.coefficients(static_cast<Eigen::Index>(first + i));
   }
   out.left = (1. - (out.terms.empty() ? 0. : closed)) * out.unexplained;
-  const ResidualMoment residual(experiment, chain);
-  out.over_angle = residual.over_angle();
-  out.over_rate = residual.over_rate();
+  out.residual = residual_moment(experiment, chain);
   return out;
 }
 

@@ -23,9 +23,7 @@ struct UnknownCause {
   double left = 0.;                // the same once the terms are added
   bool replaces_effects = false;   // the terms stand beside calibrations alone, without effects
   std::vector<NamedTerm> terms{};  // largest gain first
-  /// Residual moment of the joint (in shares of its peak elastic moment) over angle and rate, both
-  /// in shares of their peaks; empty where the joint's moment cannot be seen.
-  ResidualCurve over_angle{}, over_rate{};
+  ResidualMoment residual{};       // empty where the joint's moment cannot be seen
 };
 
 /// Forward selection (Miller 2002, Subset Selection in Regression, 2nd ed., ch. 3) of at most three

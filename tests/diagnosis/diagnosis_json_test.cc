@@ -1,4 +1,3 @@
-#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/verdict_text.h"
 
 #include <gmock/gmock.h>

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/verdict_text.h"
 #include "signals/base/error.h"
