@@ -8,7 +8,6 @@
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/model/updated_model.h"
-#include "diagnosis/nominal/nominal_from_model.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/prediction/record_simulation.h"
 #include "diagnosis/verdict_text.h"

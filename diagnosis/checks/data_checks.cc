@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "diagnosis/model/words.h"
 #include "diagnosis/records/experiment.h"
-#include "diagnosis/records/repeated_samples.h"
+#include "diagnosis/records/source_samples.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/number_text.h"
 
@@ -150,6 +151,16 @@ bool has_one_level(const std::vector<double>& levels) {
 }
 
 }  // namespace
+
+#define VIBRISSA_AS_TEXT(...) #__VA_ARGS__
+#define VIBRISSA_NAMES(...) VIBRISSA_AS_TEXT(__VA_ARGS__)
+
+std::string to_string(const FindingKind kind) {
+  std::istringstream names(VIBRISSA_NAMES(VIBRISSA_FINDING_KINDS));
+  std::string name;
+  for (int i = 0; i <= static_cast<int>(kind); ++i) std::getline(names >> std::ws, name, ',');
+  return name;
+}
 
 void check_what_is_there(const WantedPaths& wanted, const UsableRecord& is_usable,
                          const signals::Dataset& real, std::vector<Finding>& findings) {

@@ -115,22 +115,6 @@ void check_spikes(const DatasetRecord& entry, std::vector<Finding>& findings) {
   }
 }
 
-}  // namespace
-
-void check_dead_channels(const DatasetRecord& entry, std::vector<Finding>& findings) {
-  if (entry.excitation.base) {
-    check_constant(entry, channel::base_acceleration, findings);
-    check_stuck(entry, channel::base_acceleration, channel::base_moment, findings);
-    check_stuck(entry, channel::base_moment, channel::base_acceleration, findings);
-  }
-  if (entry.excitation.wind) check_constant(entry, channel::wind_speed, findings);
-  if (entry.excitation.base || entry.excitation.wind)
-    check_constant(entry, channel::base_moment, findings);
-  check_spikes(entry, findings);
-}
-
-namespace {
-
 /// Colour from which on power lies in tones or narrow bands.
 constexpr double coloured = 5.;
 
@@ -165,6 +149,18 @@ double least_level(const signals::Dataset& dataset, const std::string& name) {
 }
 
 }  // namespace
+
+void check_dead_channels(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  if (entry.excitation.base) {
+    check_constant(entry, channel::base_acceleration, findings);
+    check_stuck(entry, channel::base_acceleration, channel::base_moment, findings);
+    check_stuck(entry, channel::base_moment, channel::base_acceleration, findings);
+  }
+  if (entry.excitation.wind) check_constant(entry, channel::wind_speed, findings);
+  if (entry.excitation.base || entry.excitation.wind)
+    check_constant(entry, channel::base_moment, findings);
+  check_spikes(entry, findings);
+}
 
 void check_period(const DatasetRecord& entry, std::vector<Finding>& findings) {
   const std::string& name = channel::base_acceleration;

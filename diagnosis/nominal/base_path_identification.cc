@@ -1,4 +1,3 @@
-#include "diagnosis/nominal/base_path_identification.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/nominal/mode_above_sampling.h"
+#include "diagnosis/nominal/base_path_identification.h"
 #include "separation/identification/identify_frequency.h"
 #include "separation/identification/output_error.h"
 #include "signals/base/error.h"

@@ -45,6 +45,68 @@ class NoiseMaker {
   std::normal_distribution<double> normal_;
 };
 
+using Inputs = std::vector<PlannedInput>;
+
+constexpr double usual_level = 4., usual_wind = 2.;  // m/s^2 rms, m/s
+
+double level_of(const PlannedInput& input) {
+  return input.acceleration.empty() ? 0. : std::sqrt(mean_square(input.acceleration));
+}
+
+/// The strongest planned base motion without wind; a multisine when there is none.
+PlannedInput strongest_base(Inputs planned) {
+  const double rate_hz = planned.front().sampling_rate_hz;
+  std::erase_if(planned, [](const PlannedInput& input) {
+    return !input.wind.empty() || input.acceleration.empty();
+  });
+  if (planned.empty()) return multisine_input("base", 4., 0.25 * rate_hz, usual_level, rate_hz);
+  return *std::ranges::max_element(planned, {}, level_of);
+}
+
+Inputs level_ladder(const PlannedInput& base) {
+  Inputs out;
+  for (const double factor : {0.25, 0.5, 1., 2.}) {
+    out.push_back(base);
+    out.back().name = "level_" + std::to_string(out.size());
+    for (std::vector<double>* x : {&out.back().acceleration, &out.back().cross_acceleration})
+      for (double& value : *x) value *= factor;
+  }
+  return out;
+}
+
+Inputs wind_ladder(const PlannedInput& base) {
+  const double rate_hz = base.sampling_rate_hz;
+  Inputs out;
+  for (const int speed : {1, 2, 3, 4}) {
+    out.push_back(gust_input("wind_" + std::to_string(speed) + "_m_s", speed,
+                             static_cast<double>(base.n_samples) / rate_hz, rate_hz));
+    PlannedInput both = out.back();
+    both.name += "_base";
+    both.acceleration = base.acceleration;
+    both.acceleration.resize(both.n_samples, 0.);
+    out.push_back(std::move(both));
+  }
+  return out;
+}
+
+PlannedInput steady_wind(const double rate_hz) {
+  PlannedInput out = quiet_input(60., rate_hz);
+  out.name = "steady_wind";
+  out.wind.assign(out.n_samples, usual_wind);
+  return out;
+}
+
+PlannedInput at_twice_the_rate(PlannedInput out) {
+  constexpr std::size_t factor = 2;
+  out.name = "other_rate";
+  for (std::vector<double>* x : {&out.acceleration, &out.cross_acceleration})
+    if (!x->empty()) *x = upsampled(spectrum_of(*x), out.n_samples, factor);
+  out.sampling_rate_hz *= static_cast<double>(factor);
+  out.n_samples *= factor;
+  out.period_samples *= factor;
+  return out;
+}
+
 }  // namespace
 
 ChannelNoise usual_noise() {
@@ -154,72 +216,6 @@ signals::Dataset planned_dataset(const NominalModel& nominal,
   }
   return out;
 }
-
-namespace {
-
-using Inputs = std::vector<PlannedInput>;
-
-constexpr double usual_level = 4., usual_wind = 2.;  // m/s^2 rms, m/s
-
-double level_of(const PlannedInput& input) {
-  return input.acceleration.empty() ? 0. : std::sqrt(mean_square(input.acceleration));
-}
-
-/// The strongest planned base motion without wind; a multisine when there is none.
-PlannedInput strongest_base(Inputs planned) {
-  const double rate_hz = planned.front().sampling_rate_hz;
-  std::erase_if(planned, [](const PlannedInput& input) {
-    return !input.wind.empty() || input.acceleration.empty();
-  });
-  if (planned.empty()) return multisine_input("base", 4., 0.25 * rate_hz, usual_level, rate_hz);
-  return *std::ranges::max_element(planned, {}, level_of);
-}
-
-Inputs level_ladder(const PlannedInput& base) {
-  Inputs out;
-  for (const double factor : {0.25, 0.5, 1., 2.}) {
-    out.push_back(base);
-    out.back().name = "level_" + std::to_string(out.size());
-    for (std::vector<double>* x : {&out.back().acceleration, &out.back().cross_acceleration})
-      for (double& value : *x) value *= factor;
-  }
-  return out;
-}
-
-Inputs wind_ladder(const PlannedInput& base) {
-  const double rate_hz = base.sampling_rate_hz;
-  Inputs out;
-  for (const int speed : {1, 2, 3, 4}) {
-    out.push_back(gust_input("wind_" + std::to_string(speed) + "_m_s", speed,
-                             static_cast<double>(base.n_samples) / rate_hz, rate_hz));
-    PlannedInput both = out.back();
-    both.name += "_base";
-    both.acceleration = base.acceleration;
-    both.acceleration.resize(both.n_samples, 0.);
-    out.push_back(std::move(both));
-  }
-  return out;
-}
-
-PlannedInput steady_wind(const double rate_hz) {
-  PlannedInput out = quiet_input(60., rate_hz);
-  out.name = "steady_wind";
-  out.wind.assign(out.n_samples, usual_wind);
-  return out;
-}
-
-PlannedInput at_twice_the_rate(PlannedInput out) {
-  constexpr std::size_t factor = 2;
-  out.name = "other_rate";
-  for (std::vector<double>* x : {&out.acceleration, &out.cross_acceleration})
-    if (!x->empty()) *x = upsampled(spectrum_of(*x), out.n_samples, factor);
-  out.sampling_rate_hz *= static_cast<double>(factor);
-  out.n_samples *= factor;
-  out.period_samples *= factor;
-  return out;
-}
-
-}  // namespace
 
 std::optional<Inputs> added_inputs(const std::string& entry, const NominalModel& nominal,
                                    const Inputs& planned) {

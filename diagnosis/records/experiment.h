@@ -6,7 +6,6 @@
 #include "diagnosis/model/effect.h"
 #include "diagnosis/model/updated_model.h"
 #include "diagnosis/records/channel_noise.h"
-#include "diagnosis/records/noise_colour.h"
 #include "signals/files/dataset.h"
 
 namespace vibrissa::diagnosis {

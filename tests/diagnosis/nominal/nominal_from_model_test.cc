@@ -1,4 +1,3 @@
-#include "diagnosis/nominal/nominal_from_model.h"
 
 #include <gmock/gmock.h>
 
