@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/nominal/nominal_identification.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::diagnosis {
