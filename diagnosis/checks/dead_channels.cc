@@ -100,12 +100,12 @@ void check_spikes(const DatasetRecord& entry, std::vector<Finding>& findings) {
   const auto x = entry.record.channel(channel::base_moment);
   std::vector<double> sizes(x.begin(), x.end());
   for (double& v : sizes) v = std::abs(v);
-  const double median = signals::median(std::move(sizes));
+  const double median = signals::median(sizes);
   constexpr double above_all = 30., above_neighbours = 10.;
-  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
-    const double size = std::abs(x[i]);
-    if (!(size > above_all * median) || median == 0.) continue;
-    if (size < above_neighbours * std::max(std::abs(x[i - 1]), std::abs(x[i + 1]))) continue;
+  for (std::size_t i = 1; i + 1 < x.size() && median > 0.; ++i) {
+    if (!(sizes[i] > above_all * median) ||
+        sizes[i] < above_neighbours * std::max(sizes[i - 1], sizes[i + 1]))
+      continue;
     findings.push_back({FindingKind::spike, entry.name,
                         "base_moment_N_m jumps to " + three_digits(x[i]) + " for one sample at " +
                             three_digits(entry.record.time_s(i)) +

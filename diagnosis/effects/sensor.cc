@@ -9,10 +9,12 @@ namespace {
 /// Starting values about the mains frequencies and their harmonics. Mains frequency varies by a
 /// tenth of a hertz, and the step is small because long records resolve such differences, so basins
 /// of attraction are narrow.
-std::vector<std::vector<double>> lines_nearby() {
+std::vector<std::vector<double>> mains_lines(const std::vector<double>& amplitudes,
+                                             const int n_steps) {
   std::vector<std::vector<double>> out;
   for (const double line_hz : {50., 60., 100., 120.})
-    for (int i = -12; i <= 12; ++i) out.push_back({3e-6, line_hz + 0.01 * i});
+    for (int i = -n_steps; i <= n_steps; ++i)
+      for (const double amplitude : amplitudes) out.push_back({amplitude, line_hz + 0.01 * i});
   return out;
 }
 
@@ -129,15 +131,8 @@ Effect hum() {
       .irreducible = true,
       .model_form_error = 0.01,
       .parameters = {log_uniform("amplitude", "N m", 1e-8, 1e-3, 0.), frequency},
-      .starts = {{3e-7, 50.},
-                 {3e-6, 50.},
-                 {3e-7, 60.},
-                 {3e-6, 60.},
-                 {3e-7, 100.},
-                 {3e-6, 100.},
-                 {3e-7, 120.},
-                 {3e-6, 120.}},
-      .scanned = lines_nearby(),
+      .starts = mains_lines({3e-7, 3e-6}, 0),
+      .scanned = mains_lines({3e-6}, 12),
       .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
         chain.noise.push_back([a = v[0], f = v[1]](const RecordView& view, std::span<double> out) {
           const double n = static_cast<double>(view.n_samples), line_hz = view.sampling_rate_hz / n;

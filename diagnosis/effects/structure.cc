@@ -72,13 +72,13 @@ std::array<double, n_branches> branch_times(double tau, double decades) {
   return times;
 }
 
-/// Starting frequencies that are so close that no resonance of usual damping lies between two of
-/// them.
-std::vector<std::vector<double>> scanned_modes() {
-  constexpr double damping_ratio = 0.02;
+constexpr double damping_ratio = 0.02;  // of starting values of extra_mode
+
+std::vector<std::vector<double>> modes_at(const std::vector<double>& frequencies_hz,
+                                          const std::vector<double>& residues) {
   std::vector<std::vector<double>> out;
-  for (const double hz : geometric_series(46., 238., 1. + 2. * damping_ratio))
-    out.push_back({hz, damping_ratio, 0.005});
+  for (const double hz : frequencies_hz)
+    for (const double residue : residues) out.push_back({hz, damping_ratio, residue});
   return out;
 }
 
@@ -221,17 +221,9 @@ Effect extra_mode() {
                               log_uniform("damping_ratio", "1", 0.004, 0.15, 0.02)),
                      relative("times |M / a| at 0 Hz (M / a itself is negative)",
                               uniform("residue", "1", -0.15, 0.15, 0.))},
-      .starts = {{60., 0.02, 0.005},
-                 {60., 0.02, -0.005},
-                 {80., 0.02, 0.005},
-                 {80., 0.02, -0.005},
-                 {105., 0.02, 0.005},
-                 {105., 0.02, -0.005},
-                 {140., 0.02, 0.005},
-                 {140., 0.02, -0.005},
-                 {185., 0.02, 0.005},
-                 {185., 0.02, -0.005}},
-      .scanned = scanned_modes(),
+      .starts = modes_at({60., 80., 105., 140., 185.}, {0.005, -0.005}),
+      // So close that no resonance of usual damping lies between two of them.
+      .scanned = modes_at(geometric_series(46., 238., 1. + 2. * damping_ratio), {0.005}),
       .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
         const double w = 2. * std::numbers::pi * v[0];
         chain.parallel.push_back([w, z = v[1], g = v[2] * scales.static_gain](Complex s) {

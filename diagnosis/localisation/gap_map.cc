@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "diagnosis/localisation/significance_tests.h"
+#include "diagnosis/records/spectrum.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -43,8 +44,7 @@ ChannelGap channel_gap(const std::string& channel, const std::vector<RecordGap>&
                        double noise_degrees) {
   ChannelGap out{.channel = channel};
   double measured = 0.;
-  for (const RecordGap& gap : gaps)
-    for (const Complex& m : gap.record->moment) measured += std::norm(m);
+  for (const RecordGap& gap : gaps) measured += total_power(gap.record->moment);
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
     double whitened = 0., error = 0., n = 0.;
     for (const RecordGap& gap : gaps)
@@ -131,32 +131,26 @@ std::vector<std::array<double, 2>> merged_bands(const std::vector<ChannelGap>& m
 
 std::optional<std::size_t> nearest_mode(const NominalModel& nominal,
                                         const std::vector<ChannelGap>& map) {
-  const BandGap* strongest = nullptr;
+  BandGap strongest;
   for (const ChannelGap& channel : map)
     for (const BandGap& band : channel.bands)
-      if (band.p_value < significant_gap && (strongest == nullptr || band.nrmse > strongest->nrmse))
-        strongest = &band;
-  if (strongest == nullptr) return std::nullopt;
-  const double centre_hz = 0.5 * (strongest->low_hz + strongest->high_hz);
+      if (band.p_value < significant_gap && band.nrmse > strongest.nrmse) strongest = band;
+  if (strongest.nrmse == 0.) return std::nullopt;
+  const double centre_hz = 0.5 * (strongest.low_hz + strongest.high_hz);
   std::vector<double> modes_hz;
   for (const StructuralMode& mode : nominal.modes)
     modes_hz.push_back(mode.frequency_rad_s / (2. * std::numbers::pi));
   std::sort(modes_hz.begin(), modes_hz.end());
-  std::optional<std::size_t> best;
-  double least = std::numbers::ln2;
-  for (std::size_t i = 0; i < modes_hz.size(); ++i)
-    if (const double away = std::abs(std::log(modes_hz[i] / centre_hz)); away < least) {
-      least = away;
-      best = i + 1;
-    }
-  return best;
+  const auto octaves = [&](const double hz) { return std::abs(std::log2(hz / centre_hz)); };
+  const auto nearest = std::ranges::min_element(modes_hz, {}, octaves);
+  if (nearest == modes_hz.end() || octaves(*nearest) >= 1.) return std::nullopt;
+  return static_cast<std::size_t>(nearest - modes_hz.begin()) + 1;
 }
 
 std::vector<std::string> gap_channels(const std::vector<ChannelGap>& map, bool at_rest) {
   const auto has = [&](const std::string& name) {
-    return std::any_of(map.begin(), map.end(), [&](const ChannelGap& c) {
-      return c.channel == name && c.p_value < significant_gap;
-    });
+    const auto found = std::ranges::find(map, name, &ChannelGap::channel);
+    return found != map.end() && found->p_value < significant_gap;
   };
   std::vector<std::string> channels;
   for (const char* name : {"base", "wind"})

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnosis/nominal/base_path_identification.h"
+#include "diagnosis/records/spectrum.h"
 #include "separation/identification/identify_frequency.h"
 #include "separation/identification/output_error.h"
 #include "signals/base/error.h"
@@ -88,12 +89,10 @@ std::vector<separation::Segment> segments_of(const Entries& entries) {
 }
 
 double mean_square_moment(std::span<const separation::Segment> segments) {
-  double sum = 0., n = 0.;
-  for (const separation::Segment& segment : segments) {
-    for (const double moment : segment.base_moment) sum += moment * moment;
-    n += static_cast<double>(segment.base_moment.size());
-  }
-  return sum / n;
+  std::vector<double> all;
+  for (const separation::Segment& segment : segments)
+    all.insert(all.end(), segment.base_moment.begin(), segment.base_moment.end());
+  return mean_square(all);
 }
 
 /// Viscous part of the modes' moments relative to the elastic part.

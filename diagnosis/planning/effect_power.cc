@@ -70,10 +70,10 @@ class PowerStudy {
  public:
   PowerStudy(const Experiment& experiment, const ChannelNoise& noise, const PowerOptions& options)
       : point_(experiment, noise), options_(options) {
-    for (const Effect& effect : effect_catalogue()) effects_.push_back(studied(effect));
-    for (std::size_t i = 0; i < effects_.size(); ++i) {
-      EffectPower& power = effects_[i].power;
-      power.needs = missing(lacks(experiment, *effects_[i].effect));
+    for (const Effect& effect : effect_catalogue()) {
+      effects_.push_back(studied(effect));
+      EffectPower& power = effects_.back().power;
+      power.needs = missing(lacks(experiment, effect));
       power.shown = power.needs.empty();
     }
   }
@@ -105,11 +105,10 @@ class PowerStudy {
     for_each_parallel(n, options_.n_threads, work);
   }
 
-  const EffectPower* known(const std::string& id) const {
+  /// The result with fewer records; both are in the order of the catalogue.
+  const EffectPower* known(const StudiedEffect& effect) const {
     if (options_.fewer_records == nullptr) return nullptr;
-    for (const EffectPower& power : *options_.fewer_records)
-      if (power.effect == id) return &power;
-    return nullptr;
+    return &(*options_.fewer_records)[static_cast<std::size_t>(&effect - effects_.data())];
   }
 
   /// Sets whether the effect is detected and, when asked for, from which size on.
@@ -119,7 +118,7 @@ class PowerStudy {
         effect.change = change_at(effect.families.front(), *effect.effect, 1.);
       for (const SensorKind kind : sensor_kinds) {
         Detectability& detectability = effect.power.on(kind);
-        const EffectPower* before = known(effect.effect->id);
+        const EffectPower* before = known(effect);
         detectability.nats = before != nullptr && before->on(kind).detected
                                  ? before->on(kind).nats
                                  : nats_of(effect, effect.change, kind);
@@ -218,7 +217,7 @@ class PowerStudy {
 
   bool known_different(const StudiedEffect& effect, const StudiedEffect& alternative,
                        SensorKind kind) const {
-    const EffectPower *one = known(effect.effect->id), *other = known(alternative.effect->id);
+    const EffectPower *one = known(effect), *other = known(alternative);
     return one != nullptr && other != nullptr && one->on(kind).detected && other->shown &&
            std::ranges::count(one->on(kind).alike, other->effect) == 0;
   }

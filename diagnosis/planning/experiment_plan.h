@@ -39,22 +39,17 @@ struct ExperimentPlan {
   std::vector<PlannedStep> steps{};  // largest gain first
 };
 
-struct PlanOptions {
-  std::size_t n_threads = 2;
-  std::function<void()> on_effect = {};  // after each effect of each experiment, one at a time
-};
-
 /// Number of calls of on_effect in plan_experiments().
 std::size_t n_plan_steps(const NominalModel& nominal, const std::vector<PlannedInput>& inputs);
 
 /// Detection limits, indistinguishable effects, and the gain of each entry of the menu. Entries
 /// that are records are simulated together with the planned ones; the others follow the menu's
-/// table. Sizes of effects stay those of the planned records. Throws UserError for noise that is
-/// not positive and for inputs that the nominal model does not include. Proven by
-/// tests/diagnosis/planning/experiment_plan_test.cc.
+/// table. on_effect is called after each effect of each experiment. Sizes of effects stay those of
+/// the planned records. Throws UserError for noise that is not positive and for inputs that the
+/// nominal model does not include. Proven by tests/diagnosis/planning/experiment_plan_test.cc.
 ExperimentPlan plan_experiments(const NominalModel& nominal,
                                 const std::vector<PlannedInput>& inputs, const ChannelNoise& noise,
-                                const PlanOptions& options = {});
+                                PowerOptions options = {});
 
 /// Schema "vibrissa-plan-1": assumed records and noise, effects with their detection limits and
 /// indistinguishable alternatives, experiments of the menu. Numbers that are not finite become

@@ -1,6 +1,7 @@
 #include "diagnosis/records/source_samples.h"
 
 #include <algorithm>
+#include <boost/math/statistics/linear_regression.hpp>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -99,16 +100,12 @@ struct Line {
 
 /// Least-squares line of the indices over their numbers.
 Line line_through(const std::vector<std::size_t>& indices) {
-  const double n = static_cast<double>(indices.size()), middle = 0.5 * (n - 1.);
-  double sum = 0., moment = 0., square = 0.;
-  for (std::size_t j = 0; j < indices.size(); ++j) {
-    const double d = static_cast<double>(j) - middle;
-    sum += static_cast<double>(indices[j]);
-    moment += d * static_cast<double>(indices[j]);
-    square += d * d;
-  }
-  const double slope = square > 0. ? moment / square : 1.;
-  return {sum / n - slope * middle, slope};
+  if (indices.size() < 2) return {indices.empty() ? 0. : static_cast<double>(indices.front())};
+  std::vector<double> numbers(indices.size());
+  std::iota(numbers.begin(), numbers.end(), 0.);
+  const auto [intercept, slope] = boost::math::statistics::simple_ordinary_least_squares(
+      numbers, std::vector<double>(indices.begin(), indices.end()));
+  return {intercept, slope};
 }
 
 }  // namespace

@@ -150,32 +150,16 @@ const std::vector<JointTerm>& joint_terms() {
   return terms;
 }
 
-/// Reading plus coefficient times a power of itself, in shares of the peak.
-Term reading_power(std::string name, std::string like, const Scale& scale,
-                   double (*function)(double)) {
-  return {.name = std::move(name),
-          .place = TermPlace::reading,
-          .like = std::move(like),
-          .add = [scale, function](Chain& chain, double c) {
-            chain.readout.push_back([scale, function, c](double moment) {
-              constexpr double most = 3.;
-              const double x = std::clamp(moment / scale.moment_n_m, -most, most);
-              return moment + c * scale.moment_n_m * function(x);
-            });
-          }};
-}
-
-/// Reading times a filter.
-Term reading_filter(std::string name, std::string like, const Scale& scale,
-                    Complex (*filter)(Complex x, double c)) {
-  return {.name = std::move(name),
-          .place = TermPlace::reading,
-          .like = std::move(like),
-          .add = [scale, filter](Chain& chain, double c) {
-            chain.sensor.push_back(
-                [scale, filter, c](Complex s) { return filter(s / scale.frequency_rad_s, c); });
-          }};
-}
+/// Reading plus coefficient times a function of itself, in shares of the peak.
+struct ReadingTerm {
+  const char *name, *like;
+  double (*function)(double);
+};
+constexpr ReadingTerm reading_terms[] = {
+    {"moment^2", "sensor_nonlinearity", [](double x) { return x * x; }},
+    {"moment |moment|", "", [](double x) { return x * std::abs(x); }},
+    {"moment^3", "sensor_nonlinearity", [](double x) { return x * x * x; }},
+    {"sign(moment)", "", [](double x) { return sign(x); }}};
 
 /// What a wrong calibration does; the coefficient is the logarithm of its ratio.
 Term calibration(const Effect& effect, const Scales& scales) {
@@ -188,15 +172,23 @@ Term calibration(const Effect& effect, const Scales& scales) {
 }
 
 void add_reading_terms(const Experiment& experiment, const Scale& scale, std::vector<Term>& out) {
-  out.push_back(reading_filter("delay", "delay", scale,
-                               [](Complex x, double c) { return std::exp(-c * x); }));
-  out.push_back(
-      reading_power("moment^2", "sensor_nonlinearity", scale, [](double x) { return x * x; }));
-  out.push_back(
-      reading_power("moment |moment|", "", scale, [](double x) { return x * std::abs(x); }));
-  out.push_back(
-      reading_power("moment^3", "sensor_nonlinearity", scale, [](double x) { return x * x * x; }));
-  out.push_back(reading_power("sign(moment)", "", scale, [](double x) { return sign(x); }));
+  out.push_back({.name = "delay",
+                 .place = TermPlace::reading,
+                 .like = "delay",
+                 .add = [w = scale.frequency_rad_s](Chain& chain, double c) {
+                   chain.sensor.push_back([w, c](Complex s) { return std::exp(-c * s / w); });
+                 }});
+  for (const ReadingTerm& term : reading_terms)
+    out.push_back(
+        {.name = term.name,
+         .place = TermPlace::reading,
+         .like = term.like,
+         .add = [peak = scale.moment_n_m, function = term.function](Chain& chain, double c) {
+           chain.readout.push_back([peak, function, c](double moment) {
+             constexpr double most = 3.;
+             return moment + c * peak * function(std::clamp(moment / peak, -most, most));
+           });
+         }});
   if (!experiment.has_base) return;
   for (const bool of_rate : {false, true})
     out.push_back(

@@ -30,6 +30,12 @@ Eigen::VectorXd stacked(std::span<const PreparedRecord> records,
   return Eigen::Map<const Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
 }
 
+Eigen::VectorXd measured_in(const Experiment& experiment) {
+  std::vector<std::vector<Complex>> bins;
+  for (const PreparedRecord& record : experiment.records) bins.push_back(record.moment);
+  return stacked(experiment.records, bins);
+}
+
 /// Terms with their coefficients on top of a chain.
 class Model {
  public:
@@ -182,12 +188,7 @@ UnknownCause describe_unknown(const Experiment& experiment, const Experiment& sc
   const std::vector<Term> terms = all_terms(experiment, scored.records);
   const Chain chain = fit.chain(experiment);
   const Model model(chain, terms, n_threads);
-  const auto measured_of = [](const Experiment& of) {
-    std::vector<std::vector<Complex>> bins;
-    for (const PreparedRecord& record : of.records) bins.push_back(record.moment);
-    return stacked(of.records, bins);
-  };
-  const Eigen::VectorXd measured = measured_of(experiment), unseen = measured_of(scored);
+  const Eigen::VectorXd measured = measured_in(experiment), unseen = measured_in(scored);
   const auto error_of = [&](const Model::Choice& choice) {
     return (unseen - model.predicted(scored.records, choice)).squaredNorm();
   };
