@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/checks/clock_offset.h"
+#include "diagnosis/checks/data_checks.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/nominal/nominal_identification.h"
-#include "diagnosis/records/long_records.h"
+#include "diagnosis/records/experiment.h"
 #include "diagnosis/search/calibrated_odds.h"
 #include "diagnosis/search/confidence_set.h"
 #include "diagnosis/search/misplaced_record.h"

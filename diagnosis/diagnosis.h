@@ -15,8 +15,7 @@
 #include "diagnosis/validation/attribution.h"
 #include "diagnosis/validation/comparison.h"
 #include "diagnosis/validation/held_out.h"
-#include "diagnosis/validation/untested.h"
-#include "diagnosis/validation/wind_estimates.h"
+#include "diagnosis/validation/named_answers.h"
 
 namespace vibrissa::diagnosis {
 

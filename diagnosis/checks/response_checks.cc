@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -32,48 +31,36 @@ double lowest_mode_hz(const NominalModel& nominal) {
          (2. * std::numbers::pi);
 }
 
-class ResponseRatio {
- public:
-  ResponseRatio(std::vector<Complex> predicted, const DatasetRecord& entry,
-                const std::string& output = channel::base_moment)
-      : measured_(spectrum_of(entry.record.channel(output))),
-        predicted_(std::move(predicted)),
-        line_hz_(entry.record.sampling_rate_hz() / static_cast<double>(entry.record.n_samples())) {
-    for (std::size_t k = 1; k + 1 < predicted_.size(); ++k)
-      largest_ = std::max(largest_, std::abs(predicted_[k]));
+/// Uses the lines up to a frequency that are strong among themselves and among all lines (else they
+/// are dominated by noise), and strong as measured (else they may be images of sample-and-hold
+/// repeats). Nothing when there are too few such lines.
+std::optional<Ratio> ratio_of(const std::span<const Complex> measured,
+                              const std::span<const Complex> predicted, const double last_line,
+                              const std::size_t fewest_lines) {
+  const std::size_t end = measured.size() - 1,
+                    n = std::min(end, static_cast<std::size_t>(std::max(0., last_line) + 1.));
+  const auto largest = [](const std::span<const Complex> lines) {
+    double out = 0.;
+    for (const Complex& line : lines.subspan(1)) out = std::max(out, std::abs(line));
+    return out;
+  };
+  const double least = std::max(0.1 * largest(predicted.first(n)),
+                                0.02 * largest(predicted.first(end))),
+               least_measured = 0.05 * largest(measured.first(n));
+  double product = 0., of_measured = 0., of_predicted = 0.;
+  std::vector<double> logs;
+  for (std::size_t k = 1; k < n; ++k) {
+    if (!(std::abs(predicted[k]) > least && std::abs(measured[k]) > least_measured)) continue;
+    logs.push_back(std::log(std::abs(measured[k] / predicted[k])));
+    product += (measured[k] * std::conj(predicted[k])).real();
+    of_measured += std::norm(measured[k]);
+    of_predicted += std::norm(predicted[k]);
   }
-
-  /// Uses the lines up to a frequency that are strong among themselves and among all lines (else
-  /// they are dominated by noise), and strong as measured (else they may be images of
-  /// sample-and-hold repeats). Nothing when there are too few such lines.
-  std::optional<Ratio> up_to(double highest_hz, std::size_t fewest_lines) const {
-    const double last = std::min(highest_hz / line_hz_, static_cast<double>(measured_.size() - 2));
-    double largest = 0., largest_measured = 0., product = 0., measured = 0., predicted = 0.;
-    for (std::size_t k = 1; static_cast<double>(k) <= last; ++k) {
-      largest = std::max(largest, std::abs(predicted_[k]));
-      largest_measured = std::max(largest_measured, std::abs(measured_[k]));
-    }
-    const double least = std::max(0.1 * largest, 0.02 * largest_);
-    const double least_measured = 0.05 * largest_measured;
-    std::vector<double> logs;
-    for (std::size_t k = 1; static_cast<double>(k) <= last; ++k) {
-      if (!(std::abs(predicted_[k]) > least && std::abs(measured_[k]) > least_measured)) continue;
-      logs.push_back(std::log(std::abs(measured_[k] / predicted_[k])));
-      product += (measured_[k] * std::conj(predicted_[k])).real();
-      measured += std::norm(measured_[k]);
-      predicted += std::norm(predicted_[k]);
-    }
-    if (logs.size() < fewest_lines) return std::nullopt;
-    std::sort(logs.begin(), logs.end());
-    const std::size_t n = logs.size();
-    return Ratio{std::exp(logs[n / 2]), logs[3 * n / 4] - logs[n / 4],
-                 product / std::sqrt(measured * predicted)};
-  }
-
- private:
-  std::vector<Complex> measured_, predicted_;
-  double line_hz_ = 1., largest_ = 0.;
-};
+  if (logs.size() < fewest_lines) return std::nullopt;
+  std::ranges::sort(logs);
+  return Ratio{std::exp(logs[logs.size() / 2]), logs[3 * logs.size() / 4] - logs[logs.size() / 4],
+               product / std::sqrt(of_measured * of_predicted)};
+}
 
 /// Both values, as far as the records determine them.
 struct Ratios {
@@ -82,12 +69,18 @@ struct Ratios {
   double factor() const { return slow ? slow->median : all->median; }
 };
 
-Ratios ratios_of(const NominalModel& nominal, const ResponseRatio& lines) {
+Ratios ratios_of(const NominalModel& nominal, const DatasetRecord& entry,
+                 const std::vector<Complex>& predicted,
+                 const std::string& output = channel::base_moment) {
   // The first mode is above this even when the silicone has a third of its stiffness.
   constexpr double slow = 0.4;
   constexpr std::size_t fewest_slow_lines = 4;
-  return {lines.up_to(std::numeric_limits<double>::infinity(), 1),
-          lines.up_to(slow * lowest_mode_hz(nominal), fewest_slow_lines)};
+  const std::vector<Complex> measured = spectrum_of(entry.record.channel(output));
+  const double slow_line = slow * lowest_mode_hz(nominal) *
+                           static_cast<double>(entry.record.n_samples()) /
+                           entry.record.sampling_rate_hz();
+  return {ratio_of(measured, predicted, static_cast<double>(measured.size()), 1),
+          ratio_of(measured, predicted, slow_line, fewest_slow_lines)};
 }
 
 /// Factor on the response that a wrong unit causes.
@@ -169,20 +162,20 @@ Ratios ratios_to(const NominalModel& nominal, const DatasetRecord& entry) {
     return moved ? entry.record.channel(name) : std::span<const double>();
   };
   return ratios_of(
-      nominal, {nominal_moment(nominal, entry.record.n_samples(), entry.record.sampling_rate_hz(),
-                               input(entry.excitation.base, channel::base_acceleration),
-                               input(entry.excitation.wind, channel::wind_speed)),
-                entry});
+      nominal, entry,
+      nominal_moment(nominal, entry.record.n_samples(), entry.record.sampling_rate_hz(),
+                     input(entry.excitation.base, channel::base_acceleration),
+                     input(entry.excitation.wind, channel::wind_speed)));
 }
 
 /// Are base acceleration and moment exchanged?
 bool are_exchanged(const NominalModel& nominal, const DatasetRecord& entry, const Ratio& as_named,
                    std::vector<Finding>& findings) {
   const auto exchanged =
-      ratios_of(nominal,
-                {nominal_moment(nominal, entry.record.n_samples(), entry.record.sampling_rate_hz(),
-                                entry.record.channel(channel::base_moment), {}),
-                 entry, channel::base_acceleration})
+      ratios_of(nominal, entry,
+                nominal_moment(nominal, entry.record.n_samples(), entry.record.sampling_rate_hz(),
+                               entry.record.channel(channel::base_moment), {}),
+                channel::base_acceleration)
           .all;
   const bool implausible = std::abs(std::log10(as_named.median)) > 4.;
   if (!implausible || !exchanged || exchanged->median <= 0.05 || exchanged->median >= 20. ||

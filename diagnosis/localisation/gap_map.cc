@@ -1,4 +1,4 @@
-#include "diagnosis/localisation/gap_map.h"
+#include "diagnosis/localisation/gap_properties.h"
 
 #include <algorithm>
 #include <cmath>

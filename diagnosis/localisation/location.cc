@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "diagnosis/localisation/gap_map.h"
+#include "diagnosis/localisation/gap_properties.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/search/calibrated_odds.h"
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/localisation/gap_map.h"
 #include "diagnosis/localisation/gap_properties.h"
 #include "diagnosis/search/search.h"
 

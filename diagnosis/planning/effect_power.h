@@ -61,12 +61,11 @@ struct PowerOptions {
 
 /// Detectability of every effect of the catalogue, for records of the nominal sensor with white
 /// noise.
-///   detected: the whitened change of mean and variance (fisher_changes.h) that remains when all
-///   other free parameters of the sensor follow it, except the effect's own calibration parameter.
+///   detected: the whitened change that remains when all other free parameters of the sensor follow
+///   it (projection.h), except the effect's own calibration parameter.
 ///   alike: when the other effect's parameters follow as well, less than two nats remain, or less
 ///   than the other's model form error hides.
-/// Followers are refitted (projection.h), because strong effects are not linear in their
-/// parameters. Proven by tests/diagnosis/planning/effect_power_test.cc.
+/// Proven by tests/diagnosis/planning/effect_power_test.cc.
 std::vector<EffectPower> effect_powers(const Experiment& experiment, const ChannelNoise& noise,
                                        const PowerOptions& options = {});
 

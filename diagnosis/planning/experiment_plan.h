@@ -19,8 +19,7 @@ struct PlannedStep {
   bool by_rule = false;  // not simulated: upper estimate from the menu's table
   double duration_s = 0.;
   std::vector<std::string> finds{};  // effects detected only with it, on either kind of sensor
-  std::vector<std::pair<std::string, std::string>>
-      separates{};  // pairs, each in alphabetical order
+  std::vector<std::pair<std::string, std::string>> separates{};  // in alphabetical order
   /// Reduction of the probability of an undecided answer.
   double gain = 0.;
 };

@@ -7,7 +7,7 @@
 #include "diagnosis/model/hypothesis.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/nominal/nominal_identification.h"
-#include "diagnosis/resonances/solution_line.h"
+#include "diagnosis/resonances/resonance_effects.h"
 #include "diagnosis/search/confidence_set.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"

@@ -72,13 +72,12 @@ struct ResonanceDiagnosis {
 /// Every effect of resonance_effects(), alone and in pairs, with the value that it needs and its
 /// odds:
 ///   odds ~ P(effects) int pi(x) delta(y - g(x)) pi_c(zeta / zeta'(x)) dx,  y = ln (f / f0)^2,
-/// integrated along the line of solutions (the last parameter solved for, the density divided by
-/// |dg/dx|) and over the deviation of y, 2 sqrt(s^2 + s0^2). P: the priors of the search
-/// (log_prior_of_number, Effect::log_prior). pi_c: prior of the remaining damper, usual 0.3 .. 3
-/// (docs/effects.md). The silicone's share is taken as given. `none` and outside_catalogue are
-/// explanations, too. Where the frequencies agree but the damping ratios do not, `damping` takes
-/// the place of `none`. Throws UserError for parameters that are not positive, deviations outside
-/// (0, 0.5), damping ratios outside (0, 1) or shares outside (0, 1]. Proven by
+/// integrated by evidence(), over the deviation of y, 2 sqrt(s^2 + s0^2), too. P: the priors of the
+/// search (log_prior_of_number, Effect::log_prior). pi_c: prior of the remaining damper. The
+/// silicone's share is taken as given. `none` and outside_catalogue are explanations, too. Where
+/// the frequencies agree but the damping ratios do not, `damping` takes the place of `none`. Throws
+/// UserError for parameters that are not positive, deviations outside (0, 0.5), damping ratios
+/// outside (0, 1) or shares outside (0, 1]. Proven by
 /// tests/diagnosis/resonances/resonance_gap_test.cc against closed forms, the finite-element model
 /// and sampled priors.
 ResonanceDiagnosis explain_resonance_gap(const ResonanceData& simulated,

@@ -1,4 +1,4 @@
-#include "diagnosis/resonances/solution_line.h"
+#include "diagnosis/resonances/resonance_effects.h"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>

@@ -1,4 +1,4 @@
-#include "diagnosis/unknown/residual_moment.h"
+#include "diagnosis/unknown/unknown_cause.h"
 
 #include <algorithm>
 #include <cmath>
