@@ -46,7 +46,8 @@ void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings)
 void check_response(const NominalModel& nominal, const signals::DatasetRecord& entry,
                     double acceleration_noise_m_s2, std::vector<Finding>& findings);
 
-/// All of these, and records that are too short. simulated_rate_hz: 0 for none. Proven by tests/diagnosis/checks/data_checks_test.cc.
+/// All of these, and records that are too short. simulated_rate_hz: 0 for none. Proven by
+/// tests/diagnosis/checks/data_checks_test.cc.
 std::vector<Finding> check_data(const NominalModel& nominal, const signals::Dataset& real,
                                 double simulated_rate_hz = 0.);
 

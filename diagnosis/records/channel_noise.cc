@@ -62,7 +62,7 @@ double least_noise(const signals::Dataset& dataset, const std::string& name) {
   const double of_peak = 1. / (8192. * std::sqrt(12.));
   double peak = 0.;
   for (const auto x : fit_readings(dataset, name))
-    for (const double value : x) peak = std::max(peak, std::abs(value));
+    peak = std::max({peak, std::ranges::max(x), -std::ranges::min(x)});
   return of_peak * peak;
 }
 

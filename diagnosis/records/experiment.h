@@ -20,9 +20,9 @@ struct PreparedRecord {
   bool magnet = true;      // without magnet the sensor does not read the structure
   double wind_share = 1.;  // of the wind force, in the measured plane
   double sampling_rate_hz = 0.;
-  double clock_start_s = 0.;  // running time of the clocks at the start
-  std::size_t n_samples = 0;  // length of the whole record
-  bool periodic = false;      // the record consists of whole periods
+  double clock_start_s = 0.;               // running time of the clocks at the start
+  std::size_t n_samples = 0;               // length of the whole record
+  bool periodic = false;                   // the record consists of whole periods
   std::size_t first = 0, n_evaluated = 0;  // samples free of transients
 
   std::vector<Complex> acceleration{};  // k = 0 .. n/2, with reduced noise; empty: not measured

@@ -19,7 +19,17 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-using Samples = std::vector<double>;
+using Samples = Eigen::VectorXd;
+
+Samples samples_of_bins(const PreparedRecord& record, const std::vector<Complex>& bins) {
+  const std::vector<double> x = evaluated_samples(record, bins);
+  return Eigen::Map<const Samples>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+/// 0, 1, 2 ...
+Samples counted(const Eigen::Index n) {
+  return Samples::LinSpaced(n, 0., static_cast<double>(n - 1));
+}
 
 /// Sums of squares over a part of a record [(N m)^2]: the errors, the measured moment, and the
 /// unpredictable parts by the noise of both channels and by the fit's own process noise.
@@ -43,93 +53,56 @@ Squares floor_of(const PreparedRecord& record, const Prediction& prediction, con
   return out;
 }
 
-/// Sine and cosine fitted to the first half at one frequency.
-struct Line {
-  double frequency_hz = 0., cosine = 0., sine = 0., energy = 0.;
-};
-
-Line line_at(std::span<const double> error, double rate_hz, double frequency_hz) {
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  const double w = 2. * std::numbers::pi * frequency_hz / rate_hz;
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    const double phase = w * static_cast<double>(i);
-    const Eigen::Vector2d row(std::cos(phase), std::sin(phase));
-    normal += row * row.transpose();
-    right += row * error[i];
-  }
-  const Eigen::Vector2d solution = normal.ldlt().solve(right);
-  return {frequency_hz, solution(0), solution(1), right.dot(solution)};
+/// Cosine and sine of one frequency, one column each.
+Eigen::MatrixX2d wave(const Eigen::Index n, const double rate_hz, const double frequency_hz) {
+  const Samples phase = 2. * std::numbers::pi * frequency_hz / rate_hz * counted(n);
+  Eigen::MatrixX2d out(n, 2);
+  out << phase.array().cos(), phase.array().sin();
+  return out;
 }
 
-/// The line with the most energy near a frequency: search on a grid, then by Brent's method.
-Line strongest_line(std::span<const double> error, double rate_hz, double centre_hz,
-                    double reach_hz) {
-  constexpr int n_grid = 12, n_bits = 20;
-  Line best = line_at(error, rate_hz, centre_hz);
-  for (int i = -n_grid; i <= n_grid; ++i)
-    if (const Line line = line_at(error, rate_hz, centre_hz + reach_hz * i / n_grid);
-        line.energy > best.energy)
-      best = line;
-  const double step = reach_hz / n_grid;
-  const auto lost = [&](double f) { return -line_at(error, rate_hz, f).energy; };
-  return line_at(error, rate_hz,
-                 boost::math::tools::brent_find_minima(lost, best.frequency_hz - step,
-                                                       best.frequency_hz + step, n_bits)
-                     .first);
-}
-
+/// Subtracts the line that takes the most energy off the first half near the fitted frequency:
+/// search on a grid, then by Brent's method.
 void take_hum_off(Samples& error, double rate_hz, const HypothesisFit& fit) {
-  const std::size_t half = error.size() / 2;
+  constexpr int n_grid = 12, n_bits = 20;
   const auto index = fit.index("hum", 1);
   if (!index) return;
   const auto at = static_cast<Eigen::Index>(*index);
-  const double half_s = static_cast<double>(half) / rate_hz;
-  const double reach_hz = std::max(0.6 / half_s, 3. * std::sqrt(fit.covariance(at, at)));
+  const Samples half = error.head(error.size() / 2);
+  const auto amplitudes = [&](const Eigen::MatrixX2d& columns) -> Eigen::Vector2d {
+    return (columns.transpose() * columns).ldlt().solve(columns.transpose() * half);
+  };
+  const auto lost = [&](const double hz) {
+    const Eigen::MatrixX2d columns = wave(half.size(), rate_hz, hz);
+    return -half.dot(columns * amplitudes(columns));
+  };
+  const double half_s = static_cast<double>(half.size()) / rate_hz;
+  const double step_hz = std::max(0.6 / half_s, 3. * std::sqrt(fit.covariance(at, at))) / n_grid;
   const double centre_hz = fit.fit_parameters[*index].description.value(fit.x(at));
-  const Line line = strongest_line(std::span(error).first(half), rate_hz, centre_hz, reach_hz);
-  const double w = 2. * std::numbers::pi * line.frequency_hz / rate_hz;
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    const double phase = w * static_cast<double>(i);
-    error[i] -= line.cosine * std::cos(phase) + line.sine * std::sin(phase);
-  }
+  double near_hz = centre_hz;
+  for (int i = -n_grid; i <= n_grid; ++i)
+    if (const double other_hz = centre_hz + step_hz * i; lost(other_hz) < lost(near_hz))
+      near_hz = other_hz;
+  const double hz =
+      boost::math::tools::brent_find_minima(lost, near_hz - step_hz, near_hz + step_hz, n_bits)
+          .first;
+  error -= wave(error.size(), rate_hz, hz) * amplitudes(wave(half.size(), rate_hz, hz));
 }
 
 /// Slope per sample of the straight line through samples.
-double slope_of(std::span<const double> x) {
-  const double n = static_cast<double>(x.size()), middle = 0.5 * (n - 1.);
-  double sum = 0.;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += (static_cast<double>(i) - middle) * x[i];
-  return 12. * sum / (n * n * n);
-}
-
-double square_about_mean(std::span<const double> x, double slope) {
-  double sum = 0., square = 0.;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double value = x[i] - slope * static_cast<double>(i);
-    sum += value;
-    square += value * value;
-  }
-  return square - sum * sum / static_cast<double>(x.size());
+double slope_of(const Samples& x) {
+  const Samples place = (counted(x.size()).array() - 0.5 * static_cast<double>(x.size() - 1));
+  return place.dot(x) / place.squaredNorm();
 }
 
 /// Subtracts a ramp when the first part of the first half predicts the rest of that half by it.
 bool take_drift_off(Samples& error) {
-  const std::span<const double> half = std::span(error).first(error.size() / 2);
-  const std::span<const double> part = half.first(half.size() / 2);
-  const std::span<const double> rest = half.subspan(part.size());
-  if (square_about_mean(rest, slope_of(part)) >= square_about_mean(rest, 0.)) return false;
-  const double slope = slope_of(half);
-  for (std::size_t i = 0; i < error.size(); ++i) error[i] -= slope * static_cast<double>(i);
+  const Samples half = error.head(error.size() / 2), part = half.head(half.size() / 2),
+                rest = half.tail(half.size() - part.size());
+  const auto square = [](const Samples& x) { return (x.array() - x.mean()).square().sum(); };
+  if (square(rest - slope_of(part) * counted(rest.size())) >= square(rest)) return false;
+  error -= slope_of(half) * counted(error.size());
   return true;
-}
-
-/// Subtracts the mean of the evaluated part, because an offset carries no information.
-void take_mean_off(Samples& x, std::size_t first) {
-  double mean = 0.;
-  for (std::size_t i = first; i < x.size(); ++i)
-    mean += x[i] / static_cast<double>(x.size() - first);
-  for (double& value : x) value -= mean;
 }
 
 double noise_floor(const Squares& sum) {
@@ -214,8 +187,10 @@ std::vector<Squares> blocks_of(const PreparedRecord& record, const std::array<Sa
     const std::size_t length = std::min(longest, record.n_evaluated - start);
     Squares block = static_cast<double>(length) * floor;
     for (std::size_t part = 0; part < series.size(); ++part)
-      for (const double x : std::span(series[part]).subspan(start, length))
-        block(static_cast<Eigen::Index>(part)) += x * x;
+      block(static_cast<Eigen::Index>(part)) +=
+          series[part]
+              .segment(static_cast<Eigen::Index>(start), static_cast<Eigen::Index>(length))
+              .squaredNorm();
     blocks.push_back(block);
   }
   return blocks;
@@ -244,13 +219,15 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
     const Prediction prediction = simulate(chain, record);
     const std::size_t first = halved ? record.n_evaluated / 2 : 0;
     std::array<Samples, 3> series{
-        evaluated_samples(record, difference(record.moment, simulate_mean(nominal, record))),
-        evaluated_samples(record, difference(record.moment, prediction.mean)),
-        evaluated_samples(record, record.moment)};
+        samples_of_bins(record, difference(record.moment, simulate_mean(nominal, record))),
+        samples_of_bins(record, difference(record.moment, prediction.mean)),
+        samples_of_bins(record, record.moment)};
     Samples& after = series[Part::after];
     if (fit.hypothesis.contains("hum")) take_hum_off(after, record.sampling_rate_hz, fit);
     if (fit.hypothesis.contains("sensor_drift")) ramp |= take_drift_off(after);
-    for (Samples& x : series) take_mean_off(x, first);
+    // An offset carries no information.
+    for (Samples& x : series)
+      x.array() -= x.tail(x.size() - static_cast<Eigen::Index>(first)).mean();
     Squares floor = floor_of(record, prediction, chain, levels);
     if (out.not_predictable.empty()) floor(Part::own_noise) = 0.;
     const std::vector<Squares> blocks = blocks_of(record, series, first, floor);
