@@ -211,9 +211,7 @@ bool varies_in_time(const std::vector<RecordGap>& gaps) {
     const std::vector<double> p = trend_p_values(gap);
     p_values.insert(p_values.end(), p.begin(), p.end());
   }
-  const std::vector<double> corrected = holm_corrected(p_values);
-  return std::any_of(corrected.begin(), corrected.end(),
-                     [](double p) { return p < significant_gap; });
+  return !p_values.empty() && std::ranges::min(holm_corrected(p_values)) < significant_gap;
 }
 
 }  // namespace vibrissa::diagnosis

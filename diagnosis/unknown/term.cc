@@ -1,6 +1,7 @@
 #include "diagnosis/unknown/term.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -9,58 +10,50 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// The inputs of the records in shares of their rms, to be read at any time.
+/// The inputs of the records in shares of their largest rms in the fitted records, to be read at
+/// any time.
 class Inputs {
  public:
-  /// Scales are those of the fitted records.
+  enum Channel : std::size_t { acceleration, wind, n_channels };
+
   Inputs(std::span<const PreparedRecord> fitted, std::span<const PreparedRecord> further) {
     for (const PreparedRecord& record : fitted) {
       const Series& series = add(record);
-      acceleration_rms_ = std::max(acceleration_rms_, rms(series.acceleration));
-      wind_rms_ = std::max(wind_rms_, rms(series.wind));
+      for (std::size_t c = 0; c < n_channels; ++c)
+        if (!series.x[c].empty()) rms_[c] = std::max(rms_[c], std::sqrt(mean_square(series.x[c])));
     }
     for (const PreparedRecord& record : further) add(record);
   }
 
-  bool has_acceleration() const { return acceleration_rms_ > 0.; }
-  bool has_wind() const { return wind_rms_ > 0.; }
-  double acceleration(std::size_t record, double t_s) const {
-    return at(record, &Series::acceleration, t_s) / acceleration_rms_;
-  }
-  double wind(std::size_t record, double t_s) const {
-    return at(record, &Series::wind, t_s) / wind_rms_;
+  bool has(const Channel channel) const { return rms_[channel] > 0.; }
+  /// Linear between samples; zero where the record has no such input.
+  double at(const Channel channel, const std::size_t record, const double t_s) const {
+    const auto found = series_.find(record);  // lanes without a record have number 0
+    if (found == series_.end() || found->second.x[channel].empty()) return 0.;
+    const std::vector<double>& x = found->second.x[channel];
+    const double inside =
+        std::clamp(t_s * found->second.rate_hz, 0., static_cast<double>(x.size() - 1));
+    const auto i = static_cast<std::size_t>(inside);
+    return std::lerp(x[i], x[std::min(i + 1, x.size() - 1)], inside - static_cast<double>(i)) /
+           rms_[channel];
   }
 
  private:
   struct Series {
     double rate_hz = 1.;
-    std::vector<double> acceleration, wind;
+    std::array<std::vector<double>, n_channels> x{};
   };
-  static double rms(const std::vector<double>& x) {
-    return x.empty() ? 0. : std::sqrt(mean_square(x));
-  }
   const Series& add(const PreparedRecord& record) {
     Series& series = series_[record.number];
     series.rate_hz = record.sampling_rate_hz;
     if (!record.acceleration.empty())
-      series.acceleration = samples_of(record.acceleration, record.n_samples);
-    series.wind = record.wind;
+      series.x[acceleration] = samples_of(record.acceleration, record.n_samples);
+    series.x[wind] = record.wind;
     return series;
-  }
-  /// Linear between samples; zero where the record has no such input.
-  double at(std::size_t record, std::vector<double> Series::*channel, double t_s) const {
-    const auto found = series_.find(record);  // lanes without a record have number 0
-    if (found == series_.end() || (found->second.*channel).empty()) return 0.;
-    const std::vector<double>& x = found->second.*channel;
-    const double inside =
-        std::clamp(t_s * found->second.rate_hz, 0., static_cast<double>(x.size() - 1));
-    const auto i = static_cast<std::size_t>(inside);
-    const double way = inside - static_cast<double>(i);
-    return (1. - way) * x[i] + way * x[std::min(i + 1, x.size() - 1)];
   }
 
   std::map<std::size_t, Series> series_;
-  double acceleration_rms_ = 0., wind_rms_ = 0.;
+  std::array<double, n_channels> rms_{};
 };
 
 /// What a term of the joint may depend on.
@@ -92,7 +85,8 @@ class TermLaw : public JointLaw {
       const State state{
           std::clamp(y(i) / scale_.moment_n_m, -most, most),
           std::clamp(y_rate(i) / (scale_.moment_n_m * scale_.frequency_rad_s), -most, most),
-          inputs_->acceleration(number, t_s(i)), inputs_->wind(number, t_s(i))};
+          inputs_->at(Inputs::acceleration, number, t_s(i)),
+          inputs_->at(Inputs::wind, number, t_s(i))};
       out(i) = coefficient_ * scale_.moment_n_m * function_(state);
     }
     return out;
@@ -217,7 +211,8 @@ std::vector<Term> all_terms(const Experiment& experiment, std::span<const Prepar
       out.push_back(calibration(effect, experiment.scales));
   if (!experiment.nominal.modes.empty()) {
     for (const JointTerm& term : joint_terms()) {
-      if ((term.acceleration && !inputs->has_acceleration()) || (term.wind && !inputs->has_wind()))
+      if ((term.acceleration && !inputs->has(Inputs::acceleration)) ||
+          (term.wind && !inputs->has(Inputs::wind)))
         continue;
       out.push_back({.name = term.name,
                      .like = term.like,
