@@ -1,4 +1,4 @@
-#include "diagnosis/verdict_text.h"
+#include "diagnosis/diagnosis.h"
 
 #include <algorithm>
 #include <cmath>

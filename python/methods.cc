@@ -10,7 +10,6 @@
 #include "diagnosis/model/updated_model.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/prediction/record_simulation.h"
-#include "diagnosis/verdict_text.h"
 #include "separation/filters/bvrm_separator.h"
 #include "separation/identification/identify.h"
 #include "separation/model/sampled_bvrm.h"

@@ -1,4 +1,4 @@
-#include "diagnosis/localisation/gap_properties.h"
+#include "diagnosis/localisation/location.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,8 +78,7 @@ void correct(std::vector<ChannelGap>& map) {
     }
 }
 
-}  // namespace
-
+/// The gap by third-octave band and kind of record.
 std::vector<ChannelGap> gap_map(const Experiment& experiment, const std::vector<RecordGap>& gaps,
                                 const RestNoise& rest) {
   std::map<std::string, std::vector<RecordGap>> by_kind;
@@ -93,6 +92,8 @@ std::vector<ChannelGap> gap_map(const Experiment& experiment, const std::vector<
   return map;
 }
 
+/// The gap of periodic base records in the same bands by level (equal within a tenth); p-values are
+/// not corrected.
 std::vector<LevelGap> gap_map_by_level(const Experiment& experiment,
                                        const std::vector<RecordGap>& gaps, const RestNoise& rest) {
   constexpr double same_level = 1.1;
@@ -114,6 +115,7 @@ std::vector<LevelGap> gap_map_by_level(const Experiment& experiment,
   return map;
 }
 
+/// Significant bands of all kinds of records; neighbouring bands are merged.
 std::vector<std::array<double, 2>> merged_bands(const std::vector<ChannelGap>& map) {
   std::map<double, double> bands;
   for (const ChannelGap& channel : map)
@@ -129,6 +131,7 @@ std::vector<std::array<double, 2>> merged_bands(const std::vector<ChannelGap>& m
   return merged;
 }
 
+/// Mode nearest to the band with the largest error, within an octave.
 std::optional<std::size_t> nearest_mode(const NominalModel& nominal,
                                         const std::vector<ChannelGap>& map) {
   BandGap strongest;
@@ -147,6 +150,7 @@ std::optional<std::size_t> nearest_mode(const NominalModel& nominal,
   return static_cast<std::size_t>(nearest - modes_hz.begin()) + 1;
 }
 
+/// Kinds of records with a gap; product only when neither base nor wind alone has one.
 std::vector<std::string> gap_channels(const std::vector<ChannelGap>& map, bool at_rest) {
   const auto has = [&](const std::string& name) {
     const auto found = std::ranges::find(map, name, &ChannelGap::channel);
@@ -158,6 +162,17 @@ std::vector<std::string> gap_channels(const std::vector<ChannelGap>& map, bool a
   if (channels.empty() && has("product")) channels.push_back("product");
   if (at_rest) channels.push_back("rest");
   return channels;
+}
+
+}  // namespace
+
+void set_map(const Experiment& experiment, const std::vector<RecordGap>& gaps,
+             const RestNoise& rest, Location& out) {
+  out.map = gap_map(experiment, gaps, rest);
+  out.by_level = gap_map_by_level(experiment, gaps, rest);
+  out.bands_hz = merged_bands(out.map);
+  out.mode = nearest_mode(experiment.nominal, out.map);
+  out.channels = gap_channels(out.map, rest.coloured);
 }
 
 }  // namespace vibrissa::diagnosis

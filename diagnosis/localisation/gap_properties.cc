@@ -1,4 +1,4 @@
-#include "diagnosis/localisation/gap_properties.h"
+#include "diagnosis/localisation/location.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -147,8 +147,8 @@ GapInTime excess_of(const RecordGap& gap) {
   return out;
 }
 
-}  // namespace
-
+/// From the excited lines of periodic base records, minus noise; nothing when there is one level
+/// only or no gap under base motion.
 std::optional<LevelExponent> level_exponent(const std::vector<RecordGap>& gaps) {
   std::vector<LevelPoint> points;
   for (const RecordGap& gap : gaps)
@@ -176,11 +176,7 @@ std::optional<LevelExponent> level_exponent(const std::vector<RecordGap>& gaps) 
   return LevelExponent{std::abs(slope) > 2. * deviation ? slope : 0., deviation};
 }
 
-std::string to_string(const Harmonics harmonics) {
-  constexpr const char* names[] = {"none", "odd", "even", "both"};
-  return names[static_cast<std::size_t>(harmonics)];
-}
-
+/// Distortion at the lines that the multisines of base records do not excite, by parity.
 Harmonics harmonics_of(const std::vector<RecordGap>& gaps, const RestNoise& rest) {
   std::vector<double> p_values;
   for (const RecordGap& gap : gaps) {
@@ -197,6 +193,7 @@ Harmonics harmonics_of(const std::vector<RecordGap>& gaps, const RestNoise& rest
   return even ? Harmonics::even : Harmonics::none;
 }
 
+/// The error along every record with an excitation.
 std::vector<GapInTime> gap_in_time(const std::vector<RecordGap>& gaps) {
   std::vector<GapInTime> out;
   for (const RecordGap& gap : gaps)
@@ -204,6 +201,7 @@ std::vector<GapInTime> gap_in_time(const std::vector<RecordGap>& gaps) {
   return out;
 }
 
+/// Does gain or phase of the measured moment relative to the predicted one have a trend anywhere?
 bool varies_in_time(const std::vector<RecordGap>& gaps) {
   std::vector<double> p_values;
   for (const RecordGap& gap : gaps) {
@@ -212,6 +210,20 @@ bool varies_in_time(const std::vector<RecordGap>& gaps) {
     p_values.insert(p_values.end(), p.begin(), p.end());
   }
   return !p_values.empty() && std::ranges::min(holm_corrected(p_values)) < significant_gap;
+}
+
+}  // namespace
+
+std::string to_string(const Harmonics harmonics) {
+  constexpr const char* names[] = {"none", "odd", "even", "both"};
+  return names[static_cast<std::size_t>(harmonics)];
+}
+
+void set_properties(const std::vector<RecordGap>& gaps, const RestNoise& rest, Location& out) {
+  out.level_exponent = level_exponent(gaps);
+  out.harmonics = harmonics_of(gaps, rest);
+  out.varies_in_time = varies_in_time(gaps);
+  out.in_time = gap_in_time(gaps);
 }
 
 }  // namespace vibrissa::diagnosis

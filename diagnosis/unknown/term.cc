@@ -1,4 +1,4 @@
-#include "diagnosis/unknown/term.h"
+#include "diagnosis/unknown/unknown_cause.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/nominal/nominal_identification.h"
-#include "diagnosis/verdict_text.h"
 #include "signals/base/error.h"
 #include "tests/diagnosis/one_mode_rig.h"
 

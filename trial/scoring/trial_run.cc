@@ -4,8 +4,8 @@
 #include <map>
 #include <random>
 
+#include "diagnosis/diagnosis.h"
 #include "diagnosis/search/confidence_set.h"
-#include "diagnosis/verdict_text.h"
 #include "fem/linalg/solver_session.h"
 #include "signals/base/error.h"
 #include "signals/base/exit_status.h"
