@@ -51,12 +51,12 @@ struct Run {
 /// The longest run in which x is constant and y is not. Runs at the extreme values are left out:
 /// they belong to clipping.
 Run longest_run(std::span<const double> x, std::span<const double> y) {
-  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  const auto [low, high] = std::ranges::minmax(x);
   Run longest;
   for (std::size_t first = 0; first < x.size();) {
     std::size_t end = first + 1;
     while (end < x.size() && x[end] == x[first]) ++end;
-    const bool extreme = x[first] == *low || x[first] == *high;
+    const bool extreme = x[first] == low || x[first] == high;
     if (!extreme && end - first > longest.count && !is_constant(y.subspan(first, end - first)))
       longest = {first, end - first};
     first = end;
@@ -67,8 +67,8 @@ Run longest_run(std::span<const double> x, std::span<const double> y) {
 /// A drive that ended: from the run to the end of the record the base rests, and the moment decays.
 bool is_free_decay(std::span<const double> x, std::span<const double> y, const Run& run) {
   constexpr double at_rest = 1e-9, decayed = 0.8;
-  const auto [low, high] = std::minmax_element(x.begin(), x.end());
-  const double rest = at_rest * (*high - *low);
+  const auto [low, high] = std::ranges::minmax(x);
+  const double rest = at_rest * (high - low);
   if (!std::ranges::all_of(x.subspan(run.first), [&](double a) { return std::abs(a) <= rest; }))
     return false;
   const auto decay = y.subspan(run.first);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "diagnosis/nominal/nominal_identification.h"
 #include "signals/base/error.h"
@@ -26,14 +27,6 @@ std::size_t nearest_speed(const signals::WindLoad& wind) {
   return static_cast<std::size_t>(nearest - wind.speed_m_s.begin());
 }
 
-void set_joint_share(NominalModel& nominal, const signals::ReducedModel& model, std::size_t first) {
-  for (const signals::Sensitivity& sensitivity : model.sensitivities)
-    if (sensitivity.parameter == "silicone_modulus") {
-      nominal.joint_share = std::clamp(2. * sensitivity.frequency.at(first), 0.3, 1.);
-      nominal.joint_share_deviation = 0.02;
-    }
-}
-
 /// Drag curve from the static moment, assumed for all modes. Empty when the drag coefficient is
 /// constant.
 DragCurve drag_curve(const signals::ReducedModel& model, const std::size_t usual) {
@@ -48,10 +41,14 @@ DragCurve drag_curve(const signals::ReducedModel& model, const std::size_t usual
   return curve;
 }
 
-/// Sensitivities of the modes with these numbers.
+/// Sensitivities of the modes with these numbers, and the joint's share.
 void set_paths(NominalModel& nominal, const signals::ReducedModel& model,
                const std::vector<std::size_t>& numbers) {
   for (const signals::Sensitivity& sensitivity : model.sensitivities) {
+    if (sensitivity.parameter == "silicone_modulus") {
+      nominal.joint_share = std::clamp(2. * sensitivity.frequency.at(numbers.front()), 0.3, 1.);
+      nominal.joint_share_deviation = 0.02;
+    }
     ParameterPath& path = nominal.paths[sensitivity.parameter];
     path.static_base_moment = sensitivity.static_base_moment;
     path.static_wind_moment = sensitivity.static_wind_moment;
@@ -99,12 +96,10 @@ NominalModel nominal_from(const signals::ReducedModel& model) {
   if (numbers.empty() || strength(numbers.front()) == 0.)
     throw signals::UserError("model '" + model.name +
                              "': base acceleration along the axial direction excites no mode");
-  set_joint_share(nominal, model, numbers.front());
   const double least = other_plane * strength(numbers.front());
   std::erase_if(numbers, [&](const std::size_t k) { return strength(k) <= least; });
-  std::vector<StructuralMode> modes;
-  for (const std::size_t k : numbers) modes.push_back(nominal.modes[k]);
-  nominal.modes = std::move(modes);
+  const std::vector<StructuralMode> all = std::exchange(nominal.modes, {});
+  for (const std::size_t k : numbers) nominal.modes.push_back(all[k]);
   set_paths(nominal, model, numbers);
   return nominal;
 }
