@@ -16,7 +16,7 @@ namespace vibrissa::diagnosis {
 /// of its parameter. For one parameter in Gaussian noise this is four standard deviations.
 inline constexpr double detection_threshold_nats = 8.;
 /// Expected log likelihood ratio below which two effects are indistinguishable
-/// (indistinguishable.h).
+/// (named_answers.h).
 inline constexpr double nats_to_tell_apart = 2.;
 
 /// What else may differ from the simulation. exact: only the noise levels and the joint's share.

@@ -50,7 +50,7 @@ struct ResidualMoment {
 ResidualMoment residual_moment(const Experiment& experiment, const Chain& chain);
 
 struct NamedTerm {
-  std::string name{};  // term.h
+  std::string name{};  // Term::name
   TermPlace place = TermPlace::joint;
   std::string like{};  // effect of the catalogue that does much the same
   double coefficient = 0.;
