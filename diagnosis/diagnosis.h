@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <utility>
 
 #include "diagnosis/model/words.h"
 #include "diagnosis/records/experiment.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "diagnosis/nominal/base_path_identification.h"
 #include "diagnosis/prediction/chain_simulation.h"
@@ -88,8 +87,8 @@ void set_wind_path(NominalModel& model, const signals::Dataset& simulation,
   without.has_wind = true;
   const Experiment experiment =
       prepare_experiment(without, dataset, signals::Split::fit, InputNoise::as_measured);
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(3, 3);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(3);
   double power = 0., measured = 0.;
   const Chain base_only{.structure = without};
   for (const PreparedRecord& record : experiment.records) {
@@ -103,9 +102,9 @@ void set_wind_path(NominalModel& model, const signals::Dataset& simulation,
     power += rest.squaredNorm();
     measured += total_power(record.moment);
   }
-  const auto scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse().eval();
-  const Eigen::Matrix3d scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-  const Eigen::Vector3d solution =
+  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+  const Eigen::VectorXd solution =
       scale.asDiagonal() *
       scaled.completeOrthogonalDecomposition().solve(scale.asDiagonal() * right);
   model.modes.front().wind_gain = solution(0);

@@ -1,6 +1,5 @@
 #include "diagnosis/planning/experiment_plan.h"
 
-#include <algorithm>
 #include <map>
 
 #include "diagnosis/model/json.h"

@@ -1,10 +1,8 @@
 #include "diagnosis/planning/next_experiment.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
-#include "diagnosis/localisation/location.h"
 #include "diagnosis/model/json.h"
 #include "diagnosis/model/words.h"
 #include "signals/base/error.h"

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <random>
 
-#include "diagnosis/fit/fit_parameters.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/error.h"
 
