@@ -37,6 +37,7 @@ struct StudiedEffect {
 struct OpenPair {
   std::size_t effect = 0, alternative = 0;
   SensorKind kind = SensorKind::exact;
+  bool is_alike = false;
 };
 
 StudiedEffect studied(const Effect& effect) {
@@ -80,7 +81,7 @@ class PowerStudy {
 
   std::vector<EffectPower> run() {
     for_each(effects_.size(), [&](std::size_t i) { find(effects_[i]); });
-    const std::vector<OpenPair> pairs = open_pairs();
+    std::vector<OpenPair> pairs = open_pairs();
     std::vector<bool> taking_part(effects_.size(), false);
     for (const OpenPair& pair : pairs)
       taking_part[pair.effect] = taking_part[pair.alternative] = true;
@@ -88,13 +89,11 @@ class PowerStudy {
       if (taking_part[i]) set_faint(effects_[i]);
     });
     set_directions();
-    std::vector<char> alike(pairs.size(), 0);
-    for_each(pairs.size(), [&](std::size_t i) { alike[i] = are_alike(pairs[i]) ? 1 : 0; });
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (alike[i] != 0)
-        effects_[pairs[i].effect]
-            .power.on(pairs[i].kind)
-            .alike.push_back(effects_[pairs[i].alternative].effect->id);
+    for_each(pairs.size(), [&](std::size_t i) { pairs[i].is_alike = are_alike(pairs[i]); });
+    for (const OpenPair& pair : pairs)
+      if (pair.is_alike)
+        effects_[pair.effect].power.on(pair.kind).alike.push_back(
+            effects_[pair.alternative].effect->id);
     std::vector<EffectPower> out;
     for (StudiedEffect& effect : effects_) out.push_back(std::move(effect.power));
     return out;
@@ -132,8 +131,8 @@ class PowerStudy {
 
   /// Detected with fewer records already, and distinguished from all effects that are shown now.
   bool is_settled(const StudiedEffect& effect) const {
-    return std::all_of(sensor_kinds.begin(), sensor_kinds.end(), [&](SensorKind kind) {
-      return std::all_of(effects_.begin(), effects_.end(), [&](const StudiedEffect& alternative) {
+    return std::ranges::all_of(sensor_kinds, [&](SensorKind kind) {
+      return std::ranges::all_of(effects_, [&](const StudiedEffect& alternative) {
         return &alternative == &effect || !alternative.power.shown ||
                known_different(effect, alternative, kind);
       });

@@ -116,8 +116,6 @@ struct Solution {
   double prior = 0.;    // of the point itself, including the remaining damper
 };
 
-double normal_density(double x, double deviation);
-
 /// Density of the measured resonance under one or two effects: the integral of their priors over
 /// the solution line and over the gap's standard deviation. Proven by
 /// tests/diagnosis/resonances/resonance_gap_test.cc with sampled priors.

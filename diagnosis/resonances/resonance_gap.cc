@@ -1,6 +1,7 @@
 #include "diagnosis/resonances/resonance_gap.h"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -171,8 +172,8 @@ ResonanceExplanation explain(const ResonanceEffects& effects, const ResonanceGap
 /// No effect at all, or only a change of damping.
 ResonanceExplanation without_effects(const ResonanceGap& gap, const std::size_t n_known) {
   ResonanceExplanation out{.inside_usual_range = true, .note = "the frequencies agree"};
-  out.odds = normal_density(gap.log_ratio, gap.deviation) * gap.damping_density({}) *
-             std::exp(log_prior_of_number(0, n_known));
+  out.odds = boost::math::pdf(boost::math::normal(0., gap.deviation), gap.log_ratio) *
+             gap.damping_density({}) * std::exp(log_prior_of_number(0, n_known));
   out.damping_left = gap.damping_change;
   if (!gap.dampings_agree()) {
     out.effects = {"damping"};

@@ -95,10 +95,6 @@ void for_each_start(const ResonanceEffects& effects, const Visit& visit) {
 
 }  // namespace
 
-double normal_density(const double x, const double deviation) {
-  return boost::math::pdf(boost::math::normal(0., deviation), x);
-}
-
 bool ResonanceGap::frequencies_agree() const {
   return std::abs(log_ratio) <= agreeing * deviation;
 }
@@ -126,7 +122,7 @@ double evidence(const ResonanceEffects& effects, const ResonanceGap& gap) {
     for (int i = 0; i < n; ++i) {
       const double z = -4. + i * step;
       if (const auto point = solved(effects, gap, gap.log_ratio + z * gap.deviation, start))
-        sum += point->density * normal_density(z, 1.) * step;
+        sum += point->density * boost::math::pdf(boost::math::normal(), z) * step;
     }
   });
   return sum;

@@ -62,17 +62,13 @@ struct State {
 };
 using Function = double (*)(const State&);
 
-struct Scale {
-  double moment_n_m, frequency_rad_s;
-};
-
 class TermLaw : public JointLaw {
  public:
-  TermLaw(Function function, double coefficient, const Scale& scale,
+  TermLaw(Function function, double coefficient, const Scales& scales,
           std::shared_ptr<const Inputs> inputs, const Lanes& numbers)
       : function_(function),
         coefficient_(coefficient),
-        scale_(scale),
+        scales_(scales),
         inputs_(std::move(inputs)),
         numbers_(numbers) {}
 
@@ -83,11 +79,12 @@ class TermLaw : public JointLaw {
     for (Eigen::Index i = 0; i < out.size(); ++i) {
       const auto number = static_cast<std::size_t>(numbers_(i));
       const State state{
-          std::clamp(y(i) / scale_.moment_n_m, -most, most),
-          std::clamp(y_rate(i) / (scale_.moment_n_m * scale_.frequency_rad_s), -most, most),
+          std::clamp(y(i) / scales_.joint_moment_n_m, -most, most),
+          std::clamp(y_rate(i) / (scales_.joint_moment_n_m * scales_.first_mode_rad_s), -most,
+                     most),
           inputs_->at(Inputs::acceleration, number, t_s(i)),
           inputs_->at(Inputs::wind, number, t_s(i))};
-      out(i) = coefficient_ * scale_.moment_n_m * function_(state);
+      out(i) = coefficient_ * scales_.joint_moment_n_m * function_(state);
     }
     return out;
   }
@@ -95,7 +92,7 @@ class TermLaw : public JointLaw {
  private:
   Function function_;
   double coefficient_;
-  Scale scale_;
+  Scales scales_;
   std::shared_ptr<const Inputs> inputs_;
   Lanes numbers_;
 };
@@ -165,11 +162,11 @@ Term calibration(const Effect& effect, const Scales& scales) {
           }};
 }
 
-void add_reading_terms(const Experiment& experiment, const Scale& scale, std::vector<Term>& out) {
+void add_reading_terms(const Experiment& experiment, const Scales& scales, std::vector<Term>& out) {
   out.push_back({.name = "delay",
                  .place = TermPlace::reading,
                  .like = "delay",
-                 .add = [w = scale.frequency_rad_s](Chain& chain, double c) {
+                 .add = [w = scales.first_mode_rad_s](Chain& chain, double c) {
                    chain.sensor.push_back([w, c](Complex s) { return std::exp(-c * s / w); });
                  }});
   for (const ReadingTerm& term : reading_terms)
@@ -177,7 +174,7 @@ void add_reading_terms(const Experiment& experiment, const Scale& scale, std::ve
         {.name = term.name,
          .place = TermPlace::reading,
          .like = term.like,
-         .add = [peak = scale.moment_n_m, function = term.function](Chain& chain, double c) {
+         .add = [peak = scales.joint_moment_n_m, function = term.function](Chain& chain, double c) {
            chain.readout.push_back([peak, function, c](double moment) {
              constexpr double most = 3.;
              return moment + c * peak * function(std::clamp(moment / peak, -most, most));
@@ -189,9 +186,9 @@ void add_reading_terms(const Experiment& experiment, const Scale& scale, std::ve
         {.name = of_rate ? "acceleration's rate" : "acceleration",
          .place = TermPlace::reading,
          .like = of_rate ? "" : "coil_feedthrough",
-         .add = [of_rate, scale, gain = experiment.scales.static_gain](Chain& chain, double c) {
-           chain.feedthrough.push_back([of_rate, scale, gain, c](Complex s) {
-             return c * gain * (of_rate ? s / scale.frequency_rad_s : Complex(1.));
+         .add = [of_rate, scales, gain = experiment.scales.static_gain](Chain& chain, double c) {
+           chain.feedthrough.push_back([of_rate, scales, gain, c](Complex s) {
+             return c * gain * (of_rate ? s / scales.first_mode_rad_s : Complex(1.));
            });
          }});
 }
@@ -204,7 +201,7 @@ std::string to_string(const TermPlace place) {
 
 std::vector<Term> all_terms(const Experiment& experiment, std::span<const PreparedRecord> further) {
   const auto inputs = std::make_shared<const Inputs>(experiment.records, further);
-  const Scale scale{experiment.scales.joint_moment_n_m, experiment.scales.first_mode_rad_s};
+  const Scales& scales = experiment.scales;
   std::vector<Term> out;
   for (const Effect& effect : effect_catalogue())
     if (effect.calibration && shows(experiment, effect))
@@ -216,14 +213,14 @@ std::vector<Term> all_terms(const Experiment& experiment, std::span<const Prepar
         continue;
       out.push_back({.name = term.name,
                      .like = term.like,
-                     .add = [function = term.function, scale, inputs](Chain& chain, double c) {
-                       chain.joint.push_back([function, scale, inputs, c](const Lanes& numbers) {
-                         return std::make_unique<TermLaw>(function, c, scale, inputs, numbers);
+                     .add = [function = term.function, scales, inputs](Chain& chain, double c) {
+                       chain.joint.push_back([function, scales, inputs, c](const Lanes& numbers) {
+                         return std::make_unique<TermLaw>(function, c, scales, inputs, numbers);
                        });
                      }});
     }
   }
-  add_reading_terms(experiment, scale, out);
+  add_reading_terms(experiment, scales, out);
   return out;
 }
 

@@ -104,28 +104,23 @@ class Reduction {
 
   /// Is the error that recalibration leaves so small that no unknown cause is worth a name?
   bool is_all_explained() {
-    return error_power(recalibrated()) - floor(recalibrated(), scored_) <
-           power_without_cause(experiment_.simulation_accuracy);
+    const double left = error_power(recalibrated());
+    return left - floor_[&scored_] < power_without_cause(experiment_.simulation_accuracy);
   }
 
  private:
-  /// The score of a fit, each computed once; its mean square error relative to the measured moment.
-  const ErrorScore& score(std::size_t fit, const Experiment& records) {
-    const auto [found, is_new] = scores_.try_emplace({fit, &records});
-    if (is_new)
-      found->second =
-          score_held_out(experiment_, records, result_.fits[fit], {.n_resamples = 0}).overall;
-    return found->second;
-  }
-  double error_power(std::size_t fit, const Experiment& records) {
-    return std::pow(score(fit, records).nrmse_after, 2);
-  }
+  /// Mean square error relative to the measured moment, in the scored records.
   double error_power(std::size_t fit) { return error_power(fit, scored_); }
-  double nominal_power(const Experiment& records) {
-    return std::pow(score(recalibrated(), records).nrmse_before, 2);
-  }
-  double floor(std::size_t fit, const Experiment& records) {
-    return std::pow(score(fit, records).noise_floor, 2);
+  double error_power(std::size_t fit, const Experiment& records) {
+    const auto [found, is_new] = power_.try_emplace({fit, &records}, 0.);
+    if (is_new) {
+      const ErrorScore score =
+          score_held_out(experiment_, records, result_.fits[fit], {.n_resamples = 0}).overall;
+      found->second = score.nrmse_after * score.nrmse_after;
+      nominal_power_[&records] = score.nrmse_before * score.nrmse_before;
+      floor_[&records] = score.noise_floor * score.noise_floor;
+    }
+    return found->second;
   }
 
   /// What a fit without one effect leaves more than the whole fit, in fitted and unseen records
@@ -134,12 +129,12 @@ class Reduction {
     double returned = 0., worth = 0.;
     for (const Experiment* records : {&scored_, &fitted_}) {
       const double with = error_power(whole, *records),
-                   gap = error_power(recalibrated(), *records) -
-                         std::min(with, floor(whole, *records));
+                   recalibrated = error_power(known_.at("none"), *records),
+                   gap = recalibrated - std::min(with, floor_[records]);
       double left = error_power(without, *records);
       // Recalibration may make a simulation worse that has no gap.
       if (result_.fits[without].hypothesis.effects().empty())
-        left = std::min(left, nominal_power(*records));
+        left = std::min(left, nominal_power_[records]);
       returned += left - with + more;
       worth += std::max(least_share * gap, any_error());
     }
@@ -180,7 +175,7 @@ class Reduction {
     double returned = 0., worth = 0.;
     for (const Experiment* records : {&scored_, &fitted_}) {
       returned += error_power(without, *records) - error_power(whole, *records);
-      const double part = least_share * (nominal_power(*records) - floor(whole, *records));
+      const double part = least_share * (nominal_power_[records] - floor_[records]);
       worth += has_effects ? std::max(part, any_error()) : usual;
     }
     return returned < worth;
@@ -220,8 +215,9 @@ class Reduction {
   const Experiment& fitted_;  // its records as measured
   const Experiment& scored_;
   std::map<std::string, std::size_t> known_;  // hypothesis -> index of its fit
-  std::map<std::pair<std::size_t, const Experiment*>, ErrorScore> scores_;
+  std::map<std::pair<std::size_t, const Experiment*>, double> power_;
   std::map<std::size_t, Attribution> attributions_;
+  std::map<const Experiment*, double> floor_, nominal_power_;  // of the fit that was scored last
 };
 
 }  // namespace
