@@ -125,14 +125,14 @@ double expansion(std::size_t n_blocks) {
 
 std::optional<std::array<double, 2>> interval(const std::vector<Squares>& blocks,
                                               const NoiseLevels& levels,
-                                              const std::size_t n_resamples) {
+                                              const HeldOutOptions& options) {
   constexpr std::size_t fewest_blocks = 8;
-  if (blocks.size() < fewest_blocks || n_resamples == 0) return std::nullopt;
-  std::mt19937_64 random(1);
+  if (blocks.size() < fewest_blocks || options.n_resamples == 0) return std::nullopt;
+  std::mt19937_64 random(options.seed);
   std::uniform_int_distribution<std::size_t> pick(0, blocks.size() - 1);
   std::normal_distribution<double> normal;
   std::vector<double> values;
-  for (std::size_t i = 0; i < n_resamples; ++i) {
+  for (std::size_t i = 0; i < options.n_resamples; ++i) {
     Squares factors = Squares::Ones(), sum = Squares::Zero();
     factors(Part::moment_noise) = std::exp(2. * levels.moment.log_deviation * normal(random));
     factors(Part::acceleration_noise) =
@@ -141,7 +141,7 @@ std::optional<std::array<double, 2>> interval(const std::vector<Squares>& blocks
     if (const auto value = gap_closed(factors * sum)) values.push_back(*value);
   }
   // No interval when many resamples have no gap.
-  if (values.size() < n_resamples * 9 / 10) return std::nullopt;
+  if (values.size() < options.n_resamples * 9 / 10) return std::nullopt;
   std::sort(values.begin(), values.end());
   const auto quantile = [&](double q) {
     return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
@@ -163,7 +163,7 @@ std::optional<BeforeAfter> vibration_left_db(const std::vector<Squares>& blocks)
 }
 
 ErrorScore score(const std::string& name, const std::vector<Squares>& blocks,
-                 const NoiseLevels& levels, const std::size_t n_resamples) {
+                 const NoiseLevels& levels, const HeldOutOptions& options) {
   const Squares sum = total(blocks);
   const auto relative = [&](double square) { return std::sqrt(square / sum(Part::measured)); };
   ErrorScore out{.record = name,
@@ -172,7 +172,7 @@ ErrorScore score(const std::string& name, const std::vector<Squares>& blocks,
                  .noise_floor = relative(noise_floor(sum)),
                  .irreducible_floor = relative(noise_floor(sum) + sum(Part::own_noise)),
                  .gap_closed = gap_closed(sum)};
-  if (out.gap_closed) out.gap_closed_ci95 = interval(blocks, levels, n_resamples);
+  if (out.gap_closed) out.gap_closed_ci95 = interval(blocks, levels, options);
   return out;
 }
 
@@ -231,7 +231,7 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
     Squares floor = floor_of(record, prediction, chain, levels);
     if (out.not_predictable.empty()) floor(Part::own_noise) = 0.;
     const std::vector<Squares> blocks = blocks_of(record, series, first, floor);
-    out.records.push_back(score(record.name, blocks, levels, options.n_resamples));
+    out.records.push_back(score(record.name, blocks, levels, options));
     all.insert(all.end(), blocks.begin(), blocks.end());
     if (!record.excitation.wind) of_base.insert(of_base.end(), blocks.begin(), blocks.end());
   }
@@ -241,7 +241,7 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
     std::erase(out.not_predictable, "sensor_drift");
     out.predicted.push_back("sensor_drift");
   }
-  out.overall = score("", all, levels, options.n_resamples);
+  out.overall = score("", all, levels, options);
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,7 @@ struct HeldOutScore {
 
 struct HeldOutOptions {
   std::size_t n_resamples = 500;
+  std::uint64_t seed = 1;
 };
 
 /// Scores a fit on held-out records, prepared with Split::held_out and InputNoise::as_measured.
