@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "checks/response_change.h"
-#include "diagnosis/checks/clock_offset.h"
+#include "diagnosis/checks/data_checks.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/records/spectrum.h"
 #include "separation/identification/identify.h"

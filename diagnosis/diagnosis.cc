@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/checks/clock_offset.h"
+#include "diagnosis/checks/data_checks.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/nominal/nominal_identification.h"
-#include "diagnosis/records/long_records.h"
+#include "diagnosis/records/experiment.h"
 #include "diagnosis/search/calibrated_odds.h"
 #include "diagnosis/search/confidence_set.h"
 #include "diagnosis/search/misplaced_record.h"
 #include "diagnosis/search/readout_choice.h"
-#include "diagnosis/validation/indistinguishable.h"
 #include "diagnosis/validation/named_answers.h"
 #include "diagnosis/validation/parameter_estimates.h"
-#include "diagnosis/validation/unknown_part.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::diagnosis {
@@ -96,11 +94,9 @@ std::optional<Finding> contradiction(const Diagnosis& diagnosis, const Hypothesi
 void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nominal) {
   const Candidate& best = result.candidates.front();
   out.probability_of_tried = probability_of_tried(answer_kind(best.name), best.probability);
-  double outside = 0., listed = 0.;
-  for (const Candidate& candidate : result.candidates)
-    if (candidate.name == outside_catalogue) outside = candidate.probability;
+  const auto outside = std::ranges::find(result.candidates, outside_catalogue, &Candidate::name);
   out.probability_of_outside =
-      out.probability_of_tried * outside +
+      out.probability_of_tried * (outside == result.candidates.end() ? 0. : outside->probability) +
       (1. - out.probability_of_tried) * unknown_share(answer_kind(best.name));
   for (std::size_t i = 0; i < std::min(n_listed, result.candidates.size()); ++i) {
     const Candidate& candidate = result.candidates[i];
@@ -110,33 +106,11 @@ void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nomina
          .parameters = parameter_estimates(result.fits[candidate.fit], candidate.name),
          .materials = material_estimates(nominal, result.fits[candidate.fit], candidate.name),
          .held_out = {}});
-    listed += out.ranking.back().probability;
   }
-  out.probability_of_unlisted = std::max(0., 1. - listed);
+  out.probability_of_unlisted = 1.;
+  for (const RankedAnswer& answer : out.ranking) out.probability_of_unlisted -= answer.probability;
+  out.probability_of_unlisted = std::max(0., out.probability_of_unlisted);
 }
-
-}  // namespace
-
-UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fit) {
-  UpdatedModel model(experiment.nominal, experiment.known);
-  const auto share = static_cast<Eigen::Index>(index_of_joint_share);
-  model.nominal.joint_share = fit.x(share);
-  model.nominal.joint_share_deviation =
-      std::min(experiment.nominal.joint_share_deviation, std::sqrt(fit.covariance(share, share)));
-  model.nominal.joint_loss_factor = fit.x(static_cast<Eigen::Index>(index_of_joint_loss));
-  for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
-    const FitParameter& fit_parameter = fit.fit_parameters[i];
-    if (fit_parameter.effect == nullptr) continue;
-    if (fit_parameter.parameter == 0)
-      model.effects.push_back(
-          {.id = fit_parameter.effect->id, .values = {}, .scales = experiment.scales});
-    model.effects.back().values.push_back(
-        fit_parameter.description.value(fit.x(static_cast<Eigen::Index>(i))));
-  }
-  return model;
-}
-
-namespace {
 
 /// What a search was about.
 struct Evidence {
@@ -188,6 +162,25 @@ void conclude(Diagnosis& out, const Evidence& evidence, SearchResult& result,
 }
 
 }  // namespace
+
+UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fit) {
+  UpdatedModel model(experiment.nominal, experiment.known);
+  const auto share = static_cast<Eigen::Index>(index_of_joint_share);
+  model.nominal.joint_share = fit.x(share);
+  model.nominal.joint_share_deviation =
+      std::min(experiment.nominal.joint_share_deviation, std::sqrt(fit.covariance(share, share)));
+  model.nominal.joint_loss_factor = fit.x(static_cast<Eigen::Index>(index_of_joint_loss));
+  for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
+    const FitParameter& fit_parameter = fit.fit_parameters[i];
+    if (fit_parameter.effect == nullptr) continue;
+    if (fit_parameter.parameter == 0)
+      model.effects.push_back(
+          {.id = fit_parameter.effect->id, .values = {}, .scales = experiment.scales});
+    model.effects.back().values.push_back(
+        fit_parameter.description.value(fit.x(static_cast<Eigen::Index>(i))));
+  }
+  return model;
+}
 
 Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recorded,
                    const DiagnoseOptions& options) {

@@ -1,4 +1,4 @@
-#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/diagnosis.h"
 
 #include "diagnosis/model/json.h"
 
@@ -72,8 +72,8 @@ static void to_json(Json& out, const UnknownCause& unknown) {
          {"left_power", unknown.left},
          {"replaces_effects", unknown.replaces_effects},
          {"terms", unknown.terms},
-         {"residual_moment_over_angle", unknown.over_angle},
-         {"residual_moment_over_rate", unknown.over_rate}};
+         {"residual_moment_over_angle", unknown.residual.over_angle},
+         {"residual_moment_over_rate", unknown.residual.over_rate}};
 }
 
 static void to_json(Json& out, const ResonanceChange& change) {

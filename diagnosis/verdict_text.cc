@@ -1,8 +1,7 @@
-#include "diagnosis/verdict_text.h"
+#include "diagnosis/diagnosis.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "diagnosis/model/words.h"
 
@@ -11,6 +10,8 @@ namespace {
 
 /// Share of the gap from which on a change gets a line.
 constexpr double worth_a_word = 0.005;
+
+const std::string a_cause_outside = "a cause that is not in the catalogue";
 
 /// The parts behind a title; nothing without parts.
 std::string titled(const std::string& title, const std::vector<std::string>& parts) {
@@ -22,8 +23,7 @@ std::string verdict_line(const Diagnosis& diagnosis) {
   const std::string odds = " (probability " + percent(probability) + ")";
   if (diagnosis.verdict == "none")
     return "Verdict: no cause that is larger than noise and the usual error of a simulation" + odds;
-  if (diagnosis.verdict == outside_catalogue)
-    return "Verdict: a cause that is not in the catalogue" + odds;
+  if (diagnosis.verdict == outside_catalogue) return "Verdict: " + a_cause_outside + odds;
   return "Verdict: " + joined(effect_ids(diagnosis.verdict), " + ") + odds + ". " +
          consequence(diagnosis);
 }
@@ -151,7 +151,7 @@ std::vector<std::string> noise_rows(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == outside_catalogue) return rows;
   for (const std::string& id : effect_ids(diagnosis.verdict))
     if (!diagnosis.ranking.empty() && !changes.empty() &&
-        std::none_of(changes.begin(), changes.end(), [&](const auto& c) { return c.id == id; }))
+        std::ranges::count(changes, id, &AttributedChange::id) == 0)
       rows.push_back(change_text(id, diagnosis.ranking.front().parameters));
   return rows;
 }
@@ -166,7 +166,7 @@ std::vector<std::string> attribution_lines(const Diagnosis& diagnosis) {
   const std::vector<std::string> named = effect_ids(diagnosis.verdict);
   bool has_unnamed = false;
   for (const AttributedChange& change : diagnosis.attribution.changes) {
-    const bool is_named = std::find(named.begin(), named.end(), change.id) != named.end();
+    const bool is_named = std::ranges::count(named, change.id) > 0;
     const bool is_small = std::max(change.share, change.missed) < worth_a_word;
     if (!is_named && (!change.moved || is_small)) continue;
     has_unnamed = has_unnamed || !is_named;
@@ -182,11 +182,11 @@ std::vector<std::string> attribution_lines(const Diagnosis& diagnosis) {
   rows.push_back("  not explained: " + percent(diagnosis.attribution.unexplained) + " of the gap");
   const bool held_out =
       !diagnosis.ranking.empty() && diagnosis.ranking.front().held_out.has_value();
-  const std::vector<std::string> head = {
-      std::string("Share of the gap that each change closes alone, and that reopens without it") +
-          (held_out ? " (held-out records):" : ":"),
-      "   closes   reopens  change (95 % intervals)"};
-  rows.insert(rows.begin(), head.begin(), head.end());
+  rows.insert(
+      rows.begin(),
+      {std::string("Share of the gap that each change closes alone, and that reopens without it") +
+           (held_out ? " (held-out records):" : ":"),
+       "   closes   reopens  change (95 % intervals)"});
   return rows;
 }
 
@@ -201,10 +201,9 @@ std::string nearest_line(const Diagnosis& diagnosis) {
 
 /// Of what is not decided, the part of causes that no effect of the catalogue is.
 double outside_part(const Diagnosis& diagnosis) {
-  double part = diagnosis.probability_of_outside;
-  for (const RankedAnswer& answer : diagnosis.ranking)
-    if (answer.name == outside_catalogue) part -= answer.probability;
-  return part;
+  const auto told = std::ranges::find(diagnosis.ranking, outside_catalogue, &RankedAnswer::name);
+  return diagnosis.probability_of_outside -
+         (told == diagnosis.ranking.end() ? 0. : told->probability);
 }
 
 std::string others_line(const Diagnosis& diagnosis) {
@@ -215,59 +214,10 @@ std::string others_line(const Diagnosis& diagnosis) {
   for (std::size_t i = 1; i < std::min<std::size_t>(4, diagnosis.ranking.size()); ++i)
     add(diagnosis.ranking[i].name, diagnosis.ranking[i].probability);
   const double outside = outside_part(diagnosis);
-  add("a cause that is not in the catalogue", outside);
+  add(a_cause_outside, outside);
   add("undecided", 1. - diagnosis.probability_of_tried - outside);
   return parts.empty() ? "" : "Other answers (probability): " + joined(parts, ", ");
 }
-
-}  // namespace
-
-namespace {}  // namespace
-
-std::string unknown_sentence(const Diagnosis& diagnosis) {
-  if (!diagnosis.unknown_cause) return "";
-  std::string joint, reading;
-  for (const NamedTerm& term : diagnosis.unknown_cause->terms)
-    (term.place == TermPlace::joint ? joint : reading) += (term.coefficient < 0. ? " - " : " + ") +
-                                                          three_digits(std::abs(term.coefficient)) +
-                                                          " " + term.name;
-  if (joint.empty() && reading.empty()) return "no simple term describes what is not explained";
-  std::string text = "what is not explained looks like";
-  if (!joint.empty()) text += " a further moment of the joint,";
-  text += joint;
-  if (!reading.empty())
-    text += std::string(joint.empty() ? "" : ", and") + " an error of the reading," + reading;
-  return text + " (all in shares of their peaks); it closes " +
-         closed_text(diagnosis.unknown_cause->terms.back().closes) + " of what is not explained";
-}
-
-bool is_recalibration(const std::string& answer) {
-  const std::vector<std::string> ids = effect_ids(answer);
-  return !ids.empty() && std::ranges::all_of(ids, [](const std::string& id) {
-    const Effect* effect = effect_or_none(id);
-    return effect != nullptr && effect->calibration;
-  });
-}
-
-std::string consequence(const Diagnosis& diagnosis) {
-  std::vector<std::string> missing, settings;
-  for (const std::string& id : effect_ids(diagnosis.verdict))
-    if (!is_recalibration(id)) missing.push_back(id);
-  if (!diagnosis.ranking.empty())
-    for (const ParameterEstimate& p : diagnosis.ranking.front().parameters)
-      if (is_recalibration(p.effect) && p.name == "ratio")
-        settings.push_back("set " + quantity_of(p.effect) + " to " + three_digits(p.value) +
-                           " times the simulated value" +
-                           (p.ci95[0] <= 1. && 1. <= p.ci95[1]
-                                ? " (its interval includes 1: measure again before you change it)"
-                                : ""));
-  const std::string values = settings.empty() ? "" : ": " + joined(settings, ", ");
-  if (missing.empty()) return "The simulation needs recalibration" + values;
-  return "The simulation lacks " + joined(missing, " and ") +
-         (settings.empty() ? "" : " and needs recalibration" + values);
-}
-
-namespace {
 
 /// Lines that fit; entries that must be there are counted before the others.
 class Lines {
@@ -317,6 +267,51 @@ std::string next_line(const Diagnosis& diagnosis) {
 }
 
 }  // namespace
+
+namespace {}  // namespace
+
+std::string unknown_sentence(const Diagnosis& diagnosis) {
+  if (!diagnosis.unknown_cause) return "";
+  std::string joint, reading;
+  for (const NamedTerm& term : diagnosis.unknown_cause->terms)
+    (term.place == TermPlace::joint ? joint : reading) += (term.coefficient < 0. ? " - " : " + ") +
+                                                          three_digits(std::abs(term.coefficient)) +
+                                                          " " + term.name;
+  if (joint.empty() && reading.empty()) return "no simple term describes what is not explained";
+  std::string text = "what is not explained looks like";
+  if (!joint.empty()) text += " a further moment of the joint,";
+  text += joint;
+  if (!reading.empty())
+    text += std::string(joint.empty() ? "" : ", and") + " an error of the reading," + reading;
+  return text + " (all in shares of their peaks); it closes " +
+         closed_text(diagnosis.unknown_cause->terms.back().closes) + " of what is not explained";
+}
+
+bool is_recalibration(const std::string& answer) {
+  const std::vector<std::string> ids = effect_ids(answer);
+  return !ids.empty() && std::ranges::all_of(ids, [](const std::string& id) {
+    const Effect* effect = effect_or_none(id);
+    return effect != nullptr && effect->calibration;
+  });
+}
+
+std::string consequence(const Diagnosis& diagnosis) {
+  std::vector<std::string> missing, settings;
+  for (const std::string& id : effect_ids(diagnosis.verdict))
+    if (!is_recalibration(id)) missing.push_back(id);
+  if (!diagnosis.ranking.empty())
+    for (const ParameterEstimate& p : diagnosis.ranking.front().parameters)
+      if (is_recalibration(p.effect) && p.name == "ratio")
+        settings.push_back("set " + quantity_of(p.effect) + " to " + three_digits(p.value) +
+                           " times the simulated value" +
+                           (p.ci95[0] <= 1. && 1. <= p.ci95[1]
+                                ? " (its interval includes 1: measure again before you change it)"
+                                : ""));
+  const std::string values = settings.empty() ? "" : ": " + joined(settings, ", ");
+  if (missing.empty()) return "The simulation needs recalibration" + values;
+  return "The simulation lacks " + joined(missing, " and ") +
+         (settings.empty() ? "" : " and needs recalibration" + values);
+}
 
 std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_lines) {
   Lines lines;

@@ -7,12 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/model/updated_model.h"
-#include "diagnosis/nominal/nominal_from_model.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/prediction/record_simulation.h"
-#include "diagnosis/verdict_text.h"
 #include "separation/filters/bvrm_separator.h"
 #include "separation/identification/identify.h"
 #include "separation/model/sampled_bvrm.h"

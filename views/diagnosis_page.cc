@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/diagnosis.h"
 #include "diagnosis/model/words.h"
-#include "diagnosis/verdict_text.h"
 #include "views/diagnosis_plots.h"
 
 namespace vibrissa::views {

@@ -176,8 +176,8 @@ report::Figure unknown_figure(const diagnosis::UnknownCause& unknown) {
           .caption =
               "The moment that the joint would need in addition so that the simulation gives "
               "the measured moment; fit records, near the first mode.",
-          .panels = {residual_panel("angle", unknown.over_angle),
-                     residual_panel("rate", unknown.over_rate)}};
+          .panels = {residual_panel("angle", unknown.residual.over_angle),
+                     residual_panel("rate", unknown.residual.over_rate)}};
 }
 
 }  // namespace
@@ -186,7 +186,7 @@ std::vector<report::Figure> diagnosis_plots(const diagnosis::Diagnosis& diagnosi
   std::vector<report::Figure> figures;
   if (!diagnosis.location.map.empty()) figures.push_back(gap_map(diagnosis.location));
   if (!diagnosis.ranking.empty()) figures.push_back(ranking_figure(diagnosis.ranking));
-  if (diagnosis.unknown_cause && !diagnosis.unknown_cause->over_angle.x.empty())
+  if (diagnosis.unknown_cause && !diagnosis.unknown_cause->residual.over_angle.x.empty())
     figures.push_back(unknown_figure(*diagnosis.unknown_cause));
   if (!diagnosis.response.frequency_hz.empty()) figures.push_back(response_figure(diagnosis));
   if (!diagnosis.trace.time_s.empty()) figures.push_back(trace_figure(diagnosis));

@@ -6,7 +6,7 @@
 #include "apps/command_line/command.h"
 #include "apps/command_line/refused_options.h"
 #include "apps/jobs/nominal_input.h"
-#include "diagnosis/planning/experiment_plan_json.h"
+#include "diagnosis/planning/experiment_plan.h"
 #include "report/files/run_folder.h"
 #include "report/pictures.h"
 #include "signals/base/error.h"

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/resonances/resonance_gap.h"
-#include "diagnosis/resonances/resonance_gap_text.h"
 #include "report/files/run_folder.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"

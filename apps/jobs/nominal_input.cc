@@ -6,7 +6,6 @@
 #include "case/rig.h"
 #include "case/sensor_model.h"
 #include "diagnosis/model/updated_model.h"
-#include "diagnosis/nominal/nominal_from_model.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "fem/linalg/solver_session.h"
 #include "signals/base/error.h"

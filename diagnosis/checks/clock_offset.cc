@@ -1,4 +1,4 @@
-#include "diagnosis/checks/clock_offset.h"
+#include "diagnosis/checks/data_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,11 +59,9 @@ std::optional<std::ptrdiff_t> clock_offset(const NominalModel& nominal,
       !entry.record.has(channel::base_acceleration))
     return std::nullopt;
   const std::vector<Complex> lines = phase_transform(nominal, entry);
-  const auto n_lines = static_cast<double>(
-      std::count_if(lines.begin(), lines.end(), [](const Complex& c) { return c != 0.; }));
+  const double n_lines = total_power(lines);  // each of unit magnitude or zero
   const std::vector<double> peaks = samples_of(lines, n);
-  const auto best = std::max_element(peaks.begin(), peaks.end(),
-                                     [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const auto best = std::ranges::max_element(peaks, {}, [](double x) { return std::abs(x); });
   // Share of the lines that agree on one delay; that of lines of random phase is the square root of
   // ln n / lines.
   constexpr double least_share = 0.25, n_deviations = 1.5;

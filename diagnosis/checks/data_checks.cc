@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "diagnosis/model/words.h"
 #include "diagnosis/records/experiment.h"
-#include "diagnosis/records/repeated_samples.h"
+#include "diagnosis/records/source_samples.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/number_text.h"
 
@@ -119,29 +120,6 @@ void check_rates(const signals::Dataset& real, double simulated_rate_hz,
                               "below half of both sampling rates"});
 }
 
-/// Which kinds of fit records can be used.
-struct Holdings {
-  bool quiet = false, base = false, wind = false, held_out = false;
-  std::vector<double> levels{};  // of base motion, rms, m/s^2
-};
-
-Holdings holdings_of(const UsableRecord& is_usable, const signals::Dataset& real) {
-  Holdings out;
-  for (const DatasetRecord& entry : real.records) {
-    if (!is_usable(entry)) continue;
-    if (entry.split == signals::Split::held_out) {
-      out.held_out |= entry.excitation != signals::Excitation{};
-      continue;
-    }
-    out.quiet |= entry.excitation == signals::Excitation{};
-    out.base |= entry.excitation.base;
-    out.wind |= entry.excitation.wind;
-    if (entry.excitation.base)
-      out.levels.push_back(rms_about_mean(entry.record.channel(channel::base_acceleration)));
-  }
-  return out;
-}
-
 bool has_one_level(const std::vector<double>& levels) {
   if (levels.empty()) return false;
   constexpr double distinct = 1.3;
@@ -151,24 +129,46 @@ bool has_one_level(const std::vector<double>& levels) {
 
 }  // namespace
 
+#define VIBRISSA_AS_TEXT(...) #__VA_ARGS__
+#define VIBRISSA_NAMES(...) VIBRISSA_AS_TEXT(__VA_ARGS__)
+
+std::string to_string(const FindingKind kind) {
+  std::istringstream names(VIBRISSA_NAMES(VIBRISSA_FINDING_KINDS));
+  std::string name;
+  for (int i = 0; i <= static_cast<int>(kind); ++i) std::getline(names >> std::ws, name, ',');
+  return name;
+}
+
 void check_what_is_there(const WantedPaths& wanted, const UsableRecord& is_usable,
                          const signals::Dataset& real, std::vector<Finding>& findings) {
-  const Holdings there = holdings_of(is_usable, real);
+  bool quiet = false, base = false, wind = false, held_out = false;
+  std::vector<double> levels;  // of base motion, rms, m/s^2
+  for (const DatasetRecord& entry : real.records) {
+    const signals::Excitation& moved = entry.excitation;
+    const bool fits = entry.split == signals::Split::fit;
+    if (!is_usable(entry)) continue;
+    held_out |= !fits && (moved.base || moved.wind);
+    quiet |= fits && !moved.base && !moved.wind;
+    base |= fits && moved.base;
+    wind |= fits && moved.wind;
+    if (fits && moved.base)
+      levels.push_back(rms_about_mean(entry.record.channel(channel::base_acceleration)));
+  }
   const auto add = [&](bool missing, FindingKind kind, const std::string& message) {
     if (missing) findings.push_back({kind, "", message});
   };
-  add(!there.quiet, FindingKind::no_quiet_record,
+  add(!quiet, FindingKind::no_quiet_record,
       "no fit record at rest: drift, hum and the noise of both channels cannot be distinguished "
       "from effects of motion; add a quiet record");
-  add(!there.held_out, FindingKind::no_held_out,
+  add(!held_out, FindingKind::no_held_out,
       "no usable held_out record: the improvement (gap closed) cannot be scored");
-  add(wanted.base && !there.base, FindingKind::no_base_motion,
+  add(wanted.base && !base, FindingKind::no_base_motion,
       "no usable fit record with base motion: sensor_gain and drag_error cannot be distinguished, "
       "and effects of the base cannot be detected");
-  add(wanted.wind && !there.wind, FindingKind::no_wind,
+  add(wanted.wind && !wind, FindingKind::no_wind,
       "no usable fit record with wind: sensor_gain and reference_gain cannot be distinguished, and "
       "effects of wind cannot be detected");
-  add(has_one_level(there.levels), FindingKind::one_level,
+  add(has_one_level(levels), FindingKind::one_level,
       "base motion at one level only: hardening < 0, softening_history and joint_friction cannot "
       "be distinguished, and effects that depend on level can hardly be distinguished from those "
       "that do not; add a second level");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/checks/finding.h"
@@ -45,9 +46,30 @@ void check_rest(const signals::Dataset& dataset, std::vector<Finding>& findings)
 void check_response(const NominalModel& nominal, const signals::DatasetRecord& entry,
                     double acceleration_noise_m_s2, std::vector<Finding>& findings);
 
-/// All of these, and records that are too short. simulated_rate_hz: 0 when the simulation has no
-/// sampling rate. Proven by tests/diagnosis/checks/data_checks_test.cc.
+/// All of these, and records that are too short. simulated_rate_hz: 0 for none. Proven by
+/// tests/diagnosis/checks/data_checks_test.cc.
 std::vector<Finding> check_data(const NominalModel& nominal, const signals::Dataset& real,
                                 double simulated_rate_hz = 0.);
+
+/// The largest delay that filters and conversion times of one measuring chain cause [s]; more means
+/// that two devices recorded the channels.
+inline constexpr double longest_delay_s = 6e-3;
+
+/// Samples by which the base moment is later than the acceleration of the same row; nothing when
+/// the record does not tell it. Peak of the phase transform between the moment that the simulation
+/// predicts and the measured one (Knapp and Carter 1976), from the lines that base motion excites.
+/// Proven by tests/diagnosis/checks/clock_offset_test.cc.
+std::optional<std::ptrdiff_t> clock_offset(const NominalModel& nominal,
+                                           const signals::DatasetRecord& entry);
+
+struct AlignedDataset {
+  signals::Dataset dataset{};
+  std::vector<Finding> findings{};
+  bool is_shifted() const { return !findings.empty(); }
+};
+
+/// The dataset with the moment of each record shifted back, where it is off by more than
+/// longest_delay_s. A shift cuts both ends of a record, and turns a record of whole periods.
+AlignedDataset align_clocks(const NominalModel& nominal, const signals::Dataset& dataset);
 
 }  // namespace vibrissa::diagnosis

@@ -51,12 +51,12 @@ struct Run {
 /// The longest run in which x is constant and y is not. Runs at the extreme values are left out:
 /// they belong to clipping.
 Run longest_run(std::span<const double> x, std::span<const double> y) {
-  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  const auto [low, high] = std::ranges::minmax(x);
   Run longest;
   for (std::size_t first = 0; first < x.size();) {
     std::size_t end = first + 1;
     while (end < x.size() && x[end] == x[first]) ++end;
-    const bool extreme = x[first] == *low || x[first] == *high;
+    const bool extreme = x[first] == low || x[first] == high;
     if (!extreme && end - first > longest.count && !is_constant(y.subspan(first, end - first)))
       longest = {first, end - first};
     first = end;
@@ -67,8 +67,8 @@ Run longest_run(std::span<const double> x, std::span<const double> y) {
 /// A drive that ended: from the run to the end of the record the base rests, and the moment decays.
 bool is_free_decay(std::span<const double> x, std::span<const double> y, const Run& run) {
   constexpr double at_rest = 1e-9, decayed = 0.8;
-  const auto [low, high] = std::minmax_element(x.begin(), x.end());
-  const double rest = at_rest * (*high - *low);
+  const auto [low, high] = std::ranges::minmax(x);
+  const double rest = at_rest * (high - low);
   if (!std::ranges::all_of(x.subspan(run.first), [&](double a) { return std::abs(a) <= rest; }))
     return false;
   const auto decay = y.subspan(run.first);
@@ -100,12 +100,12 @@ void check_spikes(const DatasetRecord& entry, std::vector<Finding>& findings) {
   const auto x = entry.record.channel(channel::base_moment);
   std::vector<double> sizes(x.begin(), x.end());
   for (double& v : sizes) v = std::abs(v);
-  const double median = signals::median(std::move(sizes));
+  const double median = signals::median(sizes);
   constexpr double above_all = 30., above_neighbours = 10.;
-  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
-    const double size = std::abs(x[i]);
-    if (!(size > above_all * median) || median == 0.) continue;
-    if (size < above_neighbours * std::max(std::abs(x[i - 1]), std::abs(x[i + 1]))) continue;
+  for (std::size_t i = 1; i + 1 < x.size() && median > 0.; ++i) {
+    if (!(sizes[i] > above_all * median) ||
+        sizes[i] < above_neighbours * std::max(sizes[i - 1], sizes[i + 1]))
+      continue;
     findings.push_back({FindingKind::spike, entry.name,
                         "base_moment_N_m jumps to " + three_digits(x[i]) + " for one sample at " +
                             three_digits(entry.record.time_s(i)) +
@@ -114,22 +114,6 @@ void check_spikes(const DatasetRecord& entry, std::vector<Finding>& findings) {
     return;
   }
 }
-
-}  // namespace
-
-void check_dead_channels(const DatasetRecord& entry, std::vector<Finding>& findings) {
-  if (entry.excitation.base) {
-    check_constant(entry, channel::base_acceleration, findings);
-    check_stuck(entry, channel::base_acceleration, channel::base_moment, findings);
-    check_stuck(entry, channel::base_moment, channel::base_acceleration, findings);
-  }
-  if (entry.excitation.wind) check_constant(entry, channel::wind_speed, findings);
-  if (entry.excitation.base || entry.excitation.wind)
-    check_constant(entry, channel::base_moment, findings);
-  check_spikes(entry, findings);
-}
-
-namespace {
 
 /// Colour from which on power lies in tones or narrow bands.
 constexpr double coloured = 5.;
@@ -165,6 +149,18 @@ double least_level(const signals::Dataset& dataset, const std::string& name) {
 }
 
 }  // namespace
+
+void check_dead_channels(const DatasetRecord& entry, std::vector<Finding>& findings) {
+  if (entry.excitation.base) {
+    check_constant(entry, channel::base_acceleration, findings);
+    check_stuck(entry, channel::base_acceleration, channel::base_moment, findings);
+    check_stuck(entry, channel::base_moment, channel::base_acceleration, findings);
+  }
+  if (entry.excitation.wind) check_constant(entry, channel::wind_speed, findings);
+  if (entry.excitation.base || entry.excitation.wind)
+    check_constant(entry, channel::base_moment, findings);
+  check_spikes(entry, findings);
+}
 
 void check_period(const DatasetRecord& entry, std::vector<Finding>& findings) {
   const std::string& name = channel::base_acceleration;

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
-#include <utility>
 
 #include "diagnosis/model/words.h"
 #include "diagnosis/records/experiment.h"
@@ -27,69 +25,41 @@ struct Ratio {
 };
 
 double lowest_mode_hz(const NominalModel& nominal) {
-  double lowest = 0.;
-  for (const StructuralMode& mode : nominal.modes)
-    if (lowest == 0. || mode.frequency_rad_s < lowest) lowest = mode.frequency_rad_s;
-  return lowest / (2. * std::numbers::pi);
+  if (nominal.modes.empty()) return 0.;
+  return std::ranges::min(nominal.modes, {}, &StructuralMode::frequency_rad_s).frequency_rad_s /
+         (2. * std::numbers::pi);
 }
 
-std::vector<Complex> base_driven(const NominalModel& nominal, const DatasetRecord& entry,
-                                 const std::string& input) {
-  return passed(spectrum_of(entry.record.channel(input)), entry.record.n_samples(),
-                entry.record.sampling_rate_hz(),
-                [&](Complex s) { return nominal.base_response(s); });
-}
-
-std::vector<Complex> wind_driven(const NominalModel& nominal, const DatasetRecord& entry) {
-  const auto u = entry.record.channel(channel::wind_speed);
-  std::vector<double> force(u.begin(), u.end());
-  for (double& value : force) value *= std::abs(value);
-  return passed(spectrum_of(force), force.size(), entry.record.sampling_rate_hz(),
-                [&](Complex s) { return nominal.wind_response(s); });
-}
-
-class ResponseRatio {
- public:
-  ResponseRatio(std::vector<Complex> predicted, const DatasetRecord& entry,
-                const std::string& output = channel::base_moment)
-      : measured_(spectrum_of(entry.record.channel(output))),
-        predicted_(std::move(predicted)),
-        line_hz_(entry.record.sampling_rate_hz() / static_cast<double>(entry.record.n_samples())) {
-    for (std::size_t k = 1; k + 1 < predicted_.size(); ++k)
-      largest_ = std::max(largest_, std::abs(predicted_[k]));
+/// Uses the lines up to a frequency that are strong among themselves and among all lines (else they
+/// are dominated by noise), and strong as measured (else they may be images of sample-and-hold
+/// repeats). Nothing when there are too few such lines.
+std::optional<Ratio> ratio_of(const std::span<const Complex> measured,
+                              const std::span<const Complex> predicted, const double last_line,
+                              const std::size_t fewest_lines) {
+  const std::size_t end = measured.size() - 1,
+                    n = std::min(end, static_cast<std::size_t>(std::max(0., last_line) + 1.));
+  const auto largest = [](const std::span<const Complex> lines) {
+    double out = 0.;
+    for (const Complex& line : lines.subspan(1)) out = std::max(out, std::abs(line));
+    return out;
+  };
+  const double least = std::max(0.1 * largest(predicted.first(n)),
+                                0.02 * largest(predicted.first(end))),
+               least_measured = 0.05 * largest(measured.first(n));
+  double product = 0., of_measured = 0., of_predicted = 0.;
+  std::vector<double> logs;
+  for (std::size_t k = 1; k < n; ++k) {
+    if (!(std::abs(predicted[k]) > least && std::abs(measured[k]) > least_measured)) continue;
+    logs.push_back(std::log(std::abs(measured[k] / predicted[k])));
+    product += (measured[k] * std::conj(predicted[k])).real();
+    of_measured += std::norm(measured[k]);
+    of_predicted += std::norm(predicted[k]);
   }
-
-  /// Uses the lines up to a frequency that are strong among themselves and among all lines (else
-  /// they are dominated by noise), and strong as measured (else they may be images of
-  /// sample-and-hold repeats). Nothing when there are too few such lines.
-  std::optional<Ratio> up_to(double highest_hz, std::size_t fewest_lines) const {
-    const double last = std::min(highest_hz / line_hz_, static_cast<double>(measured_.size() - 2));
-    double largest = 0., largest_measured = 0., product = 0., measured = 0., predicted = 0.;
-    for (std::size_t k = 1; static_cast<double>(k) <= last; ++k) {
-      largest = std::max(largest, std::abs(predicted_[k]));
-      largest_measured = std::max(largest_measured, std::abs(measured_[k]));
-    }
-    const double least = std::max(0.1 * largest, 0.02 * largest_);
-    const double least_measured = 0.05 * largest_measured;
-    std::vector<double> logs;
-    for (std::size_t k = 1; static_cast<double>(k) <= last; ++k) {
-      if (!(std::abs(predicted_[k]) > least && std::abs(measured_[k]) > least_measured)) continue;
-      logs.push_back(std::log(std::abs(measured_[k] / predicted_[k])));
-      product += (measured_[k] * std::conj(predicted_[k])).real();
-      measured += std::norm(measured_[k]);
-      predicted += std::norm(predicted_[k]);
-    }
-    if (logs.size() < fewest_lines) return std::nullopt;
-    std::sort(logs.begin(), logs.end());
-    const std::size_t n = logs.size();
-    return Ratio{std::exp(logs[n / 2]), logs[3 * n / 4] - logs[n / 4],
-                 product / std::sqrt(measured * predicted)};
-  }
-
- private:
-  std::vector<Complex> measured_, predicted_;
-  double line_hz_ = 1., largest_ = 0.;
-};
+  if (logs.size() < fewest_lines) return std::nullopt;
+  std::ranges::sort(logs);
+  return Ratio{std::exp(logs[logs.size() / 2]), logs[3 * logs.size() / 4] - logs[logs.size() / 4],
+               product / std::sqrt(of_measured * of_predicted)};
+}
 
 /// Both values, as far as the records determine them.
 struct Ratios {
@@ -98,12 +68,18 @@ struct Ratios {
   double factor() const { return slow ? slow->median : all->median; }
 };
 
-Ratios ratios_of(const NominalModel& nominal, const ResponseRatio& lines) {
+Ratios ratios_of(const NominalModel& nominal, const DatasetRecord& entry,
+                 const std::vector<Complex>& predicted,
+                 const std::string& output = channel::base_moment) {
   // The first mode is above this even when the silicone has a third of its stiffness.
   constexpr double slow = 0.4;
   constexpr std::size_t fewest_slow_lines = 4;
-  return {lines.up_to(std::numeric_limits<double>::infinity(), 1),
-          lines.up_to(slow * lowest_mode_hz(nominal), fewest_slow_lines)};
+  const std::vector<Complex> measured = spectrum_of(entry.record.channel(output));
+  const double slow_line = slow * lowest_mode_hz(nominal) *
+                           static_cast<double>(entry.record.n_samples()) /
+                           entry.record.sampling_rate_hz();
+  return {ratio_of(measured, predicted, static_cast<double>(measured.size()), 1),
+          ratio_of(measured, predicted, slow_line, fewest_slow_lines)};
 }
 
 /// Factor on the response that a wrong unit causes.
@@ -179,25 +155,42 @@ bool is_driven(const DatasetRecord& entry, double acceleration_noise_m_s2) {
          9. * acceleration_noise_m_s2 * acceleration_noise_m_s2;
 }
 
-void check_base(const NominalModel& nominal, const DatasetRecord& entry,
+/// What the simulation predicts for what moved the sensor, against the reading.
+Ratios ratios_to(const NominalModel& nominal, const DatasetRecord& entry) {
+  const auto input = [&](const bool moved, const std::string& name) {
+    return moved ? entry.record.channel(name) : std::span<const double>();
+  };
+  return ratios_of(
+      nominal, entry,
+      nominal_moment(nominal, entry.record.n_samples(), entry.record.sampling_rate_hz(),
+                     input(entry.excitation.base, channel::base_acceleration),
+                     input(entry.excitation.wind, channel::wind_speed)));
+}
+
+/// Are base acceleration and moment exchanged?
+bool are_exchanged(const NominalModel& nominal, const DatasetRecord& entry, const Ratio& as_named,
+                   std::vector<Finding>& findings) {
+  const auto exchanged =
+      ratios_of(nominal, entry,
+                nominal_moment(nominal, entry.record.n_samples(), entry.record.sampling_rate_hz(),
+                               entry.record.channel(channel::base_moment), {}),
+                channel::base_acceleration)
+          .all;
+  const bool implausible = std::abs(std::log10(as_named.median)) > 4.;
+  if (!implausible || !exchanged || exchanged->median <= 0.05 || exchanged->median >= 20. ||
+      exchanged->spread >= as_named.spread)
+    return false;
+  findings.push_back(
+      {FindingKind::swapped_columns, entry.name,
+       "base_acceleration_m_s2 and base_moment_N_m seem to be exchanged: the response is " +
+           three_digits(as_named.median) + " times the simulated one, and after the exchange " +
+           three_digits(exchanged->median) + " times"});
+  return true;
+}
+
+void check_base(const NominalModel& nominal, const DatasetRecord& entry, const Ratios& ratios,
                 std::vector<Finding>& findings) {
-  const Ratios ratios =
-      ratios_of(nominal, {base_driven(nominal, entry, channel::base_acceleration), entry});
-  if (!ratios.all) return;
-  const auto exchanged = ratios_of(nominal, {base_driven(nominal, entry, channel::base_moment),
-                                             entry, channel::base_acceleration})
-                             .all;
-  const bool implausible = std::abs(std::log10(ratios.all->median)) > 4.;
-  if (implausible && exchanged && exchanged->median > 0.05 && exchanged->median < 20. &&
-      exchanged->spread < ratios.all->spread) {
-    findings.push_back(
-        {FindingKind::swapped_columns, entry.name,
-         "base_acceleration_m_s2 and base_moment_N_m seem to be exchanged: the response is " +
-             three_digits(ratios.all->median) +
-             " times the simulated one, and after the exchange " + three_digits(exchanged->median) +
-             " times"});
-    return;
-  }
+  if (are_exchanged(nominal, entry, *ratios.all, findings)) return;
   const std::size_t n_before = findings.size();
   check_factor(ratios.factor(), entry.name, "base_acceleration_m_s2 and base_moment_N_m",
                mistakes_of_base, findings);
@@ -209,10 +202,7 @@ void check_base(const NominalModel& nominal, const DatasetRecord& entry,
              findings);
 }
 
-void check_wind(const NominalModel& nominal, const DatasetRecord& entry,
-                std::vector<Finding>& findings) {
-  const Ratios ratios = ratios_of(nominal, {wind_driven(nominal, entry), entry});
-  if (!ratios.all) return;
+void check_wind(const DatasetRecord& entry, const Ratios& ratios, std::vector<Finding>& findings) {
   check_factor(ratios.factor(), entry.name, "wind_speed_m_s and base_moment_N_m", mistakes_of_wind,
                findings);
   check_sign(ratios, entry.name,
@@ -221,34 +211,19 @@ void check_wind(const NominalModel& nominal, const DatasetRecord& entry,
              findings);
 }
 
-void check_both(const NominalModel& nominal, const DatasetRecord& entry,
-                std::vector<Finding>& findings) {
-  std::vector<Complex> predicted = base_driven(nominal, entry, channel::base_acceleration);
-  const std::vector<Complex> of_wind = wind_driven(nominal, entry);
-  for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k] += of_wind[k];
-  const Ratios ratios = ratios_of(nominal, {std::move(predicted), entry});
-  if (ratios.all)
-    check_factor(ratios.factor(), entry.name,
-                 "base_acceleration_m_s2, wind_speed_m_s and base_moment_N_m", mistakes_of_base,
-                 findings);
-}
-
 void check_rate(const NominalModel& nominal, const DatasetRecord& entry,
                 std::vector<Finding>& findings) {
   const double mode_hz = lowest_mode_hz(nominal), rate_hz = entry.record.sampling_rate_hz();
   if (0.5 * rate_hz > mode_hz) return;
   const std::string where = "sampled at " + signals::to_text(rate_hz) +
-                            " Hz, while the first mode is "
-                            "at " +
-                            three_digits(mode_hz) + " Hz: ";
+                            " Hz, while the first mode is at " + three_digits(mode_hz) + " Hz: ";
   // A plausible sampling rate is between the first mode's frequency and a thousand times that.
   constexpr double milli = 1e-3;
-  const bool in_ms = rate_hz < 0.1 * mode_hz && rate_hz / milli > mode_hz;
-  if (in_ms)
+  const bool in_ms = rate_hz / milli > mode_hz;
+  if (rate_hz < 0.1 * mode_hz)
     findings.push_back({FindingKind::wrong_unit, entry.name,
-                        where + "time_s seems to be in ms; multiply it by 1e-3"});
-  else if (rate_hz < 0.1 * mode_hz)
-    findings.push_back({FindingKind::wrong_unit, entry.name, where + "check the unit of time_s"});
+                        where + (in_ms ? "time_s seems to be in ms; multiply it by 1e-3"
+                                       : "check the unit of time_s")});
   else
     findings.push_back({FindingKind::slow_rate, entry.name,
                         where + "half the sampling rate is below it, and higher frequencies are "
@@ -263,12 +238,16 @@ void check_response(const NominalModel& nominal, const DatasetRecord& entry,
   if (!nominal.modes.empty() && (moved.base || moved.wind)) check_rate(nominal, entry, findings);
   if (!is_comparable(nominal, entry) || (!moved.base && !moved.wind)) return;
   if (moved.base && !is_driven(entry, acceleration_noise_m_s2)) return;
+  const Ratios ratios = ratios_to(nominal, entry);
+  if (!ratios.all) return;
   if (moved.base && moved.wind)
-    check_both(nominal, entry, findings);
+    check_factor(ratios.factor(), entry.name,
+                 "base_acceleration_m_s2, wind_speed_m_s and base_moment_N_m", mistakes_of_base,
+                 findings);
   else if (moved.base)
-    check_base(nominal, entry, findings);
+    check_base(nominal, entry, ratios, findings);
   else
-    check_wind(nominal, entry, findings);
+    check_wind(entry, ratios, findings);
 }
 
 }  // namespace vibrissa::diagnosis

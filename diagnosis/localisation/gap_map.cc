@@ -1,4 +1,4 @@
-#include "diagnosis/localisation/gap_map.h"
+#include "diagnosis/localisation/location.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "diagnosis/localisation/significance_tests.h"
+#include "diagnosis/records/spectrum.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -43,8 +44,7 @@ ChannelGap channel_gap(const std::string& channel, const std::vector<RecordGap>&
                        double noise_degrees) {
   ChannelGap out{.channel = channel};
   double measured = 0.;
-  for (const RecordGap& gap : gaps)
-    for (const Complex& m : gap.record->moment) measured += std::norm(m);
+  for (const RecordGap& gap : gaps) measured += total_power(gap.record->moment);
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
     double whitened = 0., error = 0., n = 0.;
     for (const RecordGap& gap : gaps)
@@ -78,31 +78,7 @@ void correct(std::vector<ChannelGap>& map) {
     }
 }
 
-/// Relative gap at the excited lines of one record, minus noise, and the level of its motion.
-struct LevelPoint {
-  double log_level = 0., log_gap = 0., variance = 0.;
-};
-
-std::optional<LevelPoint> level_point(const RecordGap& gap) {
-  const PreparedRecord& record = *gap.record;
-  double level = 0., error = 0., noise = 0., noise_square = 0., measured = 0.;
-  for (std::size_t b = 0; b < gap.error.size(); ++b) {
-    const double a = std::norm(record.acceleration[record.whole_line(b)]);
-    if (a == 0.) continue;
-    level += a;
-    error += std::norm(gap.error[b]);
-    noise += gap.variance[b];
-    noise_square += gap.variance[b] * (gap.variance[b] + 2. * std::norm(gap.error[b]));
-    measured += std::norm(record.moment[b]);
-  }
-  const double square = error - noise;
-  if (!(square > 3. * std::sqrt(noise_square)) || level == 0.) return std::nullopt;
-  return LevelPoint{0.5 * std::log(level) - std::log(static_cast<double>(record.n_samples)),
-                    0.5 * std::log(square / measured), 0.25 * noise_square / (square * square)};
-}
-
-}  // namespace
-
+/// The gap by third-octave band and kind of record.
 std::vector<ChannelGap> gap_map(const Experiment& experiment, const std::vector<RecordGap>& gaps,
                                 const RestNoise& rest) {
   std::map<std::string, std::vector<RecordGap>> by_kind;
@@ -116,6 +92,8 @@ std::vector<ChannelGap> gap_map(const Experiment& experiment, const std::vector<
   return map;
 }
 
+/// The gap of periodic base records in the same bands by level (equal within a tenth); p-values are
+/// not corrected.
 std::vector<LevelGap> gap_map_by_level(const Experiment& experiment,
                                        const std::vector<RecordGap>& gaps, const RestNoise& rest) {
   constexpr double same_level = 1.1;
@@ -137,6 +115,7 @@ std::vector<LevelGap> gap_map_by_level(const Experiment& experiment,
   return map;
 }
 
+/// Significant bands of all kinds of records; neighbouring bands are merged.
 std::vector<std::array<double, 2>> merged_bands(const std::vector<ChannelGap>& map) {
   std::map<double, double> bands;
   for (const ChannelGap& channel : map)
@@ -152,34 +131,30 @@ std::vector<std::array<double, 2>> merged_bands(const std::vector<ChannelGap>& m
   return merged;
 }
 
+/// Mode nearest to the band with the largest error, within an octave.
 std::optional<std::size_t> nearest_mode(const NominalModel& nominal,
                                         const std::vector<ChannelGap>& map) {
-  const BandGap* strongest = nullptr;
+  BandGap strongest;
   for (const ChannelGap& channel : map)
     for (const BandGap& band : channel.bands)
-      if (band.p_value < significant_gap && (strongest == nullptr || band.nrmse > strongest->nrmse))
-        strongest = &band;
-  if (strongest == nullptr) return std::nullopt;
-  const double centre_hz = 0.5 * (strongest->low_hz + strongest->high_hz);
+      if (band.p_value < significant_gap && band.nrmse > strongest.nrmse) strongest = band;
+  if (strongest.nrmse == 0.) return std::nullopt;
+  const double centre_hz = 0.5 * (strongest.low_hz + strongest.high_hz);
   std::vector<double> modes_hz;
   for (const StructuralMode& mode : nominal.modes)
     modes_hz.push_back(mode.frequency_rad_s / (2. * std::numbers::pi));
   std::sort(modes_hz.begin(), modes_hz.end());
-  std::optional<std::size_t> best;
-  double least = std::numbers::ln2;
-  for (std::size_t i = 0; i < modes_hz.size(); ++i)
-    if (const double away = std::abs(std::log(modes_hz[i] / centre_hz)); away < least) {
-      least = away;
-      best = i + 1;
-    }
-  return best;
+  const auto octaves = [&](const double hz) { return std::abs(std::log2(hz / centre_hz)); };
+  const auto nearest = std::ranges::min_element(modes_hz, {}, octaves);
+  if (nearest == modes_hz.end() || octaves(*nearest) >= 1.) return std::nullopt;
+  return static_cast<std::size_t>(nearest - modes_hz.begin()) + 1;
 }
 
+/// Kinds of records with a gap; product only when neither base nor wind alone has one.
 std::vector<std::string> gap_channels(const std::vector<ChannelGap>& map, bool at_rest) {
   const auto has = [&](const std::string& name) {
-    return std::any_of(map.begin(), map.end(), [&](const ChannelGap& c) {
-      return c.channel == name && c.p_value < significant_gap;
-    });
+    const auto found = std::ranges::find(map, name, &ChannelGap::channel);
+    return found != map.end() && found->p_value < significant_gap;
   };
   std::vector<std::string> channels;
   for (const char* name : {"base", "wind"})
@@ -189,33 +164,15 @@ std::vector<std::string> gap_channels(const std::vector<ChannelGap>& map, bool a
   return channels;
 }
 
-std::optional<LevelExponent> level_exponent(const std::vector<RecordGap>& gaps) {
-  std::vector<LevelPoint> points;
-  for (const RecordGap& gap : gaps)
-    if (kind_of(*gap.record) == "base" && gap.record->periodic)
-      if (const auto point = level_point(gap)) points.push_back(*point);
-  if (points.size() < 2) return std::nullopt;
-  const auto [low, high] =
-      std::minmax_element(points.begin(), points.end(),
-                          [](const auto& a, const auto& b) { return a.log_level < b.log_level; });
-  constexpr double least_ratio = 1.3;
-  if (high->log_level - low->log_level < std::log(least_ratio)) return std::nullopt;
-  // Scatter of the relative gap in addition to noise, because lines and phases differ between
-  // records.
-  constexpr double scatter = 0.05;
-  double w = 0., wx = 0., wy = 0., wxx = 0., wxy = 0.;
-  for (const LevelPoint& p : points) {
-    const double weight = 1. / (p.variance + scatter * scatter);
-    w += weight;
-    wx += weight * p.log_level;
-    wy += weight * p.log_gap;
-    wxx += weight * p.log_level * p.log_level;
-    wxy += weight * p.log_level * p.log_gap;
-  }
-  const double spread = wxx - wx * wx / w;
-  const double slope = (wxy - wx * wy / w) / spread;
-  const double deviation = 1. / std::sqrt(spread);
-  return LevelExponent{std::abs(slope) > 2. * deviation ? slope : 0., deviation};
+}  // namespace
+
+void set_map(const Experiment& experiment, const std::vector<RecordGap>& gaps,
+             const RestNoise& rest, Location& out) {
+  out.map = gap_map(experiment, gaps, rest);
+  out.by_level = gap_map_by_level(experiment, gaps, rest);
+  out.bands_hz = merged_bands(out.map);
+  out.mode = nearest_mode(experiment.nominal, out.map);
+  out.channels = gap_channels(out.map, rest.coloured);
 }
 
 }  // namespace vibrissa::diagnosis

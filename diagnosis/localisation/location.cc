@@ -6,7 +6,6 @@
 #include <set>
 #include <sstream>
 
-#include "diagnosis/localisation/gap_map.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/search/calibrated_odds.h"
 
@@ -18,19 +17,12 @@ Location locate_gap(const Experiment& experiment) {
   std::vector<RecordGap> gaps;
   for (const PreparedRecord& record : experiment.records)
     if (kind_of(record) != "rest") gaps.push_back(gap_of(experiment, record, rest));
-  out.map = gap_map(experiment, gaps, rest);
-  out.by_level = gap_map_by_level(experiment, gaps, rest);
-  out.in_time = gap_in_time(gaps);
+  set_map(experiment, gaps, rest, out);
+  set_properties(gaps, rest, out);
   out.present_at_rest = rest.coloured;
   out.p_value = rest.p_value;
   for (const ChannelGap& channel : out.map) out.p_value = std::min(out.p_value, channel.p_value);
   out.p_value = std::min(1., 2. * out.p_value);  // two kinds of tests: bands, and presence at rest
-  out.bands_hz = merged_bands(out.map);
-  out.mode = nearest_mode(experiment.nominal, out.map);
-  out.channels = gap_channels(out.map, out.present_at_rest);
-  out.level_exponent = level_exponent(gaps);
-  out.harmonics = harmonics_of(gaps, rest);
-  out.varies_in_time = varies_in_time(gaps);
   return out;
 }
 

@@ -44,18 +44,16 @@ RestNoise rest_noise(const Experiment& experiment) {
     const double n = static_cast<double>(power.size());
     for (std::size_t b = 0; b < power.size(); ++b)
       if (n * std::exp(-power[b]) < 0.1 * significant_gap) line_bins.push_back(b);
-    const double highest = *std::max_element(power.begin(), power.end());
-    tests.push_back(std::max(1e-300, std::min(1., n * std::exp(-highest))));
+    tests.push_back(std::clamp(n * std::exp(-std::ranges::max(power)), 1e-300, 1.));
     for (std::size_t low = 0; low + fewest_band_bins <= power.size();
          low = 2 * low + fewest_band_bins) {
       const std::size_t high = std::min(power.size(), 2 * low + fewest_band_bins);
-      const double mean = std::accumulate(power.begin() + static_cast<std::ptrdiff_t>(low),
-                                          power.begin() + static_cast<std::ptrdiff_t>(high), 0.) /
-                          static_cast<double>(high - low);
-      tests.push_back(variance_ratio_tail(mean, 2. * static_cast<double>(high - low), 0.5 * n));
+      const std::span<const double> band = std::span(power).subspan(low, high - low);
+      const double size = static_cast<double>(band.size());
+      tests.push_back(
+          variance_ratio_tail(std::reduce(band.begin(), band.end()) / size, 2. * size, 0.5 * n));
     }
-    const std::vector<double> corrected = holm_corrected(tests);
-    const double p = *std::min_element(corrected.begin(), corrected.end());
+    const double p = std::ranges::min(holm_corrected(tests));
     if (p >= out.p_value) continue;
     out.p_value = p;
     out.coloured = p < significant_gap;
@@ -94,7 +92,7 @@ RecordGap gap_of(const Experiment& experiment, const PreparedRecord& record,
 
 bool on_rest_line(const RestNoise& rest, const PreparedRecord& record, std::size_t b) {
   const double f = record.bin_hz() * static_cast<double>(b + 1);
-  return std::any_of(rest.lines_hz.begin(), rest.lines_hz.end(), [&](double line) {
+  return std::ranges::any_of(rest.lines_hz, [&](double line) {
     return std::abs(f - line) < 3. * std::max(rest.bin_hz, record.bin_hz());
   });
 }

@@ -21,8 +21,7 @@ struct RestNoise {
   bool coloured = false;
   double p_value = 1.;
   double bin_hz = 1.;
-  std::vector<double>
-      excess{};  // smoothed power of the bins divided by that of white noise, at least 1
+  std::vector<double> excess{};    // smoothed power of the bins over that of white noise
   std::vector<double> lines_hz{};  // single lines
 };
 RestNoise rest_noise(const Experiment& experiment);

@@ -127,7 +127,7 @@ Chain probe(const Effect& effect, const NominalModel& structure = {.modes = {{}}
 /// Is the influence of the effect not proportional to the excitation?
 bool is_nonlinear(const Effect& effect);
 
-/// Every effect of diagnosis/effects, one file each, by id. Proven by
+/// Every effect of diagnosis/effects, by id. Proven by
 /// tests/diagnosis/effects/effect_catalogue_test.cc.
 const std::vector<Effect>& effect_catalogue();
 /// nullptr for an unknown id.

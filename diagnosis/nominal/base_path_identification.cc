@@ -1,4 +1,3 @@
-#include "diagnosis/nominal/base_path_identification.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/nominal/mode_above_sampling.h"
+#include "diagnosis/nominal/base_path_identification.h"
+#include "diagnosis/records/spectrum.h"
 #include "separation/identification/identify_frequency.h"
 #include "separation/identification/output_error.h"
 #include "signals/base/error.h"
@@ -89,12 +89,10 @@ std::vector<separation::Segment> segments_of(const Entries& entries) {
 }
 
 double mean_square_moment(std::span<const separation::Segment> segments) {
-  double sum = 0., n = 0.;
-  for (const separation::Segment& segment : segments) {
-    for (const double moment : segment.base_moment) sum += moment * moment;
-    n += static_cast<double>(segment.base_moment.size());
-  }
-  return sum / n;
+  std::vector<double> all;
+  for (const separation::Segment& segment : segments)
+    all.insert(all.end(), segment.base_moment.begin(), segment.base_moment.end());
+  return mean_square(all);
 }
 
 /// Viscous part of the modes' moments relative to the elastic part.
@@ -194,10 +192,8 @@ void set_modes(NominalModel& model, const Bvrm& found) {
                            .base_rate = term.b1 / w});
   }
   // Joint laws act on the strongest mode of the band, so it comes first.
-  std::sort(model.modes.begin(), model.modes.end(),
-            [](const StructuralMode& a, const StructuralMode& b) {
-              return std::abs(a.base_gain) > std::abs(b.base_gain);
-            });
+  std::ranges::sort(model.modes, std::ranges::greater(),
+                    [](const StructuralMode& mode) { return std::abs(mode.base_gain); });
   model.base_direct = found.direct_term_kg_m;
 }
 

@@ -1,9 +1,10 @@
-#include "diagnosis/nominal/nominal_from_model.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "diagnosis/nominal/nominal_identification.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::diagnosis {
@@ -21,20 +22,9 @@ constexpr double other_plane = 1e-6;
 constexpr double usual_wind_m_s = 2.;
 
 std::size_t nearest_speed(const signals::WindLoad& wind) {
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < wind.speed_m_s.size(); ++i)
-    if (std::abs(wind.speed_m_s[i] - usual_wind_m_s) <
-        std::abs(wind.speed_m_s[best] - usual_wind_m_s))
-      best = i;
-  return best;
-}
-
-void set_joint_share(NominalModel& nominal, const signals::ReducedModel& model, std::size_t first) {
-  for (const signals::Sensitivity& sensitivity : model.sensitivities)
-    if (sensitivity.parameter == "silicone_modulus") {
-      nominal.joint_share = std::clamp(2. * sensitivity.frequency.at(first), 0.3, 1.);
-      nominal.joint_share_deviation = 0.02;
-    }
+  const auto nearest = std::ranges::min_element(
+      wind.speed_m_s, {}, [](const double speed) { return std::abs(speed - usual_wind_m_s); });
+  return static_cast<std::size_t>(nearest - wind.speed_m_s.begin());
 }
 
 /// Drag curve from the static moment, assumed for all modes. Empty when the drag coefficient is
@@ -51,10 +41,14 @@ DragCurve drag_curve(const signals::ReducedModel& model, const std::size_t usual
   return curve;
 }
 
-/// Sensitivities of the modes with these numbers.
+/// Sensitivities of the modes with these numbers, and the joint's share.
 void set_paths(NominalModel& nominal, const signals::ReducedModel& model,
                const std::vector<std::size_t>& numbers) {
   for (const signals::Sensitivity& sensitivity : model.sensitivities) {
+    if (sensitivity.parameter == "silicone_modulus") {
+      nominal.joint_share = std::clamp(2. * sensitivity.frequency.at(numbers.front()), 0.3, 1.);
+      nominal.joint_share_deviation = 0.02;
+    }
     ParameterPath& path = nominal.paths[sensitivity.parameter];
     path.static_base_moment = sensitivity.static_base_moment;
     path.static_wind_moment = sensitivity.static_wind_moment;
@@ -97,21 +91,15 @@ NominalModel nominal_from(const signals::ReducedModel& model) {
     nominal.modes.push_back(out);
     numbers.push_back(k);
   }
-  const auto stronger = [&](std::size_t a, std::size_t b) {
-    return std::abs(nominal.modes[a].base_gain) > std::abs(nominal.modes[b].base_gain);
-  };
-  std::sort(numbers.begin(), numbers.end(), stronger);
-  if (numbers.empty() || nominal.modes[numbers.front()].base_gain == 0.)
+  const auto strength = [&](std::size_t k) { return std::abs(nominal.modes[k].base_gain); };
+  std::ranges::sort(numbers, std::ranges::greater(), strength);
+  if (numbers.empty() || strength(numbers.front()) == 0.)
     throw signals::UserError("model '" + model.name +
                              "': base acceleration along the axial direction excites no mode");
-  set_joint_share(nominal, model, numbers.front());
-  const double strongest = std::abs(nominal.modes[numbers.front()].base_gain);
-  std::erase_if(numbers, [&](const std::size_t k) {
-    return std::abs(nominal.modes[k].base_gain) <= other_plane * strongest;
-  });
-  std::vector<StructuralMode> modes;
-  for (const std::size_t k : numbers) modes.push_back(nominal.modes[k]);
-  nominal.modes = std::move(modes);
+  const double least = other_plane * strength(numbers.front());
+  std::erase_if(numbers, [&](const std::size_t k) { return strength(k) <= least; });
+  const std::vector<StructuralMode> all = std::exchange(nominal.modes, {});
+  for (const std::size_t k : numbers) nominal.modes.push_back(all[k]);
   set_paths(nominal, model, numbers);
   return nominal;
 }

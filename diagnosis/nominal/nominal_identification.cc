@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "diagnosis/nominal/base_path_identification.h"
 #include "diagnosis/prediction/chain_simulation.h"
@@ -19,24 +18,17 @@ namespace {
 using signals::DatasetRecord;
 namespace channel = signals::channel;
 
-std::vector<const DatasetRecord*> choose(const signals::Dataset& dataset, bool base, bool wind) {
+/// The records with this excitation and its input: alone, where there are any.
+std::vector<const DatasetRecord*> choose(const signals::Dataset& dataset,
+                                         bool signals::Excitation::*moved,
+                                         const std::string& input) {
   std::vector<const DatasetRecord*> alone, combined;
   for (const DatasetRecord& entry : dataset.records) {
     const signals::Excitation e = entry.excitation;
-    if (entry.setup != signals::BenchSetup{}) continue;
-    if (base && !e.base) continue;
-    if (wind && !e.wind) continue;
-    if (base && !entry.record.has(channel::base_acceleration)) continue;
-    if (wind && !entry.record.has(channel::wind_speed)) continue;
-    (e.base && e.wind ? combined : alone).push_back(&entry);
+    if (entry.setup == signals::BenchSetup{} && e.*moved && entry.record.has(input))
+      (e.base && e.wind ? combined : alone).push_back(&entry);
   }
   return alone.empty() ? combined : alone;
-}
-
-std::vector<double> signed_squares(std::span<const double> wind) {
-  std::vector<double> out(wind.begin(), wind.end());
-  for (double& u : out) u *= std::abs(u);
-  return out;
 }
 
 /// What a simulation that holds or interpolates its samples feels of a line (Franklin, Powell,
@@ -47,30 +39,22 @@ Complex felt(const separation::Hold hold, const Complex s, const double step_s) 
   return hold == separation::Hold::zero_order ? held : held * held * std::exp(x);
 }
 
-/// One column for each unknown of the wind path: gain and rate of each mode, direct term.
-Eigen::MatrixXcd wind_columns(const NominalModel& model, const PreparedRecord& record,
-                              const separation::Hold hold) {
-  std::vector<Complex> spectrum = spectrum_of(signed_squares(record.wind));
-  for (std::size_t k = 0; k < spectrum.size(); ++k)
-    spectrum[k] *= felt(hold, record.line_s(k), 1. / record.sampling_rate_hz);
-  const auto n_modes = static_cast<Eigen::Index>(model.modes.size());
-  const auto n_bins = static_cast<Eigen::Index>(record.n_bins());
-  Eigen::MatrixXcd columns(n_bins, 2 * n_modes + 1);
+/// One column for each unknown of the wind path: gain and rate of the mode, direct term.
+Eigen::MatrixX3cd wind_columns(StructuralMode mode, const PreparedRecord& record,
+                               const separation::Hold hold) {
+  const std::vector<Complex> force = spectrum_of(signed_squares(record.wind));
+  Eigen::MatrixX3cd columns(static_cast<Eigen::Index>(record.n_bins()), 3);
   for (Eigen::Index c = 0; c < columns.cols(); ++c) {
-    std::vector<Complex> whole(spectrum.size());
-    for (std::size_t k = 0; k < whole.size(); ++k) {
+    mode.wind_gain = c == 0 ? 1. : 0.;
+    mode.wind_rate = c == 1 ? 1. : 0.;
+    std::vector<Complex> lines = force;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
       const Complex s = record.line_s(k);
-      Complex response = 1.;
-      if (c < 2 * n_modes) {
-        StructuralMode mode = model.modes[static_cast<std::size_t>(c / 2)];
-        mode.wind_gain = c % 2 == 0 ? 1. : 0.;
-        mode.wind_rate = c % 2 == 0 ? 0. : 1.;
-        response = mode.wind_response(s);
-      }
-      whole[k] = response * spectrum[k];
+      lines[k] *=
+          felt(hold, s, 1. / record.sampling_rate_hz) * (c == 2 ? 1. : mode.wind_response(s));
     }
-    const std::vector<Complex> bins = bins_of_lines(record, whole);
-    for (Eigen::Index b = 0; b < n_bins; ++b) columns(b, c) = bins[static_cast<std::size_t>(b)];
+    const std::vector<Complex> bins = bins_of_lines(record, lines);
+    columns.col(c) = Eigen::Map<const Eigen::VectorXcd>(bins.data(), columns.rows());
   }
   return columns;
 }
@@ -90,7 +74,8 @@ void set_wind_poles(NominalModel& model, const std::vector<const DatasetRecord*>
 
 void set_wind_path(NominalModel& model, const signals::Dataset& simulation,
                    const separation::Hold hold) {
-  const std::vector<const DatasetRecord*> entries = choose(simulation, false, true);
+  const std::vector<const DatasetRecord*> entries =
+      choose(simulation, &signals::Excitation::wind, channel::wind_speed);
   if (entries.empty()) return;
   if (model.modes.empty()) set_wind_poles(model, entries);
   NominalModel without = model;
@@ -102,31 +87,26 @@ void set_wind_path(NominalModel& model, const signals::Dataset& simulation,
   without.has_wind = true;
   const Experiment experiment =
       prepare_experiment(without, dataset, signals::Split::fit, InputNoise::as_measured);
-  // Only modes that the records excite by wind can be identified; the rest is in the direct term.
-  NominalModel in_band = model;
-  in_band.modes.resize(1);
-  const Eigen::Index n_unknowns = 3;
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n_unknowns, n_unknowns);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(n_unknowns);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(3, 3);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(3);
   double power = 0., measured = 0.;
-  Chain base_only{.structure = without};
+  const Chain base_only{.structure = without};
   for (const PreparedRecord& record : experiment.records) {
-    const Eigen::MatrixXcd columns = wind_columns(in_band, record, hold);
-    const std::vector<Complex> base = simulate_mean(base_only, record);
-    Eigen::VectorXcd rest(columns.rows());
-    for (Eigen::Index b = 0; b < rest.size(); ++b)
-      rest(b) = record.moment[static_cast<std::size_t>(b)] - base[static_cast<std::size_t>(b)];
+    // Only the mode that the records excite by wind can be identified; the rest is in the direct
+    // term.
+    const Eigen::MatrixX3cd columns = wind_columns(model.modes.front(), record, hold);
+    const std::vector<Complex> left = difference(record.moment, simulate_mean(base_only, record));
+    const Eigen::Map<const Eigen::VectorXcd> rest(left.data(), columns.rows());
     normal += (columns.adjoint() * columns).real();
     right += (columns.adjoint() * rest).real();
     power += rest.squaredNorm();
     measured += total_power(record.moment);
   }
-  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300);
-  const Eigen::MatrixXd scaled =
-      scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
   const Eigen::VectorXd solution =
-      scale.cwiseInverse().asDiagonal() *
-      scaled.completeOrthogonalDecomposition().solve(scale.cwiseInverse().asDiagonal() * right);
+      scale.asDiagonal() *
+      scaled.completeOrthogonalDecomposition().solve(scale.asDiagonal() * right);
   model.modes.front().wind_gain = solution(0);
   model.modes.front().wind_rate = solution(1);
   model.wind_direct = solution(2);
@@ -148,33 +128,31 @@ signals::Readout readout_of(const signals::Dataset& simulation) {
 
 /// Misfit of the model on the simulation's own records, base alone and with wind.
 void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
-  double base_error = 0., base_power = 0., wind_error = 0., wind_power = 0.;
+  struct Misfit {
+    double error = 0., power = 0.;
+  } base, wind;
   for (const signals::Split split : {signals::Split::fit, signals::Split::held_out}) {
-    if (std::none_of(simulation.records.begin(), simulation.records.end(),
-                     [&](const DatasetRecord& e) {
-                       return e.split == split && (e.excitation.base || e.excitation.wind);
-                     }))
+    if (std::ranges::none_of(simulation.records, [&](const DatasetRecord& e) {
+          return e.split == split && (e.excitation.base || e.excitation.wind);
+        }))
       continue;
     const Experiment experiment =
         prepare_experiment(model, simulation, split, InputNoise::as_measured);
     for (const PreparedRecord& record : experiment.records) {
-      const std::vector<Complex> mean = simulate_mean({.structure = model}, record);
-      double error = 0., power = 0.;
-      for (std::size_t b = 0; b < mean.size(); ++b) {
-        error += std::norm(mean[b] - record.moment[b]);
-        power += std::norm(record.moment[b]);
-      }
-      (record.excitation.wind ? wind_error : base_error) += error;
-      (record.excitation.wind ? wind_power : base_power) += power;
+      Misfit& of = record.excitation.wind ? wind : base;
+      of.error +=
+          total_power(difference(simulate_mean({.structure = model}, record), record.moment));
+      of.power += total_power(record.moment);
     }
   }
   // Records with another behaviour of the input between samples are misfitted by this prediction.
-  if (base_power > 0.)
-    model.base_misfit = model.base_misfit > 0.
-                            ? std::min(model.base_misfit, std::sqrt(base_error / base_power))
-                            : std::sqrt(base_error / base_power);
-  if (wind_power > 0.)
-    model.wind_misfit = std::min(model.wind_misfit, std::sqrt(wind_error / wind_power));
+  const auto lower = [](double& misfit, const Misfit& own) {
+    if (!(own.power > 0.)) return;
+    const double here = std::sqrt(own.error / own.power);
+    misfit = misfit > 0. ? std::min(misfit, here) : here;
+  };
+  lower(model.base_misfit, base);
+  lower(model.wind_misfit, wind);
 }
 
 NominalModel identified(const signals::Dataset& simulation, const Holds holds) {
@@ -182,7 +160,7 @@ NominalModel identified(const signals::Dataset& simulation, const Holds holds) {
   model.readout = readout_of(simulation);
   model.readout_is_given =
       !simulation.records.empty() && simulation.records.front().readout_is_given;
-  const auto base = choose(simulation, true, false);
+  const auto base = choose(simulation, &signals::Excitation::base, channel::base_acceleration);
   const separation::Hold hold =
       base.empty() ? separation::Hold::band_limited : identify_base_path(model, base, holds);
   set_wind_path(model, simulation, hold);

@@ -37,6 +37,7 @@ struct StudiedEffect {
 struct OpenPair {
   std::size_t effect = 0, alternative = 0;
   SensorKind kind = SensorKind::exact;
+  bool is_alike = false;
 };
 
 StudiedEffect studied(const Effect& effect) {
@@ -70,17 +71,17 @@ class PowerStudy {
  public:
   PowerStudy(const Experiment& experiment, const ChannelNoise& noise, const PowerOptions& options)
       : point_(experiment, noise), options_(options) {
-    for (const Effect& effect : effect_catalogue()) effects_.push_back(studied(effect));
-    for (std::size_t i = 0; i < effects_.size(); ++i) {
-      EffectPower& power = effects_[i].power;
-      power.needs = missing(lacks(experiment, *effects_[i].effect));
+    for (const Effect& effect : effect_catalogue()) {
+      effects_.push_back(studied(effect));
+      EffectPower& power = effects_.back().power;
+      power.needs = missing(lacks(experiment, effect));
       power.shown = power.needs.empty();
     }
   }
 
   std::vector<EffectPower> run() {
     for_each(effects_.size(), [&](std::size_t i) { find(effects_[i]); });
-    const std::vector<OpenPair> pairs = open_pairs();
+    std::vector<OpenPair> pairs = open_pairs();
     std::vector<bool> taking_part(effects_.size(), false);
     for (const OpenPair& pair : pairs)
       taking_part[pair.effect] = taking_part[pair.alternative] = true;
@@ -88,13 +89,11 @@ class PowerStudy {
       if (taking_part[i]) set_faint(effects_[i]);
     });
     set_directions();
-    std::vector<char> alike(pairs.size(), 0);
-    for_each(pairs.size(), [&](std::size_t i) { alike[i] = are_alike(pairs[i]) ? 1 : 0; });
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (alike[i] != 0)
-        effects_[pairs[i].effect]
-            .power.on(pairs[i].kind)
-            .alike.push_back(effects_[pairs[i].alternative].effect->id);
+    for_each(pairs.size(), [&](std::size_t i) { pairs[i].is_alike = are_alike(pairs[i]); });
+    for (const OpenPair& pair : pairs)
+      if (pair.is_alike)
+        effects_[pair.effect].power.on(pair.kind).alike.push_back(
+            effects_[pair.alternative].effect->id);
     std::vector<EffectPower> out;
     for (StudiedEffect& effect : effects_) out.push_back(std::move(effect.power));
     return out;
@@ -105,11 +104,10 @@ class PowerStudy {
     for_each_parallel(n, options_.n_threads, work);
   }
 
-  const EffectPower* known(const std::string& id) const {
+  /// The result with fewer records; both are in the order of the catalogue.
+  const EffectPower* known(const StudiedEffect& effect) const {
     if (options_.fewer_records == nullptr) return nullptr;
-    for (const EffectPower& power : *options_.fewer_records)
-      if (power.effect == id) return &power;
-    return nullptr;
+    return &(*options_.fewer_records)[static_cast<std::size_t>(&effect - effects_.data())];
   }
 
   /// Sets whether the effect is detected and, when asked for, from which size on.
@@ -119,7 +117,7 @@ class PowerStudy {
         effect.change = change_at(effect.families.front(), *effect.effect, 1.);
       for (const SensorKind kind : sensor_kinds) {
         Detectability& detectability = effect.power.on(kind);
-        const EffectPower* before = known(effect.effect->id);
+        const EffectPower* before = known(effect);
         detectability.nats = before != nullptr && before->on(kind).detected
                                  ? before->on(kind).nats
                                  : nats_of(effect, effect.change, kind);
@@ -133,8 +131,8 @@ class PowerStudy {
 
   /// Detected with fewer records already, and distinguished from all effects that are shown now.
   bool is_settled(const StudiedEffect& effect) const {
-    return std::all_of(sensor_kinds.begin(), sensor_kinds.end(), [&](SensorKind kind) {
-      return std::all_of(effects_.begin(), effects_.end(), [&](const StudiedEffect& alternative) {
+    return std::ranges::all_of(sensor_kinds, [&](SensorKind kind) {
+      return std::ranges::all_of(effects_, [&](const StudiedEffect& alternative) {
         return &alternative == &effect || !alternative.power.shown ||
                known_different(effect, alternative, kind);
       });
@@ -218,7 +216,7 @@ class PowerStudy {
 
   bool known_different(const StudiedEffect& effect, const StudiedEffect& alternative,
                        SensorKind kind) const {
-    const EffectPower *one = known(effect.effect->id), *other = known(alternative.effect->id);
+    const EffectPower *one = known(effect), *other = known(alternative);
     return one != nullptr && other != nullptr && one->on(kind).detected && other->shown &&
            std::ranges::count(one->on(kind).alike, other->effect) == 0;
   }

@@ -16,7 +16,7 @@ namespace vibrissa::diagnosis {
 /// of its parameter. For one parameter in Gaussian noise this is four standard deviations.
 inline constexpr double detection_threshold_nats = 8.;
 /// Expected log likelihood ratio below which two effects are indistinguishable
-/// (indistinguishable.h).
+/// (named_answers.h).
 inline constexpr double nats_to_tell_apart = 2.;
 
 /// What else may differ from the simulation. exact: only the noise levels and the joint's share.
@@ -61,12 +61,11 @@ struct PowerOptions {
 
 /// Detectability of every effect of the catalogue, for records of the nominal sensor with white
 /// noise.
-///   detected: the whitened change of mean and variance (fisher_changes.h) that remains when all
-///   other free parameters of the sensor follow it, except the effect's own calibration parameter.
+///   detected: the whitened change that remains when all other free parameters of the sensor follow
+///   it (projection.h), except the effect's own calibration parameter.
 ///   alike: when the other effect's parameters follow as well, less than two nats remain, or less
 ///   than the other's model form error hides.
-/// Followers are refitted (projection.h), because strong effects are not linear in their
-/// parameters. Proven by tests/diagnosis/planning/effect_power_test.cc.
+/// Proven by tests/diagnosis/planning/effect_power_test.cc.
 std::vector<EffectPower> effect_powers(const Experiment& experiment, const ChannelNoise& noise,
                                        const PowerOptions& options = {});
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "diagnosis/planning/planned_records.h"
@@ -85,7 +84,7 @@ std::size_t n_plan_steps(const NominalModel& nominal, const std::vector<PlannedI
 
 ExperimentPlan plan_experiments(const NominalModel& nominal,
                                 const std::vector<PlannedInput>& inputs, const ChannelNoise& noise,
-                                const PlanOptions& options) {
+                                PowerOptions options) {
   check_noise(noise);
   const Experiment experiment = prepared(nominal, inputs, noise);
   ExperimentPlan plan{.noise = noise};
@@ -94,19 +93,16 @@ ExperimentPlan plan_experiments(const NominalModel& nominal,
         {input.name,
          signals::to_string(signals::Excitation{!input.acceleration.empty(), !input.wind.empty()}),
          duration_of({input})});
-  plan.effects = effect_powers(experiment, noise,
-                               {.n_threads = options.n_threads, .on_effect = options.on_effect});
+  plan.effects = effect_powers(experiment, noise, options);
   plan.undecided = undecided_probability(plan.effects);
+  options.limits = false;
+  options.fewer_records = &plan.effects;
   const auto with_records = [&](const std::vector<PlannedInput>& added) {
     std::vector<PlannedInput> all = inputs;
     all.insert(all.end(), added.begin(), added.end());
     Experiment larger = prepared(nominal, all, noise);
     larger.scales = experiment.scales;
-    return effect_powers(larger, noise,
-                         {.limits = false,
-                          .n_threads = options.n_threads,
-                          .fewer_records = &plan.effects,
-                          .on_effect = options.on_effect});
+    return effect_powers(larger, noise, options);
   };
   for (const MenuEntry& entry : experiment_menu()) {
     const auto added = added_inputs(entry.name, nominal, inputs);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,8 +18,7 @@ struct PlannedStep {
   bool by_rule = false;  // not simulated: upper estimate from the menu's table
   double duration_s = 0.;
   std::vector<std::string> finds{};  // effects detected only with it, on either kind of sensor
-  std::vector<std::pair<std::string, std::string>>
-      separates{};  // pairs, each in alphabetical order
+  std::vector<std::pair<std::string, std::string>> separates{};  // in alphabetical order
   /// Reduction of the probability of an undecided answer.
   double gain = 0.;
 };
@@ -39,22 +37,25 @@ struct ExperimentPlan {
   std::vector<PlannedStep> steps{};  // largest gain first
 };
 
-struct PlanOptions {
-  std::size_t n_threads = 2;
-  std::function<void()> on_effect = {};  // after each effect of each experiment, one at a time
-};
-
 /// Number of calls of on_effect in plan_experiments().
 std::size_t n_plan_steps(const NominalModel& nominal, const std::vector<PlannedInput>& inputs);
 
 /// Detection limits, indistinguishable effects, and the gain of each entry of the menu. Entries
 /// that are records are simulated together with the planned ones; the others follow the menu's
-/// table. Sizes of effects stay those of the planned records. Throws UserError for noise that is
-/// not positive and for inputs that the nominal model does not include. Proven by
-/// tests/diagnosis/planning/experiment_plan_test.cc.
+/// table. on_effect is called after each effect of each experiment. Sizes of effects stay those of
+/// the planned records. Throws UserError for noise that is not positive and for inputs that the
+/// nominal model does not include. Proven by tests/diagnosis/planning/experiment_plan_test.cc.
 ExperimentPlan plan_experiments(const NominalModel& nominal,
                                 const std::vector<PlannedInput>& inputs, const ChannelNoise& noise,
-                                const PlanOptions& options = {});
+                                PowerOptions options = {});
+
+/// Schema "vibrissa-plan-1": assumed records and noise, effects with their detection limits and
+/// indistinguishable alternatives, experiments of the menu. Numbers that are not finite become
+/// null. Proven by tests/diagnosis/planning/experiment_plan_json_test.cc.
+std::string plan_json(const ExperimentPlan& plan);
+
+/// The plan as at most 20 lines of at most 100 characters for a terminal.
+std::string plan_text(const ExperimentPlan& plan);
 
 /// Probability that one effect, drawn from the catalogue's prior at its typical strength, stays
 /// undetected or is mistaken for an indistinguishable one (each of these is named in proportion to

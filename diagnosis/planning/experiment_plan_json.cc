@@ -1,6 +1,5 @@
-#include "diagnosis/planning/experiment_plan_json.h"
+#include "diagnosis/planning/experiment_plan.h"
 
-#include <algorithm>
 #include <map>
 
 #include "diagnosis/model/json.h"
@@ -59,25 +58,6 @@ std::string limit_words(const EffectPower& effect) {
   return name + " " + with_unit(*detectability.limit, effect.unit);
 }
 
-/// Words separated by commas on lines of at most 100 characters; the last line ends in dots when
-/// there are more than most_lines.
-Words filled(const std::string& head, const Words& words, std::size_t most_lines) {
-  constexpr std::size_t longest = 96;
-  Words lines{head};
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string word = words[i] + (i + 1 < words.size() ? "," : "");
-    if (lines.back().size() + 1 + word.size() > longest) {
-      if (lines.size() == most_lines) {
-        lines.back() += " ...";
-        return lines;
-      }
-      lines.push_back("   ");
-    }
-    lines.back() += " " + word;
-  }
-  return lines;
-}
-
 std::string records_line(const ExperimentPlan& plan) {
   double duration_s = 0.;
   std::map<std::string, int> kinds;
@@ -92,22 +72,19 @@ std::string records_line(const ExperimentPlan& plan) {
          three_digits(plan.noise.acceleration_m_s2) + " m/s^2";
 }
 
+/// With the effects that are shown but too weak at typical strength, and the size from which on
+/// they are detected.
 std::string detected_line(const ExperimentPlan& plan) {
-  const auto is_detected = [](const EffectPower& e) { return e.as_built.detected; };
-  const auto detected = std::ranges::count_if(plan.effects, is_detected),
-             shown = std::ranges::count_if(plan.effects, &EffectPower::shown);
-  return "Detected at typical strength: " + std::to_string(detected) + " of " +
-         std::to_string(plan.effects.size()) + " effects" +
-         (detected == shown ? "" : "; the others are detected only from:");
-}
-
-/// Effects that are shown but too weak at typical strength, with the size from which on they are
-/// detected.
-Words too_weak(const ExperimentPlan& plan) {
-  Words words;
+  std::size_t n_detected = 0;
+  Words too_weak;
   for (const EffectPower& effect : plan.effects)
-    if (effect.shown && !effect.as_built.detected) words.push_back(limit_words(effect));
-  return words;
+    if (effect.as_built.detected)
+      ++n_detected;
+    else if (effect.shown)
+      too_weak.push_back(limit_words(effect));
+  return "Detected at typical strength: " + std::to_string(n_detected) + " of " +
+         std::to_string(plan.effects.size()) + " effects" +
+         (too_weak.empty() ? "" : "; the others are detected only from: " + joined(too_weak, ", "));
 }
 
 Words not_shown_lines(const ExperimentPlan& plan) {
@@ -126,7 +103,7 @@ Words limits_lines(const ExperimentPlan& plan) {
   for (const EffectPower& effect : plan.effects)
     if (effect.as_built.detected) words.push_back(limit_words(effect));
   if (words.empty()) return {};
-  return filled("Detected from:", words, most_lines);
+  return wrapped("Detected from: " + joined(words, ", "), most_lines);
 }
 
 Words alike_lines(const ExperimentPlan& plan) {
@@ -193,7 +170,7 @@ std::string plan_text(const ExperimentPlan& plan) {
     for (std::string& part : wrapped(line, 2)) lines.push_back(std::move(part));
   };
   add(records_line(plan));
-  add(detected_line(plan) + (too_weak(plan).empty() ? "" : " " + joined(too_weak(plan), ", ")));
+  add(detected_line(plan));
   for (const std::string& line : not_shown_lines(plan)) add(line);
   for (const std::string& line : limits_lines(plan)) add(line);
   for (const std::string& line : alike_lines(plan)) add(line);

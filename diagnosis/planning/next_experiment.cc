@@ -1,11 +1,10 @@
 #include "diagnosis/planning/next_experiment.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
-#include "diagnosis/localisation/location.h"
 #include "diagnosis/model/json.h"
+#include "diagnosis/model/words.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::diagnosis {
@@ -21,11 +20,8 @@ struct Answer {
 std::string sign(const MenuEntry& entry, const std::string& name) {
   std::set<std::string> signs;
   for (const std::string& id : effect_ids(name))
-    if (const auto found = entry.shows.find(id); found != entry.shows.end())
-      signs.insert(found->second);
-  std::string text;
-  for (const std::string& one : signs) text += one + ";";
-  return text;
+    if (entry.shows.contains(id)) signs.insert(entry.shows.at(id));
+  return joined({signs.begin(), signs.end()}, ";");
 }
 
 std::vector<Answer> answers_left(const std::vector<Candidate>& candidates,
@@ -37,14 +33,12 @@ std::vector<Answer> answers_left(const std::vector<Candidate>& candidates,
   std::vector<Answer> answers;
   double best = 0.;
   const auto add = [&](const std::string& name, double weight) {
-    for (const Answer& answer : answers)
-      if (answer.name == name) return;
-    answers.push_back({name, weight});
+    if (std::ranges::find(answers, name, &Answer::name) == answers.end())
+      answers.push_back({name, weight});
   };
   for (const Candidate& candidate : candidates) {
     best = std::max(best, candidate.probability);
-    if (std::find(confidence_set.begin(), confidence_set.end(), candidate.name) !=
-        confidence_set.end())
+    if (std::ranges::count(confidence_set, candidate.name) > 0)
       add(candidate.name, candidate.probability);
   }
   for (const std::vector<std::string>& set : indistinguishable)
@@ -52,28 +46,22 @@ std::vector<Answer> answers_left(const std::vector<Candidate>& candidates,
   return answers;
 }
 
-/// Probability that two answers, drawn by weight, give different observations.
-double split(const MenuEntry& entry, const std::vector<Answer>& answers) {
+/// Probability that two answers, drawn by weight, give different observations; and the share of the
+/// answers for which the entry has an observation of its own, as the mere absence of an effect
+/// proves less.
+struct Split {
+  double probability = 0., shown = 0.;
+};
+
+Split split(const MenuEntry& entry, const std::vector<Answer>& answers) {
   std::map<std::string, double> classes;
-  double total = 0.;
+  double total = 0., same = 0.;
   for (const Answer& answer : answers) {
     classes[sign(entry, answer.name)] += answer.weight;
     total += answer.weight;
   }
-  double same = 0.;
   for (const auto& [shown, weight] : classes) same += weight * weight / (total * total);
-  return 1. - same;
-}
-
-/// Weight of the answers for which an entry has an observation of its own: the mere absence of an
-/// effect proves less.
-double shown_share(const MenuEntry& entry, const std::vector<Answer>& answers) {
-  double shown = 0., total = 0.;
-  for (const Answer& answer : answers) {
-    if (!sign(entry, answer.name).empty()) shown += answer.weight;
-    total += answer.weight;
-  }
-  return shown / total;
+  return {1. - same, 1. - classes[""] / total};
 }
 
 /// What the first few effects would show.
@@ -206,14 +194,12 @@ NextExperiment next_experiment(const std::vector<Candidate>& candidates,
   const MenuEntry* best = nullptr;
   double best_worth = 0.;
   for (const MenuEntry& entry : experiment_menu()) {
-    if (!possible.empty() &&
-        std::find(possible.begin(), possible.end(), entry.name) == possible.end())
-      continue;
-    const double value = split(entry, answers);
-    const double worth = value * (0.5 + 0.5 * shown_share(entry, answers));
+    if (!possible.empty() && std::ranges::count(possible, entry.name) == 0) continue;
+    const auto [probability, shown] = split(entry, answers);
+    const double worth = probability * (0.5 + 0.5 * shown);
     if (worth <= best_worth + 1e-9) continue;
     best_worth = worth;
-    out.split_probability = value;
+    out.split_probability = probability;
     best = &entry;
   }
   if (best == nullptr) {
@@ -228,20 +214,19 @@ NextExperiment next_experiment(const std::vector<Candidate>& candidates,
       if (best->shows.count(id) != 0) weights[id] += answer.weight;
   out.name = best->name;
   for (const auto& [id, weight] : weights) out.would_separate.push_back(id);
-  std::stable_sort(out.would_separate.begin(), out.would_separate.end(),
-                   [&](const auto& a, const auto& b) { return weights[a] > weights[b]; });
+  std::ranges::stable_sort(out.would_separate, std::ranges::greater(),
+                           [&](const std::string& id) { return weights[id]; });
   out.why = best->what + " (" + what_it_shows(*best, out.would_separate) + ")";
   return out;
 }
 
 void check_menu_names(const std::vector<std::string>& names) {
-  std::string known;
-  for (const MenuEntry& entry : experiment_menu())
-    known += (known.empty() ? "" : ", ") + entry.name;
+  std::vector<std::string> known;
+  for (const MenuEntry& entry : experiment_menu()) known.push_back(entry.name);
   for (const std::string& name : names)
-    if (std::none_of(experiment_menu().begin(), experiment_menu().end(),
-                     [&](const MenuEntry& entry) { return entry.name == name; }))
-      throw signals::UserError("unknown experiment '" + name + "'; known experiments: " + known);
+    if (std::ranges::count(known, name) == 0)
+      throw signals::UserError("unknown experiment '" + name +
+                               "'; known experiments: " + joined(known, ", "));
 }
 
 }  // namespace vibrissa::diagnosis

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <random>
 
-#include "diagnosis/fit/fit_parameters.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/error.h"
 
@@ -32,21 +31,6 @@ std::vector<double> lines_of(std::size_t n, const std::vector<std::size_t>& line
   return samples_of(spectrum, n);
 }
 
-std::vector<double> nominal_moment(const NominalModel& nominal, const PlannedInput& input) {
-  const std::size_t n = input.n_samples;
-  std::vector<Complex> moment(n / 2 + 1, 0.);
-  const auto add = [&](const std::vector<double>& x, const auto& response) {
-    if (x.empty()) return;
-    const std::vector<Complex> part = passed(spectrum_of(x), n, input.sampling_rate_hz, response);
-    for (std::size_t k = 0; k < moment.size(); ++k) moment[k] += part[k];
-  };
-  add(input.acceleration, [&](Complex s) { return nominal.base_response(s); });
-  std::vector<double> force = input.wind;
-  for (double& u : force) u = nominal.drag_curve.drag(u);
-  add(force, [&](Complex s) { return nominal.wind_response(s); });
-  return samples_of(moment, n);
-}
-
 class NoiseMaker {
  public:
   std::vector<double> with_noise(std::vector<double> x, std::size_t n, double deviation) {
@@ -59,6 +43,68 @@ class NoiseMaker {
   std::mt19937 random_{20240611};
   std::normal_distribution<double> normal_;
 };
+
+using Inputs = std::vector<PlannedInput>;
+
+constexpr double usual_level = 4., usual_wind = 2.;  // m/s^2 rms, m/s
+
+double level_of(const PlannedInput& input) {
+  return input.acceleration.empty() ? 0. : std::sqrt(mean_square(input.acceleration));
+}
+
+/// The strongest planned base motion without wind; a multisine when there is none.
+PlannedInput strongest_base(Inputs planned) {
+  const double rate_hz = planned.front().sampling_rate_hz;
+  std::erase_if(planned, [](const PlannedInput& input) {
+    return !input.wind.empty() || input.acceleration.empty();
+  });
+  if (planned.empty()) return multisine_input("base", 4., 0.25 * rate_hz, usual_level, rate_hz);
+  return *std::ranges::max_element(planned, {}, level_of);
+}
+
+Inputs level_ladder(const PlannedInput& base) {
+  Inputs out;
+  for (const double factor : {0.25, 0.5, 1., 2.}) {
+    out.push_back(base);
+    out.back().name = "level_" + std::to_string(out.size());
+    for (std::vector<double>* x : {&out.back().acceleration, &out.back().cross_acceleration})
+      for (double& value : *x) value *= factor;
+  }
+  return out;
+}
+
+Inputs wind_ladder(const PlannedInput& base) {
+  const double rate_hz = base.sampling_rate_hz;
+  Inputs out;
+  for (const int speed : {1, 2, 3, 4}) {
+    out.push_back(gust_input("wind_" + std::to_string(speed) + "_m_s", speed,
+                             static_cast<double>(base.n_samples) / rate_hz, rate_hz));
+    PlannedInput both = out.back();
+    both.name += "_base";
+    both.acceleration = base.acceleration;
+    both.acceleration.resize(both.n_samples, 0.);
+    out.push_back(std::move(both));
+  }
+  return out;
+}
+
+PlannedInput steady_wind(const double rate_hz) {
+  PlannedInput out = quiet_input(60., rate_hz);
+  out.name = "steady_wind";
+  out.wind.assign(out.n_samples, usual_wind);
+  return out;
+}
+
+PlannedInput at_twice_the_rate(PlannedInput out) {
+  constexpr std::size_t factor = 2;
+  out.name = "other_rate";
+  for (std::vector<double>* x : {&out.acceleration, &out.cross_acceleration})
+    if (!x->empty()) *x = upsampled(spectrum_of(*x), out.n_samples, factor);
+  out.sampling_rate_hz *= static_cast<double>(factor);
+  out.n_samples *= factor;
+  out.period_samples *= factor;
+  return out;
+}
 
 }  // namespace
 
@@ -81,10 +127,9 @@ std::vector<PlannedInput> inputs_of(const NominalModel& nominal, const signals::
     if (entry.excitation.wind) input.wind = moving_channel(record, channel::wind_speed);
     out.push_back(std::move(input));
   }
-  const bool moved = std::any_of(out.begin(), out.end(), [](const PlannedInput& input) {
-    return !input.acceleration.empty() || !input.wind.empty();
-  });
-  if (!moved)
+  if (std::ranges::none_of(out, [](const PlannedInput& input) {
+        return !input.acceleration.empty() || !input.wind.empty();
+      }))
     throw signals::UserError(
         "no record of the planned dataset has an excitation that the simulation includes: give a "
         "fit record with excitation \"base\" or \"wind\"");
@@ -156,8 +201,10 @@ signals::Dataset planned_dataset(const NominalModel& nominal,
     if (!input.cross_acceleration.empty())
       record.set_channel(channel::cross_acceleration,
                          maker.with_noise(input.cross_acceleration, n, noise.acceleration_m_s2));
+    const std::vector<Complex> moment =
+        nominal_moment(nominal, n, input.sampling_rate_hz, input.acceleration, input.wind);
     record.set_channel(channel::base_moment,
-                       maker.with_noise(nominal_moment(nominal, input), n, noise.moment_n_m));
+                       maker.with_noise(samples_of(moment, n), n, noise.moment_n_m));
     if (!input.wind.empty()) record.set_channel(channel::wind_speed, input.wind);
     out.records.push_back({input.name,
                            std::move(record),
@@ -169,99 +216,19 @@ signals::Dataset planned_dataset(const NominalModel& nominal,
   return out;
 }
 
-namespace {
-
-using Inputs = std::vector<PlannedInput>;
-
-constexpr double usual_level = 4., usual_wind = 2.;  // m/s^2 rms, m/s
-
-double level_of(const std::vector<double>& x) {
-  return x.empty() ? 0. : std::sqrt(mean_square(x));
-}
-
-double rate_of(const Inputs& planned) {
-  return planned.front().sampling_rate_hz;
-}
-
-/// The strongest planned base motion without wind; a multisine when there is none.
-PlannedInput strongest_base(const Inputs& planned) {
-  const PlannedInput* best = nullptr;
-  for (const PlannedInput& input : planned)
-    if (input.wind.empty() && !input.acceleration.empty() &&
-        (best == nullptr || level_of(input.acceleration) > level_of(best->acceleration)))
-      best = &input;
-  if (best != nullptr) return *best;
-  const double rate_hz = rate_of(planned);
-  return multisine_input("base", 4., 0.25 * rate_hz, usual_level, rate_hz);
-}
-
-Inputs level_ladder(const Inputs& planned) {
-  const PlannedInput base = strongest_base(planned);
-  Inputs out;
-  for (const double factor : {0.25, 0.5, 1., 2.}) {
-    out.push_back(base);
-    out.back().name = "level_" + std::to_string(out.size());
-    for (std::vector<double>* x : {&out.back().acceleration, &out.back().cross_acceleration})
-      for (double& value : *x) value *= factor;
-  }
-  return out;
-}
-
-Inputs wind_ladder(const Inputs& planned) {
-  const PlannedInput base = strongest_base(planned);
-  const double rate_hz = base.sampling_rate_hz;
-  const double duration_s = static_cast<double>(base.n_samples) / rate_hz;
-  Inputs out;
-  for (const double speed : {1., 2., 3., 4.}) {
-    const std::string name = "wind_" + std::to_string(static_cast<int>(speed)) + "_m_s";
-    out.push_back(gust_input(name, speed, duration_s, rate_hz));
-    PlannedInput both = out.back();
-    both.name += "_base";
-    both.acceleration = base.acceleration;
-    both.acceleration.resize(both.n_samples, 0.);
-    out.push_back(std::move(both));
-  }
-  return out;
-}
-
-Inputs steady_wind(const Inputs& planned) {
-  PlannedInput out = quiet_input(60., rate_of(planned));
-  out.name = "steady_wind";
-  out.wind.assign(out.n_samples, usual_wind);
-  return {out};
-}
-
-Inputs wide_band(const Inputs& planned) {
-  const PlannedInput base = strongest_base(planned);
-  const double rate_hz = base.sampling_rate_hz;
-  return {multisine_input("wide_band", 1., 0.45 * rate_hz, level_of(base.acceleration), rate_hz)};
-}
-
-/// At twice the rate.
-Inputs other_sampling_rate(const Inputs& planned) {
-  constexpr std::size_t factor = 2;
-  PlannedInput out = strongest_base(planned);
-  out.name = "other_rate";
-  for (std::vector<double>* x : {&out.acceleration, &out.cross_acceleration})
-    if (!x->empty()) *x = upsampled(spectrum_of(*x), out.n_samples, factor);
-  out.sampling_rate_hz *= static_cast<double>(factor);
-  out.n_samples *= factor;
-  out.period_samples *= factor;
-  return {out};
-}
-
-}  // namespace
-
 std::optional<Inputs> added_inputs(const std::string& entry, const NominalModel& nominal,
                                    const Inputs& planned) {
-  if (nominal.has_base) {
-    if (entry == "level_ladder") return level_ladder(planned);
-    if (entry == "wide_band") return wide_band(planned);
-    if (entry == "other_sampling_rate") return other_sampling_rate(planned);
-  }
-  if (nominal.has_wind && entry == "steady_wind") return steady_wind(planned);
-  if (nominal.has_wind && nominal.has_base && entry == "wind_ladder") return wind_ladder(planned);
-  if (entry == "quiet_record") return Inputs{quiet_input(60., rate_of(planned))};
+  const double rate_hz = planned.front().sampling_rate_hz;
+  if (entry == "quiet_record") return Inputs{quiet_input(60., rate_hz)};
+  if (nominal.has_wind && entry == "steady_wind") return Inputs{steady_wind(rate_hz)};
+  if (!nominal.has_base) return std::nullopt;
+  const PlannedInput base = strongest_base(planned);
+  const double same_hz = base.sampling_rate_hz;
+  if (entry == "level_ladder") return level_ladder(base);
+  if (entry == "wide_band")
+    return Inputs{multisine_input(entry, 1., 0.45 * same_hz, level_of(base), same_hz)};
+  if (entry == "other_sampling_rate") return Inputs{at_twice_the_rate(base)};
+  if (nominal.has_wind && entry == "wind_ladder") return wind_ladder(base);
   return std::nullopt;
 }
 

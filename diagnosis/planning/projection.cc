@@ -22,9 +22,9 @@ Eigen::VectorXd nominal_x(const std::vector<FitParameter>& fit_parameters,
   return x;
 }
 
-FisherChanges nominal_changes(const Experiment& experiment,
-                              const std::vector<FitParameter>& fit_parameters,
-                              const Eigen::VectorXd& x) {
+ReferencePoint nominal_point(const Experiment& experiment, const ChannelNoise& noise) {
+  std::vector<FitParameter> fit_parameters = make_fit_parameters(experiment, Hypothesis{});
+  const Eigen::VectorXd x = nominal_x(fit_parameters, noise);
   FitPosterior posterior(experiment, fit_parameters, Hypothesis{});
   const std::vector<Prediction> at = posterior.predict(x);
   posterior.update_slow_variance(x, at);
@@ -33,7 +33,7 @@ FisherChanges nominal_changes(const Experiment& experiment,
     for (const double variance :
          posterior.variance(x, at[r], r, posterior.acceleration_variance(x)))
       deviation.push_back(std::sqrt(variance));
-  return {experiment, std::move(deviation), noisy_chain(experiment, fit_parameters, x)};
+  return {experiment, std::move(fit_parameters), x, std::move(deviation)};
 }
 
 /// Remaining nats that count as zero.
@@ -42,15 +42,21 @@ constexpr double surely_followed = 0.5;
 /// Remaining distance between a change and its followers, including the cost of the followers.
 class LeastSquaresProjection {
  public:
-  LeastSquaresProjection(const NominalPoint& point, const Eigen::VectorXd& change,
+  LeastSquaresProjection(const ReferencePoint& point, const Eigen::VectorXd& change,
                          const std::vector<std::size_t>& fit_parameters,
                          const std::optional<Alternative>& alternative)
       : point_(point), change_(change), fit_parameters_(fit_parameters), alternative_(alternative) {
-    const std::size_t n = fit_parameters.size() + (alternative ? alternative->values.size() : 0);
-    z_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
-    half_prior_ = z_;
-    low_ = high_ = centre_ = z_;
-    for (std::size_t i = 0; i < n; ++i) set_coordinate(i);
+    for (const std::size_t i : fit_parameters) {
+      const FitParameter& own = point.fit_parameters()[i];
+      add(own.description, point.x()(static_cast<Eigen::Index>(i)),
+          half_prior(own, own.description.prior.centre, own.nuisance ? spreads_of_tolerance : 1.));
+    }
+    for (std::size_t i = 0; alternative && i < alternative->values.size(); ++i) {
+      const Parameter& own = alternative->effect->parameters[i];
+      add(own, std::clamp(own.coordinate(alternative->values[i]), own.prior.low, own.prior.high),
+          0.);
+    }
+    centre_ = z_;
     residual_ = residual(z_);
     cost_ = cost(z_, residual_);
     set_columns(true);
@@ -68,26 +74,16 @@ class LeastSquaresProjection {
   }
 
  private:
-  const Parameter& description(std::size_t i) const {
-    return i < fit_parameters_.size()
-               ? point_.fit_parameters()[fit_parameters_[i]].description
-               : alternative_->effect->parameters[i - fit_parameters_.size()];
-  }
-
-  void set_coordinate(std::size_t i) {
-    const auto index = static_cast<Eigen::Index>(i);
-    const Parameter& parameter = description(i);
-    low_(index) = parameter.prior.low;
-    high_(index) = parameter.prior.high;
-    if (i < fit_parameters_.size()) {
-      const FitParameter& fit_parameter = point_.fit_parameters()[fit_parameters_[i]];
-      z_(index) = centre_(index) = point_.x()(static_cast<Eigen::Index>(fit_parameters_[i]));
-      half_prior_(index) = half_prior(fit_parameter, parameter.prior.centre,
-                                      fit_parameter.nuisance ? spreads_of_tolerance : 1.);
-    } else {
-      z_(index) = std::clamp(parameter.coordinate(alternative_->values[i - fit_parameters_.size()]),
-                             low_(index), high_(index));
-    }
+  void add(const Parameter& parameter, const double z, const double half_prior) {
+    descriptions_.push_back(&parameter);
+    const auto append = [](Eigen::VectorXd& to, const double value) {
+      to.conservativeResize(to.size() + 1);
+      to(to.size() - 1) = value;
+    };
+    append(z_, z);
+    append(low_, parameter.prior.low);
+    append(high_, parameter.prior.high);
+    append(half_prior_, half_prior);
   }
 
   Eigen::VectorXd parameters_at(const Eigen::VectorXd& z) const {
@@ -102,7 +98,7 @@ class LeastSquaresProjection {
     if (!alternative_) return change_ - point_.change(x);
     std::vector<double> values;
     for (std::size_t i = fit_parameters_.size(); i < static_cast<std::size_t>(z.size()); ++i)
-      values.push_back(description(i).value(z(static_cast<Eigen::Index>(i))));
+      values.push_back(descriptions_[i]->value(z(static_cast<Eigen::Index>(i))));
     return change_ - point_.change(x, *alternative_->effect, values);
   }
 
@@ -122,7 +118,7 @@ class LeastSquaresProjection {
         continue;
       }
       Eigen::VectorXd z = z_;
-      const double h = description(index).step_at(z(i));
+      const double h = descriptions_[index]->step_at(z(i));
       z(i) += h;
       columns_.col(i) = (residual_ - residual(z)) / h;
       if (!columns_.col(i).allFinite()) columns_.col(i).setZero();
@@ -132,21 +128,19 @@ class LeastSquaresProjection {
     fresh_ = true;
   }
 
-  /// Best step of the chosen coordinates for a given step of the others.
+  /// Best step of the chosen coordinates for a given step of the others. Directions that differ
+  /// only by rounding count once.
   Eigen::VectorXd move_of(const std::vector<Eigen::Index>& free, const Eigen::VectorXd& moved,
                           const Eigen::VectorXd& uphill) const {
-    const Eigen::VectorXd right = (uphill - information_ * moved)(free);
+    constexpr double same = 1e-9;
     Eigen::MatrixXd matrix = information_(free, free);
     matrix.diagonal() *= 1. + damping_;
     const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
-    Eigen::VectorXd along = solver.eigenvectors().transpose() * (scale.asDiagonal() * right);
-    // Directions that differ only by rounding count once.
-    constexpr double same = 1e-9;
-    for (Eigen::Index i = 0; i < along.size(); ++i)
-      along(i) = solver.eigenvalues()(i) > same ? along(i) / solver.eigenvalues()(i) : 0.;
-    return scale.asDiagonal() * (solver.eigenvectors() * along);
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;
+    factors.setThreshold(same);
+    factors.compute(scale.asDiagonal() * matrix * scale.asDiagonal());
+    return scale.asDiagonal() *
+           factors.solve(scale.asDiagonal() * (uphill - information_ * moved)(free));
   }
 
   /// The other coordinates continue when one is held at its bound.
@@ -187,7 +181,9 @@ class LeastSquaresProjection {
     const double predicted = cost(z, predicted_residual);
     const double least_gain = predicted > far ? worthwhile_when_far : worthwhile;
     if (cost_ - predicted < least_gain * cost_) {
-      recompute_or_end();
+      // No step improves: optimal, unless the derivatives belong to another point.
+      ended_ = fresh_ || predicted_well_;
+      if (!ended_) set_columns(false);
       return;
     }
     Eigen::VectorXd there = residual(z);
@@ -211,18 +207,11 @@ class LeastSquaresProjection {
     if (!ended_ && !predicted_well_) set_columns(false);
   }
 
-  /// No step improves: the point is optimal, unless the derivatives belong to another point.
-  void recompute_or_end() {
-    if (fresh_ || predicted_well_)
-      ended_ = true;
-    else
-      set_columns(false);
-  }
-
-  const NominalPoint& point_;
+  const ReferencePoint& point_;
   const Eigen::VectorXd& change_;
   const std::vector<std::size_t>& fit_parameters_;
   const std::optional<Alternative>& alternative_;
+  std::vector<const Parameter*> descriptions_;
   Eigen::VectorXd z_, half_prior_, low_, high_, centre_, residual_;
   Eigen::MatrixXd columns_, information_;
   double cost_ = 0., damping_ = 1e-4;
@@ -231,11 +220,13 @@ class LeastSquaresProjection {
 
 }  // namespace
 
-NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noise)
+ReferencePoint::ReferencePoint(const Experiment& experiment,
+                               std::vector<FitParameter> fit_parameters, Eigen::VectorXd x,
+                               std::vector<double> deviation)
     : experiment_(experiment),
-      fit_parameters_(make_fit_parameters(experiment, Hypothesis{})),
-      x_(nominal_x(fit_parameters_, noise)),
-      changes_(nominal_changes(experiment, fit_parameters_, x_)) {
+      fit_parameters_(std::move(fit_parameters)),
+      x_(std::move(x)),
+      changes_(experiment, std::move(deviation), noisy_chain(experiment, fit_parameters_, x_)) {
   for (std::size_t i = 0; i < fit_parameters_.size(); ++i) {
     Eigen::VectorXd x = x_;
     const auto index = static_cast<Eigen::Index>(i);
@@ -245,18 +236,21 @@ NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noi
   }
 }
 
-Eigen::VectorXd NominalPoint::change(const Eigen::VectorXd& x) const {
-  return changes_.of(noisy_chain(experiment_, fit_parameters_, x));
+NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noise)
+    : ReferencePoint(nominal_point(experiment, noise)) {}
+
+Eigen::VectorXd ReferencePoint::change(const Eigen::VectorXd& x, const Effect* left_out) const {
+  return changes_.of(noisy_chain(experiment_, fit_parameters_, x, left_out));
 }
 
-Eigen::VectorXd NominalPoint::change(const Eigen::VectorXd& x, const Effect& effect,
-                                     const std::vector<double>& values) const {
+Eigen::VectorXd ReferencePoint::change(const Eigen::VectorXd& x, const Effect& effect,
+                                       const std::vector<double>& values) const {
   NoisyChain moved = noisy_chain(experiment_, fit_parameters_, x);
   effect.extend(moved.chain, values, experiment_.scales);
   return changes_.of(moved);
 }
 
-Projection project(const NominalPoint& point, const Eigen::VectorXd& change,
+Projection project(const ReferencePoint& point, const Eigen::VectorXd& change,
                    const std::vector<std::size_t>& fit_parameters,
                    const std::optional<Alternative>& alternative) {
   return LeastSquaresProjection(point, change, fit_parameters, alternative).run();

@@ -9,12 +9,13 @@
 
 namespace vibrissa::diagnosis {
 
-/// The nominal sensor with noise, as the reference of whitened changes, and the parameters that may
-/// be free.
-class NominalPoint {
+/// Coordinates of the parameters, as the reference of whitened changes. The experiment must outlive
+/// this object.
+class ReferencePoint {
  public:
-  /// noise: the true noise levels. The experiment must outlive this object.
-  NominalPoint(const Experiment& experiment, const ChannelNoise& noise);
+  /// deviation: standard deviations of the bins of all records in turn [N m].
+  ReferencePoint(const Experiment& experiment, std::vector<FitParameter> fit_parameters,
+                 Eigen::VectorXd x, std::vector<double> deviation);
 
   const Experiment& experiment() const { return experiment_; }
   const std::vector<FitParameter>& fit_parameters() const { return fit_parameters_; }
@@ -22,8 +23,8 @@ class NominalPoint {
   /// Whitened derivatives by each parameter.
   const std::vector<Eigen::VectorXd>& columns() const { return columns_; }
 
-  /// Whitened change at other coordinates of the parameters, with an effect.
-  Eigen::VectorXd change(const Eigen::VectorXd& x) const;
+  /// Whitened change at other coordinates, with a further effect, or without one.
+  Eigen::VectorXd change(const Eigen::VectorXd& x, const Effect* left_out = nullptr) const;
   Eigen::VectorXd change(const Eigen::VectorXd& x, const Effect& effect,
                          const std::vector<double>& values) const;
   const FisherChanges& changes() const { return changes_; }
@@ -34,6 +35,12 @@ class NominalPoint {
   Eigen::VectorXd x_;
   FisherChanges changes_;
   std::vector<Eigen::VectorXd> columns_;
+};
+
+/// The nominal sensor with these true noise levels.
+class NominalPoint : public ReferencePoint {
+ public:
+  NominalPoint(const Experiment& experiment, const ChannelNoise& noise);
 };
 
 /// An effect that is refitted, with its starting values.
@@ -53,7 +60,7 @@ struct Projection {
 /// What remains of a change when the chosen parameters, within their priors and bounds, and an
 /// alternative follow it: least squares by Levenberg-Marquardt steps; derivatives are recomputed
 /// where they predict badly. Proven by tests/diagnosis/planning/effect_power_test.cc.
-Projection project(const NominalPoint& point, const Eigen::VectorXd& change,
+Projection project(const ReferencePoint& point, const Eigen::VectorXd& change,
                    const std::vector<std::size_t>& fit_parameters,
                    const std::optional<Alternative>& alternative = std::nullopt);
 

@@ -5,37 +5,11 @@
 #include <limits>
 #include <numbers>
 
-#include "diagnosis/records/asynchronous_sampling.h"
-#include "diagnosis/records/repeated_samples.h"
+#include "diagnosis/records/source_samples.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/median.h"
 
 namespace vibrissa::diagnosis {
-
-NoiseLines all_lines(const std::span<const double> x) {
-  NoiseLines out{spectrum_of(x)};
-  out.end = out.spectrum.size();
-  return out;
-}
-
-NoiseLines noise_lines(const std::span<const double> reading, const double rate_hz,
-                       const bool moves) {
-  if (is_held(reading)) {
-    NoiseLines out = all_lines(new_sample_series(reading));
-    const double filled = 1. - repeat_share(reading);
-    out.end = static_cast<std::size_t>(filled * static_cast<double>(out.end));
-    out.of_source = true;
-    out.age_range = unknown_age(reading);
-    return out;
-  }
-  const auto even = moves ? evened_series(reading, rate_hz) : std::nullopt;
-  if (!even) return all_lines(reading);
-  NoiseLines out = all_lines(even->samples);
-  out.of_source = true;
-  out.age_range = even->unknown_age;
-  return out;
-}
-
 namespace {
 
 using signals::DatasetRecord;
@@ -88,11 +62,35 @@ double least_noise(const signals::Dataset& dataset, const std::string& name) {
   const double of_peak = 1. / (8192. * std::sqrt(12.));
   double peak = 0.;
   for (const auto x : fit_readings(dataset, name))
-    for (const double value : x) peak = std::max(peak, std::abs(value));
+    peak = std::max({peak, std::ranges::max(x), -std::ranges::min(x)});
   return of_peak * peak;
 }
 
 }  // namespace
+
+NoiseLines all_lines(const std::span<const double> x) {
+  NoiseLines out{spectrum_of(x)};
+  out.end = out.spectrum.size();
+  return out;
+}
+
+NoiseLines noise_lines(const std::span<const double> reading, const double rate_hz,
+                       const bool moves) {
+  if (is_held(reading)) {
+    NoiseLines out = all_lines(new_sample_series(reading));
+    const double filled = 1. - repeat_share(reading);
+    out.end = static_cast<std::size_t>(filled * static_cast<double>(out.end));
+    out.of_source = true;
+    out.age_range = unknown_age(reading);
+    return out;
+  }
+  const auto even = moves ? evened_series(reading, rate_hz) : std::nullopt;
+  if (!even) return all_lines(reading);
+  NoiseLines out = all_lines(even->samples);
+  out.of_source = true;
+  out.age_range = even->unknown_age;
+  return out;
+}
 
 std::size_t n_periods(const DatasetRecord& entry) {
   const std::size_t n = entry.record.n_samples(), period = entry.period_samples;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -28,8 +27,11 @@ bool is_periodic(const DatasetRecord& entry) {
   return entry.period_samples > 0 && entry.record.n_samples() % entry.period_samples == 0;
 }
 
-std::size_t transient_samples(const NominalModel& nominal, double rate_hz) {
-  return nominal.decay_samples(n_time_constants, rate_hz);
+/// Samples at both ends that are not evaluated; nothing where the whole record is.
+std::optional<std::size_t> skipped_samples(const NominalModel& nominal,
+                                           const DatasetRecord& entry) {
+  if (is_periodic(entry) || entry.excitation == signals::Excitation{}) return std::nullopt;
+  return nominal.decay_samples(n_time_constants, entry.record.sampling_rate_hz()) + end_margin;
 }
 
 /// Averages whole periods in place: lines that are not multiples of 1/period become zero.
@@ -199,15 +201,13 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
                      .clock_start_s = entry.clock_start_s,
                      .n_samples = entry.record.n_samples(),
                      .periodic = is_periodic(entry)};
-  const bool moved = entry.excitation.base || entry.excitation.wind;
-  if (out.periodic || !moved) {
-    out.n_evaluated = out.n_samples - out.n_samples % 2;
-  } else {
-    const std::size_t skip = transient_samples(nominal, out.sampling_rate_hz) + end_margin;
-    assert(out.n_samples >= skip + fewest_evaluated);
-    out.first = skip - end_margin;
+  if (const std::optional<std::size_t> skip = skipped_samples(nominal, entry)) {
+    assert(out.n_samples >= *skip + fewest_evaluated);
+    out.first = *skip - end_margin;
     out.n_evaluated =
-        evaluated_length(out.n_samples - skip, period_of_drive(entry, acceleration_noise));
+        evaluated_length(out.n_samples - *skip, period_of_drive(entry, acceleration_noise));
+  } else {
+    out.n_evaluated = out.n_samples - out.n_samples % 2;
   }
   const SensorFrame frame = in_sensor_frame(entry);
   if (!frame.axial.empty())
@@ -220,18 +220,9 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
     out.wind.assign(wind.begin(), wind.end());
     out.wind_share = std::cos(entry.setup.rotation_deg * std::numbers::pi / 180.);
   }
-  const auto is_zero = [](Complex a) { return a == Complex(0.); };
-  out.has_zero_inputs = out.cross_acceleration.empty() &&
-                        std::all_of(out.acceleration.begin(), out.acceleration.end(), is_zero);
+  out.has_zero_inputs = out.cross_acceleration.empty() && total_power(out.acceleration) == 0.;
   out.moment = evaluated_bins(out, entry.record.channel(channel::base_moment));
   return out;
-}
-
-double band_rate_hz(const Experiment& experiment) {
-  double highest = 0.;
-  for (const PreparedRecord& record : experiment.records)
-    highest = std::max(highest, record.sampling_rate_hz);
-  return highest;
 }
 
 /// Does the effect change anything except the joint of the first mode?
@@ -268,35 +259,32 @@ double moved_band_hz(const Experiment& experiment) {
 }
 
 Scales scales_of(const Experiment& experiment) {
-  Scales scales;
   const NominalModel& nominal = experiment.nominal;
-  scales.static_gain = std::abs(nominal.base_response(0.));
-  // Without a mode the logarithmic middle of the band is used.
-  scales.first_mode_rad_s = !nominal.modes.empty()
-                                ? nominal.modes.front().frequency_rad_s
-                                : 0.1 * std::numbers::pi * band_rate_hz(experiment);
-  scales.joint_moment_n_m = 0.;
-  scales.moved_band_hz = moved_band_hz(experiment);
-  scales.duration_s = 0.;
-  scales.moment_rms_n_m = 0.;
+  Scales scales{.duration_s = 0.,
+                .static_gain = std::abs(nominal.base_response(0.)),
+                .moment_rms_n_m = 0.,
+                .moved_band_hz = moved_band_hz(experiment)};
+  double highest_rate_hz = 0.;
   for (const PreparedRecord& record : experiment.records) {
-    const double n = static_cast<double>(record.n_samples);
-    scales.duration_s = std::max(scales.duration_s, n / record.sampling_rate_hz);
-    const double level =
-        std::sqrt(2. * total_power(record.moment)) / static_cast<double>(record.n_evaluated);
-    scales.moment_rms_n_m = std::max(scales.moment_rms_n_m, level);
-    scales.joint_moment_n_m = std::max(scales.joint_moment_n_m, 3. * level);
+    highest_rate_hz = std::max(highest_rate_hz, record.sampling_rate_hz);
+    scales.duration_s = std::max(scales.duration_s,
+                                 static_cast<double>(record.n_samples) / record.sampling_rate_hz);
+    scales.moment_rms_n_m =
+        std::max(scales.moment_rms_n_m, std::sqrt(2. * total_power(record.moment)) /
+                                            static_cast<double>(record.n_evaluated));
   }
+  scales.joint_moment_n_m = 3. * scales.moment_rms_n_m;
+  // Without a mode the logarithmic middle of the band is used.
+  scales.first_mode_rad_s = !nominal.modes.empty() ? nominal.modes.front().frequency_rad_s
+                                                   : 0.1 * std::numbers::pi * highest_rate_hz;
   return scales;
 }
 
 }  // namespace
 
 std::size_t fewest_samples(const NominalModel& nominal, const DatasetRecord& entry) {
-  const bool moved = entry.excitation.base || entry.excitation.wind;
-  if (!moved || is_periodic(entry)) return 0;
-  return transient_samples(nominal, entry.record.sampling_rate_hz()) + end_margin +
-         fewest_evaluated;
+  const std::optional<std::size_t> skip = skipped_samples(nominal, entry);
+  return skip ? *skip + fewest_evaluated : 0;
 }
 
 bool is_simulated(const signals::BenchSetup& setup) {

@@ -6,7 +6,6 @@
 #include "diagnosis/model/effect.h"
 #include "diagnosis/model/updated_model.h"
 #include "diagnosis/records/channel_noise.h"
-#include "diagnosis/records/noise_colour.h"
 #include "signals/files/dataset.h"
 
 namespace vibrissa::diagnosis {
@@ -21,22 +20,18 @@ struct PreparedRecord {
   bool magnet = true;      // without magnet the sensor does not read the structure
   double wind_share = 1.;  // of the wind force, in the measured plane
   double sampling_rate_hz = 0.;
-  double clock_start_s = 0.;  // running time of the clocks at the start
-  std::size_t n_samples = 0;  // length of the whole record
-  bool periodic = false;      // the record consists of whole periods
-  std::size_t first = 0,
-              n_evaluated = 0;  // evaluated samples (free of transients)
+  double clock_start_s = 0.;               // running time of the clocks at the start
+  std::size_t n_samples = 0;               // length of the whole record
+  bool periodic = false;                   // the record consists of whole periods
+  std::size_t first = 0, n_evaluated = 0;  // samples free of transients
 
   std::vector<Complex> acceleration{};  // k = 0 .. n/2, with reduced noise; empty: not measured
-  std::vector<Complex>
-      source_acceleration{};  // of its source's samples; empty: no sample-and-hold repeats
+  std::vector<Complex> source_acceleration{};  // of its source's samples; empty: no repeats
   double unknown_age_s = 0.;  // standard deviation of the reading time of the source
   std::vector<Complex> cross_acceleration{};  // empty: not measured
   std::vector<double> wind{};                 // one value per sample; empty: not measured
-  /// Share of the accelerometer noise that remains at line k of the whole record.
-  std::vector<double> noise_share{};
-  /// The same at the evaluated bins.
-  std::vector<double> bin_noise_share{};
+  /// Share of the accelerometer noise that remains at lines of the whole record, and at its bins.
+  std::vector<double> noise_share{}, bin_noise_share{};
   ChannelColours colours{};              // of the noise of both channels
   double acceleration_noise_power = 0.;  // sum |A_k|^2 at rest, for the noise variance
   std::size_t n_acceleration_noise = 0;  // number of lines in the sum
@@ -127,5 +122,15 @@ bool shows(const Experiment& experiment, const Effect& effect);
 /// requested and none of them has an excitation.
 Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dataset& dataset,
                               signals::Split split, InputNoise noise);
+
+/// Records with at most this many samples are used completely. Longer records cost memory and time
+/// without more information on any effect, except a drift, which needs the duration and not the
+/// samples.
+inline constexpr std::size_t longest_whole_record = std::size_t{1} << 17;
+
+/// Replaces each longer record by four pieces with this many samples in total, spread from its
+/// beginning to its end (whole periods of a periodic record), with the clock's time at their start.
+/// An entry in guesses reports it. Proven by tests/diagnosis/records/long_records_test.cc.
+signals::Dataset in_pieces(const signals::Dataset& dataset);
 
 }  // namespace vibrissa::diagnosis

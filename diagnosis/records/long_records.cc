@@ -1,4 +1,4 @@
-#include "diagnosis/records/long_records.h"
+#include "diagnosis/records/experiment.h"
 
 #include <cmath>
 #include <sstream>

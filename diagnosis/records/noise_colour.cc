@@ -1,11 +1,8 @@
-#include "diagnosis/records/noise_colour.h"
+#include "diagnosis/records/channel_noise.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-
-#include "diagnosis/records/channel_noise.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -57,6 +54,30 @@ double best_walk(const std::vector<NoiseLine>& lines) {
   return best;
 }
 
+/// Lines k that are not multiples of step; all lines when it is 1.
+void add_lines(std::vector<NoiseLine>& out, const signals::Record& record, const NoiseLines& lines,
+               const std::size_t step) {
+  const double n = static_cast<double>(record.n_samples());
+  for (std::size_t k = 1; k + 1 < lines.end; ++k) {
+    const double f = static_cast<double>(k) * record.sampling_rate_hz() / n;
+    const bool upper = k >= lines.end / 2;
+    if (step > 1 && (k % step == 0 || (f > below_modes_hz && !upper))) continue;
+    out.push_back({f, std::norm(lines.spectrum[k]) / n, upper});
+  }
+}
+
+void add_moment(std::vector<NoiseLine>& out, const signals::Record& record,
+                const std::size_t step) {
+  if (!record.has(signals::channel::base_moment)) return;
+  add_lines(out, record, all_lines(record.channel(signals::channel::base_moment)), step);
+}
+
+void add_still_acceleration(std::vector<NoiseLine>& out, const signals::Record& record) {
+  if (!record.has(signals::channel::base_acceleration)) return;
+  const auto x = record.channel(signals::channel::base_acceleration);
+  add_lines(out, record, noise_lines(x, record.sampling_rate_hz(), false), 1);
+}
+
 }  // namespace
 
 double NoiseColour::density(const double frequency_hz) const {
@@ -83,34 +104,6 @@ NoiseColour noise_colour(const std::span<const NoiseLine> measured) {
       best_likelihood > white + least_gain && best_likelihood > best_walk(lines) + least_lead;
   return coloured ? best : NoiseColour{};
 }
-
-namespace {
-
-/// Lines k that are not multiples of step; all lines when it is 1.
-void add_lines(std::vector<NoiseLine>& out, const signals::Record& record, const NoiseLines& lines,
-               const std::size_t step) {
-  const double n = static_cast<double>(record.n_samples());
-  for (std::size_t k = 1; k + 1 < lines.end; ++k) {
-    const double f = static_cast<double>(k) * record.sampling_rate_hz() / n;
-    const bool upper = k >= lines.end / 2;
-    if (step > 1 && (k % step == 0 || (f > below_modes_hz && !upper))) continue;
-    out.push_back({f, std::norm(lines.spectrum[k]) / n, upper});
-  }
-}
-
-void add_moment(std::vector<NoiseLine>& out, const signals::Record& record,
-                const std::size_t step) {
-  if (!record.has(signals::channel::base_moment)) return;
-  add_lines(out, record, all_lines(record.channel(signals::channel::base_moment)), step);
-}
-
-void add_still_acceleration(std::vector<NoiseLine>& out, const signals::Record& record) {
-  if (!record.has(signals::channel::base_acceleration)) return;
-  const auto x = record.channel(signals::channel::base_acceleration);
-  add_lines(out, record, noise_lines(x, record.sampling_rate_hz(), false), 1);
-}
-
-}  // namespace
 
 ChannelColours channel_colours(const signals::Dataset& dataset) {
   std::vector<NoiseLine> moment, acceleration;

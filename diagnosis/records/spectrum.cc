@@ -50,6 +50,23 @@ std::vector<Complex> passed(std::vector<Complex> spectrum, const std::size_t n,
   return spectrum;
 }
 
+std::vector<Complex> nominal_moment(const NominalModel& nominal, const std::size_t n,
+                                    const double rate_hz,
+                                    const std::span<const double> acceleration,
+                                    const std::span<const double> wind) {
+  std::vector<Complex> out(n / 2 + 1, 0.);
+  const auto add = [&](const std::span<const double> input, const auto& response) {
+    if (input.empty()) return;
+    const std::vector<Complex> part = passed(spectrum_of(input), n, rate_hz, response);
+    std::ranges::transform(out, part, out.begin(), std::plus());
+  };
+  add(acceleration, [&](Complex s) { return nominal.base_response(s); });
+  std::vector<double> force(wind.begin(), wind.end());
+  for (double& u : force) u = nominal.drag_curve.drag(u);
+  add(force, [&](Complex s) { return nominal.wind_response(s); });
+  return out;
+}
+
 std::vector<double> upsampled(std::span<const Complex> spectrum, const std::size_t n,
                               const std::size_t factor) {
   if (factor == 1) return samples_of(spectrum, n);
@@ -84,8 +101,8 @@ std::vector<double> resampled(const std::span<const Complex> spectrum, const std
 }
 
 std::vector<Complex> difference(std::span<const Complex> a, std::span<const Complex> b) {
-  std::vector<Complex> out(a.begin(), a.end());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] -= b[i];
+  std::vector<Complex> out(a.size());
+  std::ranges::transform(a, b, out.begin(), std::minus());
   return out;
 }
 
@@ -96,22 +113,25 @@ std::vector<double> powers(std::span<const Complex> x) {
 }
 
 double total_power(std::span<const Complex> x) {
-  double sum = 0.;
-  for (const Complex& value : x) sum += std::norm(value);
-  return sum;
+  return std::transform_reduce(x.begin(), x.end(), 0., std::plus(),
+                               [](const Complex& value) { return std::norm(value); });
+}
+
+std::vector<double> signed_squares(std::span<const double> u) {
+  std::vector<double> out(u.begin(), u.end());
+  for (double& value : out) value *= std::abs(value);
+  return out;
 }
 
 double mean_square(std::span<const double> x) {
-  double sum = 0.;
-  for (const double v : x) sum += v * v;
-  return sum / static_cast<double>(x.size());
+  return std::inner_product(x.begin(), x.end(), x.begin(), 0.) / static_cast<double>(x.size());
 }
 
 double rms_about_mean(std::span<const double> x) {
   const double mean = std::accumulate(x.begin(), x.end(), 0.) / static_cast<double>(x.size());
-  double square = 0.;
-  for (const double v : x) square += (v - mean) * (v - mean);
-  return std::sqrt(square / static_cast<double>(x.size()));
+  std::vector<double> rest(x.begin(), x.end());
+  for (double& v : rest) v -= mean;
+  return std::sqrt(mean_square(rest));
 }
 
 std::vector<double> neighbour_mean(std::span<const double> x, const std::size_t reach) {

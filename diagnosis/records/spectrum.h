@@ -19,6 +19,12 @@ std::vector<double> samples_of(std::span<const Complex> spectrum, std::size_t n)
 std::vector<Complex> passed(std::vector<Complex> spectrum, std::size_t n, double rate_hz,
                             const std::function<Complex(Complex s)>& response);
 
+/// Spectrum of the moment that a model predicts for n samples of base acceleration and wind speed;
+/// either may be empty.
+std::vector<Complex> nominal_moment(const NominalModel& nominal, std::size_t n, double rate_hz,
+                                    std::span<const double> acceleration,
+                                    std::span<const double> wind);
+
 /// The samples of a spectrum at factor times its rate (band-limited interpolation), factor n of
 /// them.
 std::vector<double> upsampled(std::span<const Complex> spectrum, std::size_t n, std::size_t factor);
@@ -35,6 +41,9 @@ std::vector<Complex> difference(std::span<const Complex> a, std::span<const Comp
 std::vector<double> powers(std::span<const Complex> x);
 /// Sum of |x|^2.
 double total_power(std::span<const Complex> x);
+
+/// u |u| of each value.
+std::vector<double> signed_squares(std::span<const double> u);
 
 /// Mean of the squares, about zero.
 double mean_square(std::span<const double> x);

@@ -1,6 +1,7 @@
 #include "diagnosis/resonances/resonance_effects.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -33,63 +34,28 @@ std::optional<double> without_mount(const ModeChange& change, const double x) {
 }
 
 const Parameter& catalogue_parameter(const Effect& effect, const std::string& name) {
-  const auto found = std::find_if(effect.parameters.begin(), effect.parameters.end(),
-                                  [&](const Parameter& p) { return p.name == name; });
+  const auto found = std::ranges::find(effect.parameters, name, &Parameter::name);
   assert(found != effect.parameters.end());
   return *found;
 }
 
 /// A parameter of the catalogue with a prior that is uniform over its usual range.
-ResonanceEffect catalogue_effect(const std::string& id, const std::string& parameter,
-                                 const double usual_low, const double usual_high) {
-  const Effect& effect = find_effect(id);
-  ResonanceEffect out{.effect = &effect,
-                      .parameter = catalogue_parameter(effect, parameter),
-                      .usual_low = usual_low,
-                      .usual_high = usual_high};
+void set_usual(ResonanceEffect& out, const std::string& parameter) {
+  out.parameter = catalogue_parameter(*out.effect, parameter);
   out.prior = {.usual = {.kind = Prior::Kind::uniform,
-                         .low = out.parameter.coordinate(usual_low),
-                         .high = out.parameter.coordinate(usual_high)},
+                         .low = out.parameter.coordinate(out.usual_low),
+                         .high = out.parameter.coordinate(out.usual_high)},
                .beyond = out.parameter.prior};
-  return out;
 }
 
-/// The catalogue's effect with another parameter and prior.
-ResonanceEffect own_prior(const std::string& id, const Parameter& parameter, const double usual_low,
-                          const double usual_high) {
-  return {.effect = &find_effect(id),
-          .parameter = parameter,
-          .prior = {.usual = parameter.prior},
-          .usual_low = usual_low,
-          .usual_high = usual_high};
-}
-
-/// From a value to the factor on a part of the mode, and back.
-struct Map {
-  std::function<double(double)> to_factor, to_value;
-};
-
-ResonanceEffect acting(ResonanceEffect out, const ResonanceEffect::Part part, const Map& map,
-                       std::string remark) {
-  out.part = part;
-  out.to_factor = map.to_factor;
-  out.to_value = map.to_value;
-  out.remark = std::move(remark);
-  return out;
-}
-
-/// The silicone's modulus ratio, by two ways to know the modulus.
-ResonanceEffect silicone(const std::optional<double> modulus_pa) {
+/// Usual range of the silicone's modulus ratio, by two ways to know the modulus.
+std::array<double, 2> usual_modulus_ratio(const std::optional<double> modulus_pa) {
   constexpr double rounding = 1.01;
-  const double spread = yeoh_modulus_pa / gent_modulus_pa;
-  double low = 1. / spread, high = spread;
   if (modulus_pa && *modulus_pa * rounding >= gent_modulus_pa &&
-      *modulus_pa <= yeoh_modulus_pa * rounding) {
-    low = gent_modulus_pa / *modulus_pa;
-    high = yeoh_modulus_pa / *modulus_pa;
-  }
-  return own_prior("stiffness", log_usual("silicone_modulus_ratio", "1", low, high, 1e-3, 1e3, 1.),
-                   low, high);
+      *modulus_pa <= yeoh_modulus_pa * rounding)
+    return {gent_modulus_pa / *modulus_pa, yeoh_modulus_pa / *modulus_pa};
+  const double spread = yeoh_modulus_pa / gent_modulus_pa;
+  return {1. / spread, spread};
 }
 
 }  // namespace
@@ -125,7 +91,7 @@ double UsualPrior::density(const double x) const {
 }
 
 void ResonanceEffect::apply(const double value, ModeChange& change) const {
-  const double factor = to_factor(value);
+  const double factor = map.to_factor(value);
   switch (part) {
     case Part::joint:
       change.joint *= factor;
@@ -149,22 +115,23 @@ std::optional<double> ResonanceEffect::solve(const ModeChange& others, const dou
     const double alone = k.total / others.inertia;
     if (alone <= squared_ratio) return std::nullopt;
     const double b2 = squared_ratio * (1. + others.mount_mass * alone / (alone - squared_ratio));
-    return to_value(std::sqrt(b2));
+    return map.to_value(std::sqrt(b2));
   }
   const std::optional<double> alone = without_mount(others, squared_ratio);
   if (!alone) return std::nullopt;
-  if (part == Part::inertia) return to_value(k.total / *alone / others.inertia);
+  if (part == Part::inertia) return map.to_value(k.total / *alone / others.inertia);
   const double compliance = 1. / (*alone * others.inertia);
   const double rest =
       compliance - (part == Part::joint ? 1. - joint_share + others.series_compliance
                                         : 1. / k.own + others.series_compliance);
   if (rest <= 0.) return std::nullopt;
-  return to_value(part == Part::joint ? joint_share / rest / others.joint : rest);
+  return map.to_value(part == Part::joint ? joint_share / rest / others.joint : rest);
 }
 
 std::vector<ResonanceEffect> resonance_effects(const double simulated_hz,
                                                const std::optional<double> silicone_modulus_pa) {
   using Part = ResonanceEffect::Part;
+  using Map = ResonanceEffect::Map;
   const Map same{[](double x) { return x; }, [](double x) { return x; }},
       inverse{[](double x) { return 1. / x; }, [](double x) { return 1. / x; }},
       added{[](double x) { return 1. + x; }, [](double factor) { return factor - 1.; }},
@@ -173,33 +140,48 @@ std::vector<ResonanceEffect> resonance_effects(const double simulated_hz,
       cubic{[](double x) { return 1. + 0.75 * x; }, [](double f) { return (f - 1.) / 0.75; }},
       frequency{[=](double hz) { return hz / simulated_hz; },
                 [=](double ratio) { return ratio * simulated_hz; }};
-  const Parameter shift{
-      .name = "shift",
-      .unit = "1",
-      .prior = {.kind = Prior::Kind::student, .scale = 0.1, .low = -0.4, .high = 0.4}};
+  std::vector<ResonanceEffect> out;
+  const auto add = [&](const char* id, Part part, const Map& map, double low, double high,
+                       const char* remark) -> ResonanceEffect& {
+    out.push_back({.effect = &find_effect(id),
+                   .part = part,
+                   .map = map,
+                   .usual_low = low,
+                   .usual_high = high,
+                   .remark = remark});
+    return out.back();
+  };
+  const auto set_own = [](ResonanceEffect& effect, const Parameter& parameter) {
+    effect.parameter = parameter;
+    effect.prior.usual = parameter.prior;
+  };
+  const auto [low, high] = usual_modulus_ratio(silicone_modulus_pa);
+  set_own(add("stiffness", Part::joint, same, low, high, "the silicone has another modulus"),
+          log_usual("silicone_modulus_ratio", "1", low, high, 1e-3, 1e3, 1.));
+  set_own(add("mass", Part::inertia, same, 0.7, 1.4, "possible origins: infill, glue, magnet"),
+          log_usual("ratio", "1", 0.9, 1.1, 0.3, 3., 1.));
+  set_usual(add("base_compliance", Part::series, inverse, 1., 20.,
+                "stiffness k_s / k0 of a spring below the silicone"),
+            "stiffness_ratio");
+  ResonanceEffect& mount = add("mount_compliance", Part::mount, frequency, 60., 200.,
+                               "a second resonance would appear nearby");
+  set_usual(mount, "frequency");
+  mount.mass_ratio = catalogue_parameter(*mount.effect, "mass_ratio");
+  set_own(add("temperature_drift", Part::joint, added, -0.3, 0.3,
+              "a shift of 0.1 needs 20 K at 0.5 %/K"),
+          {.name = "shift",
+           .unit = "1",
+           .prior = {.kind = Prior::Kind::student, .scale = 0.1, .low = -0.4, .high = 0.4}});
+  set_usual(add("softening_history", Part::joint, taken, 0.02, 0.4,
+                "softening of the silicone at the test level"),
+            "softening");
+  set_usual(add("hardening", Part::joint, cubic, -0.3, 0.5,
+                "k3 A^2 / k at the peak amplitude of the test"),
+            "cubic_ratio");
   // Elements parallel to the joint's spring add at most their own stiffness.
-  const std::string can_only_raise = "it can only raise the resonance";
-  std::vector<ResonanceEffect> out{
-      acting(silicone(silicone_modulus_pa), Part::joint, same, "the silicone has another modulus"),
-      acting(own_prior("mass", log_usual("ratio", "1", 0.9, 1.1, 0.3, 3., 1.), 0.7, 1.4),
-             Part::inertia, same, "possible origins: infill, glue, magnet"),
-      acting(catalogue_effect("base_compliance", "stiffness_ratio", 1., 20.), Part::series, inverse,
-             "stiffness k_s / k0 of a spring below the silicone"),
-      acting(catalogue_effect("mount_compliance", "frequency", 60., 200.), Part::mount, frequency,
-             "a second resonance would appear nearby"),
-      acting(own_prior("temperature_drift", shift, -0.3, 0.3), Part::joint, added,
-             "a shift of 0.1 needs 20 K at 0.5 %/K"),
-      acting(catalogue_effect("softening_history", "softening", 0.02, 0.4), Part::joint, taken,
-             "softening of the silicone at the test level"),
-      acting(catalogue_effect("hardening", "cubic_ratio", -0.3, 0.5), Part::joint, cubic,
-             "k3 A^2 / k at the peak amplitude of the test"),
-      acting(catalogue_effect("viscoelastic", "strength", 0.02, 1.), Part::joint, added,
-             can_only_raise),
-      acting(catalogue_effect("joint_friction", "stiffness_ratio", 0.1, 0.8), Part::joint, added,
-             can_only_raise)};
-  for (ResonanceEffect& effect : out)
-    if (effect.part == Part::mount)
-      effect.mass_ratio = catalogue_parameter(*effect.effect, "mass_ratio");
+  const char* const can_only_raise = "it can only raise the resonance";
+  set_usual(add("viscoelastic", Part::joint, added, 0.02, 1., can_only_raise), "strength");
+  set_usual(add("joint_friction", Part::joint, added, 0.1, 0.8, can_only_raise), "stiffness_ratio");
   return out;
 }
 

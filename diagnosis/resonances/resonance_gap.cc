@@ -1,13 +1,14 @@
 #include "diagnosis/resonances/resonance_gap.h"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "diagnosis/model/hypothesis.h"
 #include "diagnosis/model/words.h"
-#include "diagnosis/nominal/nominal_from_model.h"
-#include "diagnosis/resonances/solution_line.h"
+#include "diagnosis/nominal/nominal_identification.h"
+#include "diagnosis/resonances/resonance_effects.h"
 #include "diagnosis/search/confidence_set.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
@@ -49,15 +50,6 @@ ResonanceGap gap_of(const ResonanceData& simulated, const ResonanceData& measure
   return gap;
 }
 
-NeededValue needed(const ResonanceEffect& effect, const double value) {
-  return {.effect = effect.effect->id,
-          .name = effect.parameter.name,
-          .unit = effect.parameter.unit,
-          .value = value,
-          .usual_low = effect.usual_low,
-          .usual_high = effect.usual_high};
-}
-
 /// Values of one effect at the ends of the 95 % interval of the frequency ratio.
 std::optional<std::array<double, 2>> interval(const ResonanceEffect& effect,
                                               const ResonanceGap& gap) {
@@ -67,18 +59,6 @@ std::optional<std::array<double, 2>> interval(const ResonanceEffect& effect,
   const auto low = at(-signals::normal_quantile_975), high = at(signals::normal_quantile_975);
   if (!low || !high) return std::nullopt;
   return std::array<double, 2>{std::min(*low, *high), std::max(*low, *high)};
-}
-
-/// Modal stiffness ratio for a ratio of the silicone's stiffness, which holds only a part of the
-/// compliance.
-NeededValue modal_stiffness(const double silicone_ratio, const double share) {
-  const double ratio = 1. / (share / silicone_ratio + 1. - share);
-  return {.effect = "stiffness",
-          .name = "ratio",
-          .unit = "1",
-          .value = ratio,
-          .usual_low = 0.3,
-          .usual_high = 1.5};
 }
 
 /// Modulus ratios for a silicone share of one standard deviation less and more.
@@ -141,12 +121,25 @@ std::vector<NeededValue> needed_values(const ResonanceEffects& effects, const Re
                                        const Solution& point) {
   std::vector<NeededValue> out;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    NeededValue value = needed(*effects[i], point.values[i]);
-    if (effects.size() == 1 && !effects[i]->mass_ratio) value.ci95 = interval(*effects[i], gap);
-    if (value.effect == "stiffness") out.push_back(modal_stiffness(value.value, gap.joint_share));
+    const ResonanceEffect& effect = *effects[i];
+    NeededValue value{.effect = effect.effect->id,
+                      .name = effect.parameter.name,
+                      .unit = effect.parameter.unit,
+                      .value = point.values[i],
+                      .usual_low = effect.usual_low,
+                      .usual_high = effect.usual_high};
+    if (effects.size() == 1 && !effect.mass_ratio) value.ci95 = interval(effect, gap);
+    // The silicone holds only a part of the compliance.
+    if (value.effect == "stiffness")
+      out.push_back({.effect = value.effect,
+                     .name = "ratio",
+                     .unit = "1",
+                     .value = squared_frequency_ratio({.joint = value.value}, gap.joint_share),
+                     .usual_low = 0.3,
+                     .usual_high = 1.5});
     out.push_back(std::move(value));
-    if (const auto& mass = effects[i]->mass_ratio)
-      out.push_back({.effect = effects[i]->effect->id,
+    if (const auto& mass = effect.mass_ratio)
+      out.push_back({.effect = effect.effect->id,
                      .name = mass->name,
                      .unit = mass->unit,
                      .value = point.change.mount_mass,
@@ -179,8 +172,8 @@ ResonanceExplanation explain(const ResonanceEffects& effects, const ResonanceGap
 /// No effect at all, or only a change of damping.
 ResonanceExplanation without_effects(const ResonanceGap& gap, const std::size_t n_known) {
   ResonanceExplanation out{.inside_usual_range = true, .note = "the frequencies agree"};
-  out.odds = normal_density(gap.log_ratio, gap.deviation) * gap.damping_density({}) *
-             std::exp(log_prior_of_number(0, n_known));
+  out.odds = boost::math::pdf(boost::math::normal(0., gap.deviation), gap.log_ratio) *
+             gap.damping_density({}) * std::exp(log_prior_of_number(0, n_known));
   out.damping_left = gap.damping_change;
   if (!gap.dampings_agree()) {
     out.effects = {"damping"};
@@ -205,14 +198,6 @@ ResonanceExplanation unknown(const ResonanceGap& gap) {
           .note = "a cause that is not in the catalogue"};
 }
 
-void normalise(std::vector<ResonanceExplanation>& explanations) {
-  double sum = 0.;
-  for (const ResonanceExplanation& e : explanations) sum += e.odds;
-  for (ResonanceExplanation& e : explanations) e.odds /= sum;
-  std::stable_sort(explanations.begin(), explanations.end(),
-                   [](const auto& a, const auto& b) { return a.odds > b.odds; });
-}
-
 std::vector<ResonanceExplanation> all_explanations(const ResonanceGap& gap,
                                                    const ResonanceData& simulated,
                                                    const ResonanceModel& model) {
@@ -230,7 +215,10 @@ std::vector<ResonanceExplanation> all_explanations(const ResonanceGap& gap,
       if (both.possible) out.push_back(std::move(both));
     }
   }
-  normalise(out);
+  double sum = 0.;
+  for (const ResonanceExplanation& e : out) sum += e.odds;
+  for (ResonanceExplanation& e : out) e.odds /= sum;
+  std::ranges::stable_sort(out, std::ranges::greater(), &ResonanceExplanation::odds);
   return out;
 }
 

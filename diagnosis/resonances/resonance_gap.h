@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,18 +72,27 @@ struct ResonanceDiagnosis {
 /// Every effect of resonance_effects(), alone and in pairs, with the value that it needs and its
 /// odds:
 ///   odds ~ P(effects) int pi(x) delta(y - g(x)) pi_c(zeta / zeta'(x)) dx,  y = ln (f / f0)^2,
-/// integrated along the line of solutions (the last parameter solved for, the density divided by
-/// |dg/dx|) and over the deviation of y, 2 sqrt(s^2 + s0^2). P: the priors of the search
-/// (log_prior_of_number, Effect::log_prior). pi_c: prior of the remaining damper, usual 0.3 .. 3
-/// (docs/effects.md). The silicone's share is taken as given. `none` and outside_catalogue are
-/// explanations, too. Where the frequencies agree but the damping ratios do not, `damping` takes
-/// the place of `none`. Throws UserError for parameters that are not positive, deviations outside
-/// (0, 0.5), damping ratios outside (0, 1) or shares outside (0, 1]. Proven by
+/// integrated by evidence(), over the deviation of y, 2 sqrt(s^2 + s0^2), too. P: the priors of the
+/// search (log_prior_of_number, Effect::log_prior). pi_c: prior of the remaining damper. The
+/// silicone's share is taken as given. `none` and outside_catalogue are explanations, too. Where
+/// the frequencies agree but the damping ratios do not, `damping` takes the place of `none`. Throws
+/// UserError for parameters that are not positive, deviations outside (0, 0.5), damping ratios
+/// outside (0, 1) or shares outside (0, 1]. Proven by
 /// tests/diagnosis/resonances/resonance_gap_test.cc against closed forms, the finite-element model
 /// and sampled priors.
 ResonanceDiagnosis explain_resonance_gap(const ResonanceData& simulated,
                                          const ResonanceData& measured,
                                          const ResonanceModel& model = {});
+
+/// Schema "vibrissa-resonance-gap-1": both resonances; every explanation with its values, odds,
+/// remaining damping ratio and note; confidence set; next experiment. Proven by
+/// tests/diagnosis/resonances/resonance_gap_text_test.cc.
+nlohmann::ordered_json resonance_gap_json(const ResonanceDiagnosis& diagnosis);
+
+/// At most 20 lines of at most 100 characters for a terminal: every single effect with the value
+/// that it needs, the most probable combinations, effects that are impossible alone, the next
+/// experiment.
+std::string resonance_gap_text(const ResonanceDiagnosis& diagnosis);
 
 /// A gap between two resonances without records.
 struct ResonanceExample {

@@ -1,4 +1,4 @@
-#include "diagnosis/resonances/resonance_gap_text.h"
+#include "diagnosis/resonances/resonance_gap.h"
 
 #include <algorithm>
 
@@ -86,9 +86,7 @@ std::string combinations_line(const ResonanceDiagnosis& diagnosis) {
 /// The recommended experiment, and what the most probable effects would show in it.
 std::string experiment_line(const ResonanceDiagnosis& diagnosis) {
   const auto& menu = experiment_menu();
-  const auto entry = std::find_if(menu.begin(), menu.end(), [&](const MenuEntry& one) {
-    return one.name == diagnosis.next.name;
-  });
+  const auto entry = std::ranges::find(menu, diagnosis.next.name, &MenuEntry::name);
   if (entry == menu.end()) return "";
   std::vector<std::string> shown;
   for (const ResonanceExplanation& e : diagnosis.explanations) {

@@ -1,8 +1,8 @@
-#include "diagnosis/resonances/solution_line.h"
+#include "diagnosis/resonances/resonance_effects.h"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <numbers>
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -61,9 +61,8 @@ void for_each_start(const ResonanceEffects& effects, const Visit& visit) {
   constexpr int n_masses = 24;
   int n_cells = 600;
   std::vector<Solution> points{{.density = 1., .prior = 1.}};
-  const auto mount = std::find_if(effects.begin(), effects.end(), [](const ResonanceEffect* e) {
-    return e->mass_ratio.has_value();
-  });
+  const auto mount = std::ranges::find_if(
+      effects, [](const ResonanceEffect* effect) { return effect->mass_ratio.has_value(); });
   if (mount != effects.end()) {
     points.clear();
     n_cells = 150;
@@ -96,15 +95,6 @@ void for_each_start(const ResonanceEffects& effects, const Visit& visit) {
 
 }  // namespace
 
-double normal_density(const double x, const double deviation) {
-  const double z = x / deviation;
-  return std::exp(-0.5 * z * z) / (deviation * std::sqrt(2. * std::numbers::pi));
-}
-
-double ResonanceGap::squared_ratio() const {
-  return std::exp(log_ratio);
-}
-
 bool ResonanceGap::frequencies_agree() const {
   return std::abs(log_ratio) <= agreeing * deviation;
 }
@@ -132,7 +122,7 @@ double evidence(const ResonanceEffects& effects, const ResonanceGap& gap) {
     for (int i = 0; i < n; ++i) {
       const double z = -4. + i * step;
       if (const auto point = solved(effects, gap, gap.log_ratio + z * gap.deviation, start))
-        sum += point->density * normal_density(z, 1.) * step;
+        sum += point->density * boost::math::pdf(boost::math::normal(), z) * step;
     }
   });
   return sum;

@@ -1,4 +1,4 @@
-#include "diagnosis/unknown/residual_moment.h"
+#include "diagnosis/unknown/unknown_cause.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +22,39 @@ Complex bin_s(const PreparedRecord& record, const std::size_t b) {
   return record.line_s(record.whole_line(b));
 }
 
+/// Of all samples, one after the other.
+ResidualCurve binned(const std::vector<double>& quantity, const std::vector<double>& moment) {
+  constexpr std::size_t n_bins = 31;
+  constexpr double fewest = 8.;
+  ResidualCurve out;
+  if (quantity.empty()) return out;
+  const auto [low, high] = std::ranges::minmax(quantity);
+  const double reach = std::max(-low, high);
+  std::vector<double> n(n_bins, 0.), sum(n_bins, 0.), squares(n_bins, 0.);
+  for (std::size_t i = 0; i < quantity.size(); ++i) {
+    const double place = 0.5 * (quantity[i] / reach + 1.) * static_cast<double>(n_bins);
+    const std::size_t b = std::min(n_bins - 1, static_cast<std::size_t>(std::max(0., place)));
+    n[b] += 1.;
+    sum[b] += moment[i];
+    squares[b] += moment[i] * moment[i];
+  }
+  for (std::size_t b = 0; b < n_bins; ++b) {
+    if (n[b] < fewest) continue;
+    const double mean = sum[b] / n[b];
+    out.x.push_back((2. * (static_cast<double>(b) + 0.5) / static_cast<double>(n_bins) - 1.) *
+                    reach);
+    out.mean.push_back(mean);
+    out.deviation.push_back(std::sqrt(std::max(0., squares[b] / n[b] - mean * mean)));
+  }
+  return out;
+}
+
 }  // namespace
 
-ResidualMoment::ResidualMoment(const Experiment& experiment, const Chain& chain) {
+ResidualMoment residual_moment(const Experiment& experiment, const Chain& chain) {
   const std::optional<JointModel> joint = joint_of(chain);
-  if (!joint) return;
+  if (!joint) return {};
+  std::vector<double> all_moments, all_angles, all_rates;
   const auto means = ChainSimulator(chain).means(experiment.records);
   LinearResponse response(chain);
   double largest = 0.;
@@ -51,36 +79,11 @@ ResidualMoment::ResidualMoment(const Experiment& experiment, const Chain& chain)
       const std::vector<double> samples = evaluated_samples(record, bins);
       to.insert(to.end(), samples.begin(), samples.end());
     };
-    append(moment, moment_);
-    append(angle, angle_);
-    append(rate, rate_);
+    append(moment, all_moments);
+    append(angle, all_angles);
+    append(rate, all_rates);
   }
-}
-
-ResidualCurve ResidualMoment::binned(const std::vector<double>& quantity) const {
-  constexpr std::size_t n_bins = 31;
-  constexpr double fewest = 8.;
-  ResidualCurve out;
-  if (quantity.empty()) return out;
-  const double reach = std::max(std::abs(*std::ranges::min_element(quantity)),
-                                std::abs(*std::ranges::max_element(quantity)));
-  std::vector<double> n(n_bins, 0.), sum(n_bins, 0.), squares(n_bins, 0.);
-  for (std::size_t i = 0; i < quantity.size(); ++i) {
-    const double place = 0.5 * (quantity[i] / reach + 1.) * static_cast<double>(n_bins);
-    const std::size_t b = std::min(n_bins - 1, static_cast<std::size_t>(std::max(0., place)));
-    n[b] += 1.;
-    sum[b] += moment_[i];
-    squares[b] += moment_[i] * moment_[i];
-  }
-  for (std::size_t b = 0; b < n_bins; ++b) {
-    if (n[b] < fewest) continue;
-    const double mean = sum[b] / n[b];
-    out.x.push_back((2. * (static_cast<double>(b) + 0.5) / static_cast<double>(n_bins) - 1.) *
-                    reach);
-    out.mean.push_back(mean);
-    out.deviation.push_back(std::sqrt(std::max(0., squares[b] / n[b] - mean * mean)));
-  }
-  return out;
+  return {binned(all_angles, all_moments), binned(all_rates, all_moments)};
 }
 
 }  // namespace vibrissa::diagnosis

@@ -1,6 +1,7 @@
-#include "diagnosis/unknown/term.h"
+#include "diagnosis/unknown/unknown_cause.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -9,58 +10,50 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-/// The inputs of the records in shares of their rms, to be read at any time.
+/// The inputs of the records in shares of their largest rms in the fitted records, to be read at
+/// any time.
 class Inputs {
  public:
-  /// Scales are those of the fitted records.
+  enum Channel : std::size_t { acceleration, wind, n_channels };
+
   Inputs(std::span<const PreparedRecord> fitted, std::span<const PreparedRecord> further) {
     for (const PreparedRecord& record : fitted) {
       const Series& series = add(record);
-      acceleration_rms_ = std::max(acceleration_rms_, rms(series.acceleration));
-      wind_rms_ = std::max(wind_rms_, rms(series.wind));
+      for (std::size_t c = 0; c < n_channels; ++c)
+        if (!series.x[c].empty()) rms_[c] = std::max(rms_[c], std::sqrt(mean_square(series.x[c])));
     }
     for (const PreparedRecord& record : further) add(record);
   }
 
-  bool has_acceleration() const { return acceleration_rms_ > 0.; }
-  bool has_wind() const { return wind_rms_ > 0.; }
-  double acceleration(std::size_t record, double t_s) const {
-    return at(record, &Series::acceleration, t_s) / acceleration_rms_;
-  }
-  double wind(std::size_t record, double t_s) const {
-    return at(record, &Series::wind, t_s) / wind_rms_;
+  bool has(const Channel channel) const { return rms_[channel] > 0.; }
+  /// Linear between samples; zero where the record has no such input.
+  double at(const Channel channel, const std::size_t record, const double t_s) const {
+    const auto found = series_.find(record);  // lanes without a record have number 0
+    if (found == series_.end() || found->second.x[channel].empty()) return 0.;
+    const std::vector<double>& x = found->second.x[channel];
+    const double inside =
+        std::clamp(t_s * found->second.rate_hz, 0., static_cast<double>(x.size() - 1));
+    const auto i = static_cast<std::size_t>(inside);
+    return std::lerp(x[i], x[std::min(i + 1, x.size() - 1)], inside - static_cast<double>(i)) /
+           rms_[channel];
   }
 
  private:
   struct Series {
     double rate_hz = 1.;
-    std::vector<double> acceleration, wind;
+    std::array<std::vector<double>, n_channels> x{};
   };
-  static double rms(const std::vector<double>& x) {
-    return x.empty() ? 0. : std::sqrt(mean_square(x));
-  }
   const Series& add(const PreparedRecord& record) {
     Series& series = series_[record.number];
     series.rate_hz = record.sampling_rate_hz;
     if (!record.acceleration.empty())
-      series.acceleration = samples_of(record.acceleration, record.n_samples);
-    series.wind = record.wind;
+      series.x[acceleration] = samples_of(record.acceleration, record.n_samples);
+    series.x[wind] = record.wind;
     return series;
-  }
-  /// Linear between samples; zero where the record has no such input.
-  double at(std::size_t record, std::vector<double> Series::*channel, double t_s) const {
-    const auto found = series_.find(record);  // lanes without a record have number 0
-    if (found == series_.end() || (found->second.*channel).empty()) return 0.;
-    const std::vector<double>& x = found->second.*channel;
-    const double inside =
-        std::clamp(t_s * found->second.rate_hz, 0., static_cast<double>(x.size() - 1));
-    const auto i = static_cast<std::size_t>(inside);
-    const double way = inside - static_cast<double>(i);
-    return (1. - way) * x[i] + way * x[std::min(i + 1, x.size() - 1)];
   }
 
   std::map<std::size_t, Series> series_;
-  double acceleration_rms_ = 0., wind_rms_ = 0.;
+  std::array<double, n_channels> rms_{};
 };
 
 /// What a term of the joint may depend on.
@@ -69,17 +62,13 @@ struct State {
 };
 using Function = double (*)(const State&);
 
-struct Scale {
-  double moment_n_m, frequency_rad_s;
-};
-
 class TermLaw : public JointLaw {
  public:
-  TermLaw(Function function, double coefficient, const Scale& scale,
+  TermLaw(Function function, double coefficient, const Scales& scales,
           std::shared_ptr<const Inputs> inputs, const Lanes& numbers)
       : function_(function),
         coefficient_(coefficient),
-        scale_(scale),
+        scales_(scales),
         inputs_(std::move(inputs)),
         numbers_(numbers) {}
 
@@ -90,10 +79,12 @@ class TermLaw : public JointLaw {
     for (Eigen::Index i = 0; i < out.size(); ++i) {
       const auto number = static_cast<std::size_t>(numbers_(i));
       const State state{
-          std::clamp(y(i) / scale_.moment_n_m, -most, most),
-          std::clamp(y_rate(i) / (scale_.moment_n_m * scale_.frequency_rad_s), -most, most),
-          inputs_->acceleration(number, t_s(i)), inputs_->wind(number, t_s(i))};
-      out(i) = coefficient_ * scale_.moment_n_m * function_(state);
+          std::clamp(y(i) / scales_.joint_moment_n_m, -most, most),
+          std::clamp(y_rate(i) / (scales_.joint_moment_n_m * scales_.first_mode_rad_s), -most,
+                     most),
+          inputs_->at(Inputs::acceleration, number, t_s(i)),
+          inputs_->at(Inputs::wind, number, t_s(i))};
+      out(i) = coefficient_ * scales_.joint_moment_n_m * function_(state);
     }
     return out;
   }
@@ -101,7 +92,7 @@ class TermLaw : public JointLaw {
  private:
   Function function_;
   double coefficient_;
-  Scale scale_;
+  Scales scales_;
   std::shared_ptr<const Inputs> inputs_;
   Lanes numbers_;
 };
@@ -150,32 +141,16 @@ const std::vector<JointTerm>& joint_terms() {
   return terms;
 }
 
-/// Reading plus coefficient times a power of itself, in shares of the peak.
-Term reading_power(std::string name, std::string like, const Scale& scale,
-                   double (*function)(double)) {
-  return {.name = std::move(name),
-          .place = TermPlace::reading,
-          .like = std::move(like),
-          .add = [scale, function](Chain& chain, double c) {
-            chain.readout.push_back([scale, function, c](double moment) {
-              constexpr double most = 3.;
-              const double x = std::clamp(moment / scale.moment_n_m, -most, most);
-              return moment + c * scale.moment_n_m * function(x);
-            });
-          }};
-}
-
-/// Reading times a filter.
-Term reading_filter(std::string name, std::string like, const Scale& scale,
-                    Complex (*filter)(Complex x, double c)) {
-  return {.name = std::move(name),
-          .place = TermPlace::reading,
-          .like = std::move(like),
-          .add = [scale, filter](Chain& chain, double c) {
-            chain.sensor.push_back(
-                [scale, filter, c](Complex s) { return filter(s / scale.frequency_rad_s, c); });
-          }};
-}
+/// Reading plus coefficient times a function of itself, in shares of the peak.
+struct ReadingTerm {
+  const char *name, *like;
+  double (*function)(double);
+};
+constexpr ReadingTerm reading_terms[] = {
+    {"moment^2", "sensor_nonlinearity", [](double x) { return x * x; }},
+    {"moment |moment|", "", [](double x) { return x * std::abs(x); }},
+    {"moment^3", "sensor_nonlinearity", [](double x) { return x * x * x; }},
+    {"sign(moment)", "", [](double x) { return sign(x); }}};
 
 /// What a wrong calibration does; the coefficient is the logarithm of its ratio.
 Term calibration(const Effect& effect, const Scales& scales) {
@@ -187,25 +162,33 @@ Term calibration(const Effect& effect, const Scales& scales) {
           }};
 }
 
-void add_reading_terms(const Experiment& experiment, const Scale& scale, std::vector<Term>& out) {
-  out.push_back(reading_filter("delay", "delay", scale,
-                               [](Complex x, double c) { return std::exp(-c * x); }));
-  out.push_back(
-      reading_power("moment^2", "sensor_nonlinearity", scale, [](double x) { return x * x; }));
-  out.push_back(
-      reading_power("moment |moment|", "", scale, [](double x) { return x * std::abs(x); }));
-  out.push_back(
-      reading_power("moment^3", "sensor_nonlinearity", scale, [](double x) { return x * x * x; }));
-  out.push_back(reading_power("sign(moment)", "", scale, [](double x) { return sign(x); }));
+void add_reading_terms(const Experiment& experiment, const Scales& scales, std::vector<Term>& out) {
+  out.push_back({.name = "delay",
+                 .place = TermPlace::reading,
+                 .like = "delay",
+                 .add = [w = scales.first_mode_rad_s](Chain& chain, double c) {
+                   chain.sensor.push_back([w, c](Complex s) { return std::exp(-c * s / w); });
+                 }});
+  for (const ReadingTerm& term : reading_terms)
+    out.push_back(
+        {.name = term.name,
+         .place = TermPlace::reading,
+         .like = term.like,
+         .add = [peak = scales.joint_moment_n_m, function = term.function](Chain& chain, double c) {
+           chain.readout.push_back([peak, function, c](double moment) {
+             constexpr double most = 3.;
+             return moment + c * peak * function(std::clamp(moment / peak, -most, most));
+           });
+         }});
   if (!experiment.has_base) return;
   for (const bool of_rate : {false, true})
     out.push_back(
         {.name = of_rate ? "acceleration's rate" : "acceleration",
          .place = TermPlace::reading,
          .like = of_rate ? "" : "coil_feedthrough",
-         .add = [of_rate, scale, gain = experiment.scales.static_gain](Chain& chain, double c) {
-           chain.feedthrough.push_back([of_rate, scale, gain, c](Complex s) {
-             return c * gain * (of_rate ? s / scale.frequency_rad_s : Complex(1.));
+         .add = [of_rate, scales, gain = experiment.scales.static_gain](Chain& chain, double c) {
+           chain.feedthrough.push_back([of_rate, scales, gain, c](Complex s) {
+             return c * gain * (of_rate ? s / scales.first_mode_rad_s : Complex(1.));
            });
          }});
 }
@@ -218,25 +201,26 @@ std::string to_string(const TermPlace place) {
 
 std::vector<Term> all_terms(const Experiment& experiment, std::span<const PreparedRecord> further) {
   const auto inputs = std::make_shared<const Inputs>(experiment.records, further);
-  const Scale scale{experiment.scales.joint_moment_n_m, experiment.scales.first_mode_rad_s};
+  const Scales& scales = experiment.scales;
   std::vector<Term> out;
   for (const Effect& effect : effect_catalogue())
     if (effect.calibration && shows(experiment, effect))
       out.push_back(calibration(effect, experiment.scales));
   if (!experiment.nominal.modes.empty()) {
     for (const JointTerm& term : joint_terms()) {
-      if ((term.acceleration && !inputs->has_acceleration()) || (term.wind && !inputs->has_wind()))
+      if ((term.acceleration && !inputs->has(Inputs::acceleration)) ||
+          (term.wind && !inputs->has(Inputs::wind)))
         continue;
       out.push_back({.name = term.name,
                      .like = term.like,
-                     .add = [function = term.function, scale, inputs](Chain& chain, double c) {
-                       chain.joint.push_back([function, scale, inputs, c](const Lanes& numbers) {
-                         return std::make_unique<TermLaw>(function, c, scale, inputs, numbers);
+                     .add = [function = term.function, scales, inputs](Chain& chain, double c) {
+                       chain.joint.push_back([function, scales, inputs, c](const Lanes& numbers) {
+                         return std::make_unique<TermLaw>(function, c, scales, inputs, numbers);
                        });
                      }});
     }
   }
-  add_reading_terms(experiment, scale, out);
+  add_reading_terms(experiment, scales, out);
   return out;
 }
 

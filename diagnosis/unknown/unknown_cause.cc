@@ -30,6 +30,12 @@ Eigen::VectorXd stacked(std::span<const PreparedRecord> records,
   return Eigen::Map<const Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
 }
 
+Eigen::VectorXd measured_in(const Experiment& experiment) {
+  std::vector<std::vector<Complex>> bins;
+  for (const PreparedRecord& record : experiment.records) bins.push_back(record.moment);
+  return stacked(experiment.records, bins);
+}
+
 /// Terms with their coefficients on top of a chain.
 class Model {
  public:
@@ -43,14 +49,10 @@ class Model {
     Eigen::VectorXd coefficients{};
   };
 
-  Chain with(const Choice& choice) const {
+  Eigen::VectorXd predicted(std::span<const PreparedRecord> records, const Choice& choice) const {
     Chain chain = chain_;
     for (std::size_t i = 0; i < choice.terms.size(); ++i)
       terms_[choice.terms[i]].add(chain, choice.coefficients(static_cast<Eigen::Index>(i)));
-    return chain;
-  }
-  Eigen::VectorXd predicted(std::span<const PreparedRecord> records, const Choice& choice) const {
-    const Chain chain = with(choice);
     return stacked(records, ChainSimulator(chain).means(records));
   }
   /// The choice with a further term of coefficient zero.
@@ -186,12 +188,7 @@ UnknownCause describe_unknown(const Experiment& experiment, const Experiment& sc
   const std::vector<Term> terms = all_terms(experiment, scored.records);
   const Chain chain = fit.chain(experiment);
   const Model model(chain, terms, n_threads);
-  const auto measured_of = [](const Experiment& of) {
-    std::vector<std::vector<Complex>> bins;
-    for (const PreparedRecord& record : of.records) bins.push_back(record.moment);
-    return stacked(of.records, bins);
-  };
-  const Eigen::VectorXd measured = measured_of(experiment), unseen = measured_of(scored);
+  const Eigen::VectorXd measured = measured_in(experiment), unseen = measured_in(scored);
   const auto error_of = [&](const Model::Choice& choice) {
     return (unseen - model.predicted(scored.records, choice)).squaredNorm();
   };
@@ -220,9 +217,7 @@ UnknownCause describe_unknown(const Experiment& experiment, const Experiment& sc
       out.terms[i].coefficient = choice.coefficients(static_cast<Eigen::Index>(first + i));
   }
   out.left = (1. - (out.terms.empty() ? 0. : closed)) * out.unexplained;
-  const ResidualMoment residual(experiment, chain);
-  out.over_angle = residual.over_angle();
-  out.over_rate = residual.over_rate();
+  out.residual = residual_moment(experiment, chain);
   return out;
 }
 

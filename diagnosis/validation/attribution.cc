@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <random>
 
 #include "diagnosis/prediction/chain_simulation.h"
@@ -19,12 +18,9 @@ namespace {
 constexpr std::size_t most_players = 5;
 constexpr double block_s = 0.25;
 
-double factorial(std::size_t n) {
-  return std::tgamma(static_cast<double>(n) + 1.);
-}
-
-/// Error power in each block in time, all records in turn.
-using BlockPowers = std::vector<double>;
+/// Error power in each block in time, all records in turn; and how often each block counts.
+using BlockPowers = Eigen::VectorXd;
+using Weights = Eigen::VectorXd;
 
 class ErrorOfChanges {
  public:
@@ -37,18 +33,21 @@ class ErrorOfChanges {
   const BlockPowers& with(const std::vector<bool>& applied) {
     const auto found = known_.find(applied);
     if (found != known_.end()) return found->second;
-    BlockPowers out;
+    std::vector<double> out;
     const Chain chain = chain_with(applied);
     const auto means = ChainSimulator(chain).means(records_.records);
     for (std::size_t r = 0; r < records_.records.size(); ++r)
       if (records_.records[r].excitation.base || records_.records[r].excitation.wind)
         add_blocks(records_.records[r], difference(records_.records[r].moment, means[r]), out);
-    return known_.emplace(applied, std::move(out)).first->second;
+    return known_
+        .emplace(applied, Eigen::Map<const Eigen::VectorXd>(out.data(),
+                                                            static_cast<Eigen::Index>(out.size())))
+        .first->second;
   }
 
  private:
   static void add_blocks(const PreparedRecord& record, const std::vector<Complex>& bins,
-                         BlockPowers& out) {
+                         std::vector<double>& out) {
     const std::vector<double> error = evaluated_samples(record, bins);
     const auto length =
         static_cast<std::size_t>(std::max(1., std::round(block_s * record.sampling_rate_hz)));
@@ -60,8 +59,7 @@ class ErrorOfChanges {
 
   Chain chain_with(const std::vector<bool>& applied) const {
     Chain chain = fitted_on_.nominal_chain();
-    const bool any = std::find(applied.begin(), applied.end(), true) != applied.end();
-    if (any) {
+    if (std::ranges::count(applied, true) > 0) {
       chain.joint_share = fit_.x(index_of_joint_share);
       chain.joint_loss_factor = fit_.x(index_of_joint_loss);
     }
@@ -84,18 +82,6 @@ class ErrorOfChanges {
   std::map<std::vector<bool>, BlockPowers> known_;
 };
 
-double sum(const BlockPowers& powers, const std::vector<std::size_t>& blocks) {
-  double out = 0.;
-  for (const std::size_t b : blocks) out += powers[b];
-  return out;
-}
-
-std::vector<std::size_t> counted(const std::size_t n) {
-  std::vector<std::size_t> out(n);
-  std::iota(out.begin(), out.end(), std::size_t{0});
-  return out;
-}
-
 /// All flags have one value but one.
 std::vector<bool> but_one(const std::size_t n, const std::size_t one, const bool value) {
   std::vector<bool> out(n, value);
@@ -116,13 +102,11 @@ std::vector<std::size_t> players_of(ErrorOfChanges& errors, const double reducib
   constexpr double least = 0.002;
   const std::size_t n = errors.changes().size();
   const std::vector<bool> all(n, true), none(n, false);
-  const std::vector<std::size_t> blocks = counted(errors.with(none).size());
-  const double of_all = sum(errors.with(all), blocks), of_none = sum(errors.with(none), blocks);
+  const double of_all = errors.with(all).sum(), of_none = errors.with(none).sum();
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t c = 0; c < n; ++c) {
-    const double matters =
-        std::max(std::abs(sum(errors.with(but_one(n, c, true)), blocks) - of_all),
-                 std::abs(of_none - sum(errors.with(but_one(n, c, false)), blocks)));
+    const double matters = std::max(std::abs(errors.with(but_one(n, c, true)).sum() - of_all),
+                                    std::abs(of_none - errors.with(but_one(n, c, false)).sum()));
     if (matters > least * reducible) order.emplace_back(-matters, c);
   }
   std::sort(order.begin(), order.end());
@@ -133,36 +117,37 @@ std::vector<std::size_t> players_of(ErrorOfChanges& errors, const double reducib
 }
 
 std::vector<double> shares_in(ErrorOfChanges& errors, const std::vector<std::size_t>& players,
-                              const std::vector<std::size_t>& blocks, const double reducible) {
+                              const Weights& weights, const double reducible) {
   const std::size_t n = errors.changes().size();
   std::vector<bool> rest(n, true);
   for (const std::size_t c : players) rest[c] = false;
-  const double nothing = sum(errors.with(std::vector<bool>(n, false)), blocks);
+  const double nothing = errors.with(std::vector<bool>(n, false)).dot(weights);
   return shapley_values(players.size(), [&](std::size_t set) {
     if (set == 0) return 0.;
     std::vector<bool> applied = rest;
     for (std::size_t i = 0; i < players.size(); ++i)
       if ((set >> i & 1) != 0) applied[players[i]] = true;
-    return (nothing - sum(errors.with(applied), blocks)) / reducible;
+    return (nothing - errors.with(applied).dot(weights)) / reducible;
   });
 }
 
 /// Percentile intervals of the shares over resampled blocks.
 void set_intervals(ErrorOfChanges& errors, const std::vector<std::size_t>& players,
-                   const std::size_t n_blocks, const double noise_per_block, Attribution& out) {
-  constexpr std::size_t n_resamples = 200, fewest_blocks = 8;
+                   const Eigen::Index n_blocks, const double noise_per_block, Attribution& out) {
+  constexpr std::size_t n_resamples = 200;
+  constexpr Eigen::Index fewest_blocks = 8;
   if (n_blocks < fewest_blocks) return;
   std::mt19937_64 random(1);
-  std::uniform_int_distribution<std::size_t> pick(0, n_blocks - 1);
+  std::uniform_int_distribution<Eigen::Index> pick(0, n_blocks - 1);
   std::vector<std::vector<double>> values(players.size());
   const std::vector<bool> none(errors.changes().size(), false);
   for (std::size_t i = 0; i < n_resamples; ++i) {
-    std::vector<std::size_t> blocks(n_blocks);
-    for (std::size_t& block : blocks) block = pick(random);
+    Weights weights = Weights::Zero(n_blocks);
+    for (Eigen::Index block = 0; block < n_blocks; ++block) weights(pick(random)) += 1.;
     const double reducible =
-        sum(errors.with(none), blocks) - noise_per_block * static_cast<double>(n_blocks);
+        errors.with(none).dot(weights) - noise_per_block * static_cast<double>(n_blocks);
     if (!(reducible > 0.)) continue;
-    const std::vector<double> shares = shares_in(errors, players, blocks, reducible);
+    const std::vector<double> shares = shares_in(errors, players, weights, reducible);
     for (std::size_t p = 0; p < players.size(); ++p) values[p].push_back(shares[p]);
   }
   for (std::size_t p = 0; p < players.size(); ++p) {
@@ -184,8 +169,9 @@ std::vector<double> shapley_values(const std::size_t n,
   for (std::size_t set = 0; set < n_sets; ++set) {
     const auto size = static_cast<std::size_t>(std::popcount(set));
     for (std::size_t i = 0; i < n; ++i)
+      // size! (n - size - 1)! / n!
       if ((set >> i & 1) == 0)
-        values[i] += factorial(size) * factorial(n - size - 1) / factorial(n) *
+        values[i] += std::beta(static_cast<double>(size) + 1., static_cast<double>(n - size)) *
                      (worths[set | std::size_t{1} << i] - worths[set]);
   }
   return values;
@@ -199,16 +185,16 @@ Attribution attribute_gap(const Experiment& fitted_on, const Experiment& records
   out.error = score_held_out(fitted_on, records, fit, {.n_resamples = 0}).overall;
   const ErrorScore& score = out.error;
   const BlockPowers before = errors.with(std::vector<bool>(n, false));
-  const std::vector<std::size_t> blocks = counted(before.size());
-  const double whole = sum(before, blocks),
+  const double whole = before.sum(),
                noise = whole * std::min(1., std::pow(score.noise_floor / score.nrmse_before, 2)),
                reducible = whole - noise;
   if (!(reducible > 0.)) return out;
   out.reducible = std::pow(score.nrmse_before, 2) - std::pow(score.noise_floor, 2);
-  const double left = sum(errors.with(std::vector<bool>(n, true)), blocks);
+  const double left = errors.with(std::vector<bool>(n, true)).sum();
   out.unexplained = std::max(0., (left - noise) / reducible);
   const std::vector<std::size_t> players = players_of(errors, reducible);
-  const std::vector<double> shares = shares_in(errors, players, blocks, reducible);
+  const std::vector<double> shares =
+      shares_in(errors, players, Weights::Ones(before.size()), reducible);
   for (std::size_t p = 0; p < players.size(); ++p) {
     const Effect& effect = *errors.changes()[players[p]];
     const std::vector<bool> alone = but_one(n, players[p], false),
@@ -217,28 +203,26 @@ Attribution attribute_gap(const Experiment& fitted_on, const Experiment& records
     out.changes.push_back({.id = effect.id,
                            .calibration = effect.calibration,
                            .moved = !nuisance || has_moved(fit, effect),
-                           .alone = (whole - sum(errors.with(alone), blocks)) / reducible,
+                           .alone = (whole - errors.with(alone).sum()) / reducible,
                            .share = shares[p],
-                           .missed = (sum(errors.with(but), blocks) - left) / reducible,
+                           .missed = (errors.with(but).sum() - left) / reducible,
                            .parameters = parameter_estimates(fit, effect.id)});
   }
-  set_intervals(errors, players, blocks.size(), noise / static_cast<double>(blocks.size()), out);
-  std::stable_sort(out.changes.begin(), out.changes.end(),
-                   [](const auto& a, const auto& b) { return a.share > b.share; });
+  set_intervals(errors, players, before.size(), noise / static_cast<double>(before.size()), out);
+  std::ranges::stable_sort(out.changes, std::ranges::greater(), &AttributedChange::share);
   return out;
 }
 
 std::vector<std::string> named_calibrations(const Attribution& attribution, const double accuracy) {
   std::vector<std::string> out;
   if (attribution.reducible < power_without_cause(accuracy)) return out;
-  const auto& nuisances = nuisance_ids();
   for (const AttributedChange& change : attribution.changes)
     if (const double closes = std::max(change.share, change.missed);
         change.moved && closes >= least_share &&
         closes * attribution.reducible >= accuracy * accuracy &&
-        std::find(nuisances.begin(), nuisances.end(), change.id) != nuisances.end())
+        std::ranges::count(nuisance_ids(), change.id) > 0)
       out.push_back(change.id);
-  std::sort(out.begin(), out.end());
+  std::ranges::sort(out);
   return out;
 }
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -17,144 +19,100 @@
 namespace vibrissa::diagnosis {
 namespace {
 
-using Samples = std::vector<double>;
+using Samples = Eigen::VectorXd;
 
-/// Mean squares [(N m)^2] of the unpredictable parts of one record.
-struct FloorParts {
-  double moment = 0., acceleration = 0., own = 0.;
-};
-
-FloorParts floor_parts(const PreparedRecord& record, const Prediction& prediction,
-                       const Chain& chain, double moment_variance, double acceleration_variance) {
-  FloorParts parts;
-  const double n = static_cast<double>(record.n_evaluated);
-  for (std::size_t b = 0; b < record.n_bins(); ++b) {
-    const double acceleration = prediction.acceleration_noise[b] * 2. / (n * n);
-    parts.moment += moment_variance * prediction.moment_noise[b] * 2. / (n * n);
-    parts.acceleration += acceleration_variance * acceleration;
-    parts.own +=
-        chain.reference_variance * acceleration + prediction.process_noise[b] * 2. / (n * n);
-  }
-  return parts;
+Samples samples_of_bins(const PreparedRecord& record, const std::vector<Complex>& bins) {
+  const std::vector<double> x = evaluated_samples(record, bins);
+  return Eigen::Map<const Samples>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
-/// Sine and cosine fitted to the first half at one frequency.
-struct Line {
-  double frequency_hz = 0., cosine = 0., sine = 0., energy = 0.;
-};
-
-Line line_at(std::span<const double> error, double rate_hz, double frequency_hz) {
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  const double w = 2. * std::numbers::pi * frequency_hz / rate_hz;
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    const double phase = w * static_cast<double>(i);
-    const Eigen::Vector2d row(std::cos(phase), std::sin(phase));
-    normal += row * row.transpose();
-    right += row * error[i];
-  }
-  const Eigen::Vector2d solution = normal.ldlt().solve(right);
-  return {frequency_hz, solution(0), solution(1), right.dot(solution)};
+/// 0, 1, 2 ...
+Samples counted(const Eigen::Index n) {
+  return Samples::LinSpaced(n, 0., static_cast<double>(n - 1));
 }
 
-/// The line with the most energy near a frequency: search on a grid, then with halved steps.
-Line strongest_line(std::span<const double> error, double rate_hz, double centre_hz,
-                    double reach_hz) {
-  constexpr int n_grid = 12, n_halvings = 10;
-  Line best = line_at(error, rate_hz, centre_hz);
-  const auto consider = [&](double frequency_hz) {
-    const Line line = line_at(error, rate_hz, frequency_hz);
-    if (line.energy > best.energy) best = line;
+/// Sums of squares over a part of a record [(N m)^2]: the errors, the measured moment, and the
+/// unpredictable parts by the noise of both channels and by the fit's own process noise.
+struct Part {
+  enum : Eigen::Index { before, after, measured, moment_noise, acceleration_noise, own_noise, n };
+};
+using Squares = Eigen::Array<double, Part::n, 1>;
+
+/// The unpredictable parts of one record, for one sample.
+Squares floor_of(const PreparedRecord& record, const Prediction& prediction, const Chain& chain,
+                 const NoiseLevels& levels) {
+  const double n = static_cast<double>(record.n_evaluated), per_sample = 2. / (n * n);
+  const auto sum = [&](const std::vector<double>& variance) {
+    return per_sample * std::accumulate(variance.begin(), variance.end(), 0.);
   };
-  for (int i = -n_grid; i <= n_grid; ++i) consider(centre_hz + reach_hz * i / n_grid);
-  double step = reach_hz / n_grid;
-  for (int i = 0; i < n_halvings; ++i) {
-    step *= 0.5;
-    const double middle = best.frequency_hz;
-    consider(middle - step);
-    consider(middle + step);
-  }
-  return best;
+  const double acceleration = sum(prediction.acceleration_noise);
+  Squares out = Squares::Zero();
+  out(Part::moment_noise) = levels.moment.variance * sum(prediction.moment_noise);
+  out(Part::acceleration_noise) = levels.acceleration.variance * acceleration;
+  out(Part::own_noise) = chain.reference_variance * acceleration + sum(prediction.process_noise);
+  return out;
 }
 
+/// Cosine and sine of one frequency, one column each.
+Eigen::MatrixX2d wave(const Eigen::Index n, const double rate_hz, const double frequency_hz) {
+  const Samples phase = 2. * std::numbers::pi * frequency_hz / rate_hz * counted(n);
+  Eigen::MatrixX2d out(n, 2);
+  out << phase.array().cos(), phase.array().sin();
+  return out;
+}
+
+/// Subtracts the line that takes the most energy off the first half near the fitted frequency:
+/// search on a grid, then by Brent's method.
 void take_hum_off(Samples& error, double rate_hz, const HypothesisFit& fit) {
-  const std::size_t half = error.size() / 2;
+  constexpr int n_grid = 12, n_bits = 20;
   const auto index = fit.index("hum", 1);
   if (!index) return;
   const auto at = static_cast<Eigen::Index>(*index);
-  const double half_s = static_cast<double>(half) / rate_hz;
-  const double reach_hz = std::max(0.6 / half_s, 3. * std::sqrt(fit.covariance(at, at)));
+  const Samples half = error.head(error.size() / 2);
+  const auto amplitudes = [&](const Eigen::MatrixX2d& columns) -> Eigen::Vector2d {
+    return (columns.transpose() * columns).ldlt().solve(columns.transpose() * half);
+  };
+  const auto lost = [&](const double hz) {
+    const Eigen::MatrixX2d columns = wave(half.size(), rate_hz, hz);
+    return -half.dot(columns * amplitudes(columns));
+  };
+  const double half_s = static_cast<double>(half.size()) / rate_hz;
+  const double step_hz = std::max(0.6 / half_s, 3. * std::sqrt(fit.covariance(at, at))) / n_grid;
   const double centre_hz = fit.fit_parameters[*index].description.value(fit.x(at));
-  const Line line = strongest_line(std::span(error).first(half), rate_hz, centre_hz, reach_hz);
-  const double w = 2. * std::numbers::pi * line.frequency_hz / rate_hz;
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    const double phase = w * static_cast<double>(i);
-    error[i] -= line.cosine * std::cos(phase) + line.sine * std::sin(phase);
-  }
+  double near_hz = centre_hz;
+  for (int i = -n_grid; i <= n_grid; ++i)
+    if (const double other_hz = centre_hz + step_hz * i; lost(other_hz) < lost(near_hz))
+      near_hz = other_hz;
+  const double hz =
+      boost::math::tools::brent_find_minima(lost, near_hz - step_hz, near_hz + step_hz, n_bits)
+          .first;
+  error -= wave(error.size(), rate_hz, hz) * amplitudes(wave(half.size(), rate_hz, hz));
 }
 
 /// Slope per sample of the straight line through samples.
-double slope_of(std::span<const double> x) {
-  const double n = static_cast<double>(x.size()), middle = 0.5 * (n - 1.);
-  double sum = 0.;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += (static_cast<double>(i) - middle) * x[i];
-  return 12. * sum / (n * n * n);
-}
-
-double square_about_mean(std::span<const double> x, double slope) {
-  double sum = 0., square = 0.;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double value = x[i] - slope * static_cast<double>(i);
-    sum += value;
-    square += value * value;
-  }
-  return square - sum * sum / static_cast<double>(x.size());
+double slope_of(const Samples& x) {
+  const Samples place = (counted(x.size()).array() - 0.5 * static_cast<double>(x.size() - 1));
+  return place.dot(x) / place.squaredNorm();
 }
 
 /// Subtracts a ramp when the first part of the first half predicts the rest of that half by it.
 bool take_drift_off(Samples& error) {
-  const std::span<const double> half = std::span(error).first(error.size() / 2);
-  const std::span<const double> part = half.first(half.size() / 2);
-  const std::span<const double> rest = half.subspan(part.size());
-  if (square_about_mean(rest, slope_of(part)) >= square_about_mean(rest, 0.)) return false;
-  const double slope = slope_of(half);
-  for (std::size_t i = 0; i < error.size(); ++i) error[i] -= slope * static_cast<double>(i);
+  const Samples half = error.head(error.size() / 2), part = half.head(half.size() / 2),
+                rest = half.tail(half.size() - part.size());
+  const auto square = [](const Samples& x) { return (x.array() - x.mean()).square().sum(); };
+  if (square(rest - slope_of(part) * counted(rest.size())) >= square(rest)) return false;
+  error -= slope_of(half) * counted(error.size());
   return true;
 }
 
-/// Subtracts the mean of the evaluated part, because an offset carries no information.
-void take_mean_off(Samples& x, std::size_t first) {
-  double mean = 0.;
-  for (std::size_t i = first; i < x.size(); ++i)
-    mean += x[i] / static_cast<double>(x.size() - first);
-  for (double& value : x) value -= mean;
+double noise_floor(const Squares& sum) {
+  return sum(Part::moment_noise) + sum(Part::acceleration_noise);
 }
 
-/// Sums over one block in time.
-struct Block {
-  double before = 0., after = 0., measured = 0.;
-  FloorParts floor{};
-};
-
-void add(Block& sum, const Block& b, double moment_factor = 1., double acceleration_factor = 1.) {
-  sum.before += b.before;
-  sum.after += b.after;
-  sum.measured += b.measured;
-  sum.floor.moment += moment_factor * b.floor.moment;
-  sum.floor.acceleration += acceleration_factor * b.floor.acceleration;
-  sum.floor.own += b.floor.own;
-}
-
-Block total(const std::vector<Block>& blocks) {
-  Block sum;
-  for (const Block& block : blocks) add(sum, block);
-  return sum;
-}
-
-std::optional<double> gap_closed(const Block& sum) {
-  const double floor = sum.floor.moment + sum.floor.acceleration;
-  if (!(sum.before > floor)) return std::nullopt;
-  return 1. - (sum.after - floor) / (sum.before - floor);
+std::optional<double> gap_closed(const Squares& sum) {
+  const double floor = noise_floor(sum);
+  if (!(sum(Part::before) > floor)) return std::nullopt;
+  return 1. - (sum(Part::after) - floor) / (sum(Part::before) - floor);
 }
 
 /// Factor by which a percentile interval is too short for few blocks: ratio of Student's to the
@@ -165,7 +123,7 @@ double expansion(std::size_t n_blocks) {
   return signals::student_quantile_975(nu) / signals::normal_quantile_975 * std::sqrt(n / nu);
 }
 
-std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
+std::optional<std::array<double, 2>> interval(const std::vector<Squares>& blocks,
                                               const NoiseLevels& levels,
                                               const HeldOutOptions& options) {
   constexpr std::size_t fewest_blocks = 8;
@@ -175,12 +133,12 @@ std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
   std::normal_distribution<double> normal;
   std::vector<double> values;
   for (std::size_t i = 0; i < options.n_resamples; ++i) {
-    const double moment = std::exp(2. * levels.moment.log_deviation * normal(random));
-    const double acceleration = std::exp(2. * levels.acceleration.log_deviation * normal(random));
-    Block sum;
-    for (std::size_t j = 0; j < blocks.size(); ++j)
-      add(sum, blocks[pick(random)], moment, acceleration);
-    if (const auto value = gap_closed(sum)) values.push_back(*value);
+    Squares factors = Squares::Ones(), sum = Squares::Zero();
+    factors(Part::moment_noise) = std::exp(2. * levels.moment.log_deviation * normal(random));
+    factors(Part::acceleration_noise) =
+        std::exp(2. * levels.acceleration.log_deviation * normal(random));
+    for (std::size_t j = 0; j < blocks.size(); ++j) sum += blocks[pick(random)];
+    if (const auto value = gap_closed(factors * sum)) values.push_back(*value);
   }
   // No interval when many resamples have no gap.
   if (values.size() < options.n_resamples * 9 / 10) return std::nullopt;
@@ -193,44 +151,46 @@ std::optional<std::array<double, 2>> interval(const std::vector<Block>& blocks,
                                median + factor * (quantile(0.975) - median)};
 }
 
-std::optional<BeforeAfter> vibration_left_db(const std::vector<Block>& blocks) {
-  const Block sum = total(blocks);
-  if (!(sum.measured > 0.)) return std::nullopt;
-  const auto db = [&](double power) { return 10. * std::log10(power / sum.measured); };
-  return BeforeAfter{db(sum.before), db(sum.after)};
+Squares total(const std::vector<Squares>& blocks) {
+  return std::accumulate(blocks.begin(), blocks.end(), Squares(Squares::Zero()));
 }
 
-ErrorScore score(const std::string& name, const std::vector<Block>& blocks,
+std::optional<BeforeAfter> vibration_left_db(const std::vector<Squares>& blocks) {
+  const Squares sum = total(blocks);
+  if (!(sum(Part::measured) > 0.)) return std::nullopt;
+  const auto db = [&](double power) { return 10. * std::log10(power / sum(Part::measured)); };
+  return BeforeAfter{db(sum(Part::before)), db(sum(Part::after))};
+}
+
+ErrorScore score(const std::string& name, const std::vector<Squares>& blocks,
                  const NoiseLevels& levels, const HeldOutOptions& options) {
-  const Block sum = total(blocks);
-  const double floor = sum.floor.moment + sum.floor.acceleration;
-  const auto relative = [&](double square) { return std::sqrt(square / sum.measured); };
+  const Squares sum = total(blocks);
+  const auto relative = [&](double square) { return std::sqrt(square / sum(Part::measured)); };
   ErrorScore out{.record = name,
-                 .nrmse_before = relative(sum.before),
-                 .nrmse_after = relative(sum.after),
-                 .noise_floor = relative(floor),
-                 .irreducible_floor = relative(floor + sum.floor.own),
+                 .nrmse_before = relative(sum(Part::before)),
+                 .nrmse_after = relative(sum(Part::after)),
+                 .noise_floor = relative(noise_floor(sum)),
+                 .irreducible_floor = relative(noise_floor(sum) + sum(Part::own_noise)),
                  .gap_closed = gap_closed(sum)};
   if (out.gap_closed) out.gap_closed_ci95 = interval(blocks, levels, options);
   return out;
 }
 
-std::vector<Block> blocks_of(const PreparedRecord& record, const Samples& before,
-                             const Samples& after, const Samples& measured, std::size_t first,
-                             const FloorParts& floor) {
+/// series: errors before and after, and the measured moment.
+std::vector<Squares> blocks_of(const PreparedRecord& record, const std::array<Samples, 3>& series,
+                               std::size_t first, const Squares& floor) {
   constexpr double block_s = 0.25;
-  const auto length = std::max<std::size_t>(
+  const auto longest = std::max<std::size_t>(
       1, static_cast<std::size_t>(std::lround(block_s * record.sampling_rate_hz)));
-  std::vector<Block> blocks;
-  for (std::size_t start = first; start < before.size(); start += length) {
-    const std::size_t end = std::min(before.size(), start + length);
-    const double n = static_cast<double>(end - start);
-    Block block{.floor = {n * floor.moment, n * floor.acceleration, n * floor.own}};
-    for (std::size_t i = start; i < end; ++i) {
-      block.before += before[i] * before[i];
-      block.after += after[i] * after[i];
-      block.measured += measured[i] * measured[i];
-    }
+  std::vector<Squares> blocks;
+  for (std::size_t start = first; start < record.n_evaluated; start += longest) {
+    const std::size_t length = std::min(longest, record.n_evaluated - start);
+    Squares block = static_cast<double>(length) * floor;
+    for (std::size_t part = 0; part < series.size(); ++part)
+      block(static_cast<Eigen::Index>(part)) +=
+          series[part]
+              .segment(static_cast<Eigen::Index>(start), static_cast<Eigen::Index>(length))
+              .squaredNorm();
     blocks.push_back(block);
   }
   return blocks;
@@ -253,22 +213,24 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
       (effect->id == "hum" ? out.predicted : out.not_predictable).push_back(effect->id);
   const bool halved = fit.hypothesis.contains("hum") || fit.hypothesis.contains("sensor_drift");
   bool ramp = false;
-  std::vector<Block> all, of_base;
+  std::vector<Squares> all, of_base;
   for (const PreparedRecord& record : held_out.records) {
     if (!record.excitation.base && !record.excitation.wind) continue;
     const Prediction prediction = simulate(chain, record);
     const std::size_t first = halved ? record.n_evaluated / 2 : 0;
-    Samples before =
-        evaluated_samples(record, difference(record.moment, simulate_mean(nominal, record)));
-    Samples after = evaluated_samples(record, difference(record.moment, prediction.mean));
-    Samples measured = evaluated_samples(record, record.moment);
+    std::array<Samples, 3> series{
+        samples_of_bins(record, difference(record.moment, simulate_mean(nominal, record))),
+        samples_of_bins(record, difference(record.moment, prediction.mean)),
+        samples_of_bins(record, record.moment)};
+    Samples& after = series[Part::after];
     if (fit.hypothesis.contains("hum")) take_hum_off(after, record.sampling_rate_hz, fit);
     if (fit.hypothesis.contains("sensor_drift")) ramp |= take_drift_off(after);
-    for (Samples* x : {&before, &after, &measured}) take_mean_off(*x, first);
-    FloorParts floor = floor_parts(record, prediction, chain, levels.moment.variance,
-                                   levels.acceleration.variance);
-    if (out.not_predictable.empty()) floor.own = 0.;
-    const std::vector<Block> blocks = blocks_of(record, before, after, measured, first, floor);
+    // An offset carries no information.
+    for (Samples& x : series)
+      x.array() -= x.tail(x.size() - static_cast<Eigen::Index>(first)).mean();
+    Squares floor = floor_of(record, prediction, chain, levels);
+    if (out.not_predictable.empty()) floor(Part::own_noise) = 0.;
+    const std::vector<Squares> blocks = blocks_of(record, series, first, floor);
     out.records.push_back(score(record.name, blocks, levels, options));
     all.insert(all.end(), blocks.begin(), blocks.end());
     if (!record.excitation.wind) of_base.insert(of_base.end(), blocks.begin(), blocks.end());

@@ -79,9 +79,8 @@ class Reduction {
   /// prediction can.
   bool leaves_much(std::size_t fit) {
     const Attribution& all = attribution(fit);
-    const auto& effects = result_.fits[fit].hypothesis.effects();
-    if (!std::ranges::all_of(effects, [](const Effect* e) { return is_predictable(*e); }))
-      return false;
+    for (const Effect* effect : result_.fits[fit].hypothesis.effects())
+      if (!is_predictable(*effect)) return false;
     // Without rest and repeats the noise is a guess.
     return experiment_.acceleration_noise_is_measured && all.unexplained >= least_share &&
            all.reducible * all.unexplained > power_without_cause(experiment_.simulation_accuracy);
@@ -105,8 +104,8 @@ class Reduction {
 
   /// Is the error that recalibration leaves so small that no unknown cause is worth a name?
   bool is_all_explained() {
-    const double recalibrated = error_power(known_.at("none"));
-    return recalibrated - floor_[&scored_] < power_without_cause(experiment_.simulation_accuracy);
+    const double left = error_power(recalibrated());
+    return left - floor_[&scored_] < power_without_cause(experiment_.simulation_accuracy);
   }
 
  private:
@@ -218,7 +217,7 @@ class Reduction {
   std::map<std::string, std::size_t> known_;  // hypothesis -> index of its fit
   std::map<std::pair<std::size_t, const Experiment*>, double> power_;
   std::map<std::size_t, Attribution> attributions_;
-  std::map<const Experiment*, double> floor_, nominal_power_;
+  std::map<const Experiment*, double> floor_, nominal_power_;  // of the fit that was scored last
 };
 
 }  // namespace
@@ -245,17 +244,13 @@ void name_answers(SearchResult& result, const Experiment& experiment, const Expe
       candidate.name = joined_name(std::move(ids));
       if (reduction.leaves_much(candidate.fit)) candidate.name = outside_catalogue;
     }
-    const auto same = std::find_if(named.begin(), named.end(), [&](const Candidate& other) {
-      return other.name == candidate.name;
-    });
+    const auto same = std::ranges::find(named, candidate.name, &Candidate::name);
     if (same == named.end())
       named.push_back(std::move(candidate));
     else
       same->probability += candidate.probability;
   }
-  std::stable_sort(named.begin(), named.end(), [](const Candidate& a, const Candidate& b) {
-    return a.probability > b.probability;
-  });
+  std::ranges::stable_sort(named, std::ranges::greater(), &Candidate::probability);
   result.candidates = std::move(named);
 }
 

@@ -1,4 +1,4 @@
-#include "diagnosis/validation/unknown_part.h"
+#include "diagnosis/validation/named_answers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "diagnosis/validation/untested.h"
+#include "diagnosis/validation/named_answers.h"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,4 @@
-#include "diagnosis/diagnosis_json.h"
-#include "diagnosis/verdict_text.h"
+#include "diagnosis/diagnosis.h"
 
 #include <gmock/gmock.h>
 #include <algorithm>

@@ -6,9 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/nominal/nominal_identification.h"
-#include "diagnosis/verdict_text.h"
 #include "signals/base/error.h"
 #include "tests/diagnosis/one_mode_rig.h"
 

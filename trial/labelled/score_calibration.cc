@@ -17,7 +17,7 @@
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/planning/planned_records.h"
-#include "diagnosis/records/long_records.h"
+#include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
 #include "diagnosis/search/calibrated_odds.h"
 #include "signals/spectra/fft.h"

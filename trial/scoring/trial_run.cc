@@ -4,7 +4,7 @@
 #include <map>
 #include <random>
 
-#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/diagnosis.h"
 #include "diagnosis/search/confidence_set.h"
 #include "fem/linalg/solver_session.h"
 #include "signals/base/error.h"

@@ -1,4 +1,4 @@
-#include "diagnosis/checks/clock_offset.h"
+#include "diagnosis/checks/data_checks.h"
 
 #include <gmock/gmock.h>
 

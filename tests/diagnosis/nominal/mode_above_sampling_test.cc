@@ -1,4 +1,4 @@
-#include "diagnosis/nominal/mode_above_sampling.h"
+#include "diagnosis/nominal/base_path_identification.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "diagnosis/nominal/nominal_from_model.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/nominal/nominal_identification.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::diagnosis {

@@ -1,10 +1,10 @@
-#include "diagnosis/nominal/nominal_identification.h"
 
 #include <gmock/gmock.h>
 
 #include <Eigen/Dense>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/records/experiment.h"
 #include "signals/base/error.h"
 #include "tests/diagnosis/one_mode_rig.h"

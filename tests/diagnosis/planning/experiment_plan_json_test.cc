@@ -1,4 +1,4 @@
-#include "diagnosis/planning/experiment_plan_json.h"
+#include "diagnosis/planning/experiment_plan.h"
 
 #include <gmock/gmock.h>
 #include <regex>

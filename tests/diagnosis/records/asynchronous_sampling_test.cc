@@ -1,4 +1,4 @@
-#include "diagnosis/records/asynchronous_sampling.h"
+#include "diagnosis/records/source_samples.h"
 
 #include <gtest/gtest.h>
 

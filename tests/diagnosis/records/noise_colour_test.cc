@@ -1,4 +1,4 @@
-#include "diagnosis/records/noise_colour.h"
+#include "diagnosis/records/channel_noise.h"
 
 #include <gmock/gmock.h>
 

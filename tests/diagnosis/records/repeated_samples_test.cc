@@ -1,4 +1,4 @@
-#include "diagnosis/records/repeated_samples.h"
+#include "diagnosis/records/source_samples.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/resonances/resonance_gap_text.h"
+#include "diagnosis/resonances/resonance_gap.h"
 
 #include <gmock/gmock.h>
 

@@ -61,13 +61,13 @@ TEST(UnknownCause, IsDragOfStillAirAlsoWhereTheStiffnessIsWrong) {
 
 TEST(UnknownCause, IsShownAsAMomentOverAngleAndRate) {
   const Described found = described([](double x, double) { return 0.3 * x * x / peak_m; });
-  const ResidualCurve& curve = found.cause.over_angle;
+  const ResidualCurve& curve = found.cause.residual.over_angle;
   ASSERT_GT(curve.x.size(), 10u);
   // Even in the angle: both ends lie above the middle.
   const double middle = curve.mean[curve.mean.size() / 2];
   EXPECT_GT(curve.mean.front(), middle + 0.05);
   EXPECT_GT(curve.mean.back(), middle + 0.05);
-  EXPECT_EQ(found.cause.over_rate.mean.size(), found.cause.over_rate.x.size());
+  EXPECT_EQ(found.cause.residual.over_rate.mean.size(), found.cause.residual.over_rate.x.size());
 }
 
 TEST(UnknownCause, HasNoTermsWhereNothingIsUnexplained) {

@@ -1,4 +1,4 @@
-#include "diagnosis/validation/indistinguishable.h"
+#include "diagnosis/validation/named_answers.h"
 
 #include <gmock/gmock.h>
 

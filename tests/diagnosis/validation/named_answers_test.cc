@@ -1,7 +1,7 @@
-#include "diagnosis/validation/named_answers.h"
 
 #include <gmock/gmock.h>
 
+#include "diagnosis/validation/named_answers.h"
 #include "tests/diagnosis/one_mode_rig.h"
 
 namespace vibrissa::diagnosis {

@@ -1,4 +1,4 @@
-#include "diagnosis/validation/wind_estimates.h"
+#include "diagnosis/validation/comparison.h"
 
 #include <gtest/gtest.h>
 
