@@ -55,13 +55,21 @@ double error_of(const PreparedRecord& record, const std::vector<Complex>& mean) 
   return total_power(difference(record.moment, mean));
 }
 
-/// Does the best answer leave more of a record than noise and the usual error of a simulation?
-bool leaves_much(const Experiment& experiment, const std::size_t r, const FittedRecord& fitted) {
-  const PreparedRecord& record = experiment.records[r];
+/// Power of the error that a fit leaves in a record above its noise, relative to the moment.
+double left_of(const PreparedRecord& record, const FittedRecord& fitted) {
   double noise = 0.;
   for (const double variance : fitted.noise) noise += variance;
-  return error_of(record, fitted.mean) - noise >
-         std::pow(experiment.simulation_accuracy, 2) * total_power(record.moment);
+  return (error_of(record, fitted.mean) - noise) / total_power(record.moment);
+}
+
+/// Does a fit leave no more of any record with motion than simulations do?
+bool explains_all(const Experiment& experiment, const HypothesisFit& fit) {
+  for (std::size_t r = 0; r < experiment.records.size(); ++r)
+    if (!experiment.records[r].is_still() &&
+        left_of(experiment.records[r], fit.records[r]) >
+            power_without_cause(experiment.simulation_accuracy))
+      return false;
+  return true;
 }
 
 }  // namespace
@@ -88,16 +96,17 @@ std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
   const HypothesisFit& fit = result.fits[best.fit];
   const HypothesisFit& none = *std::ranges::find_if(
       result.fits, [](const HypothesisFit& f) { return f.hypothesis.name() == "none"; });
+  const double usual = std::pow(experiment.simulation_accuracy, 2);
   std::size_t n_moving = 0;
   bool is_explained = true;
   std::vector<std::size_t> suspects;
   for (std::size_t r = 0; r < experiment.records.size(); ++r) {
     if (experiment.records[r].is_still()) continue;
     ++n_moving;
-    const bool is_left = leaves_much(experiment, r, fit.records[r]);
+    const bool is_left = left_of(experiment.records[r], fit.records[r]) > usual;
     is_explained = is_explained && !is_left;
     // An effect may bend to the misplaced record at the cost of the others.
-    if (is_left || leaves_much(experiment, r, none.records[r])) suspects.push_back(r);
+    if (is_left || left_of(experiment.records[r], none.records[r]) > usual) suspects.push_back(r);
   }
   if (n_moving < fewest || is_explained) return std::nullopt;
   std::vector<MisplacedRecord> tried(suspects.size());
@@ -105,11 +114,13 @@ std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
     const PreparedRecord& record = experiment.records[suspects[i]];
     const auto is_it = [&](const PreparedRecord& r) { return r.number == record.number; };
     const Experiment alone = with_records(experiment, is_it);
-    const Others others = answer_of_others(with_records(experiment, std::not_fn(is_it)), result);
+    const Experiment without = with_records(experiment, std::not_fn(is_it));
+    const Others others = answer_of_others(without, result);
+    if (!explains_all(without, others.fit)) return;
     tried[i] = {.name = record.name, .own = fit_hypothesis(alone, Hypothesis{})};
     const double better = error_of(record, simulate_mean(others.fit.chain(experiment), record)) -
                           error_of(record, tried[i].own.records.front().mean);
-    if (better < std::pow(experiment.simulation_accuracy, 2) * total_power(record.moment)) return;
+    if (better < usual * total_power(record.moment)) return;
     tried[i].log_odds = tried[i].own.log_evidence + others.log_evidence + log_prior -
                         std::log(static_cast<double>(n_moving)) - best.log_posterior;
   });
