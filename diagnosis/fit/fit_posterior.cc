@@ -42,6 +42,14 @@ double accelerometer_term(const PreparedRecord& record, double variance) {
          static_cast<double>(record.n_acceleration_noise) * std::log(variance);
 }
 
+DiscrepancyLevels levels(const Eigen::VectorXd& x, const double form_level) {
+  DiscrepancyLevels out{};
+  for (std::size_t i = 0; i < n_discrepancy_levels; ++i)
+    out[i] = std::exp(x(static_cast<Eigen::Index>(index_of_discrepancy + i)));
+  out[index_of_form_level] = form_level;
+  return out;
+}
+
 }  // namespace
 
 FitPosterior::FitPosterior(const Experiment& experiment,
@@ -135,18 +143,6 @@ std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Predi
   }
   return out;
 }
-
-namespace {
-
-DiscrepancyLevels levels(const Eigen::VectorXd& x, const double form_level) {
-  DiscrepancyLevels out{};
-  for (std::size_t i = 0; i < n_discrepancy_levels; ++i)
-    out[i] = std::exp(x(static_cast<Eigen::Index>(index_of_discrepancy + i)));
-  out[index_of_form_level] = form_level;
-  return out;
-}
-
-}  // namespace
 
 FitPosterior::WhitenedErrors FitPosterior::whitened_errors(const std::vector<Prediction>& at,
                                                            const BinVariances& s) const {
