@@ -42,6 +42,14 @@ double accelerometer_term(const PreparedRecord& record, double variance) {
          static_cast<double>(record.n_acceleration_noise) * std::log(variance);
 }
 
+DiscrepancyLevels levels(const Eigen::VectorXd& x, const double form_level) {
+  DiscrepancyLevels out{};
+  for (std::size_t i = 0; i < n_discrepancy_levels; ++i)
+    out[i] = std::exp(x(static_cast<Eigen::Index>(index_of_discrepancy + i)));
+  out[index_of_form_level] = form_level;
+  return out;
+}
+
 }  // namespace
 
 FitPosterior::FitPosterior(const Experiment& experiment,
@@ -121,64 +129,34 @@ Eigen::Index FitPosterior::unknown_index(std::size_t record, std::size_t b) cons
 
 std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Prediction& prediction,
                                            std::size_t record, double acceleration_variance) const {
-  const double moment = std::exp(2. * x(index_of_moment_noise));
+  const double moment = std::exp(2. * x(index_of_moment_noise)),
+               incoherent = std::exp(2. * x(index_of_incoherence)), level = form_level(x);
   std::vector<double> out(prediction.mean.size());
-  for (std::size_t b = 0; b < out.size(); ++b)
+  for (std::size_t b = 0; b < out.size(); ++b) {
     out[b] =
         moment * (1. + flicker_at(experiment_.records[record], b, x)) * prediction.moment_noise[b] +
         acceleration_variance * prediction.acceleration_noise[b] + prediction.process_noise[b] +
-        misfit_[record][b];
-  const double incoherent = std::exp(2. * x(index_of_incoherence));
-  for (std::size_t b = 0; b < out.size(); ++b) out[b] += incoherent * incoherent_[record][b];
-  if (has_form_errors()) {
-    const double level = form_level(x);
-    for (std::size_t b = 0; b < out.size(); ++b) out[b] += level * level * form_[record][b];
+        misfit_[record][b] + incoherent * incoherent_[record][b] + level * level * form_[record][b];
+    if (!unknown_) continue;
+    const double share = std::exp(x(unknown_index(record, b)));
+    out[b] += share * share * power_[record][b];
   }
-  if (unknown_)
-    for (std::size_t b = 0; b < out.size(); ++b) {
-      const double share = std::exp(x(unknown_index(record, b)));
-      out[b] += share * share * power_[record][b];
-    }
   return out;
 }
 
-Eigen::VectorXcd FitPosterior::errors(const std::vector<Prediction>& at,
-                                      const BinVariances& s) const {
-  Eigen::VectorXcd out(discrepancy_.n_rows());
+FitPosterior::WhitenedErrors FitPosterior::whitened_errors(const std::vector<Prediction>& at,
+                                                           const BinVariances& s) const {
+  WhitenedErrors out{Eigen::VectorXcd(discrepancy_.n_rows()),
+                     Eigen::VectorXd(discrepancy_.n_rows())};
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < at.size(); ++r) {
     std::vector<Complex> error = difference(experiment_.records[r].moment, at[r].mean);
     IntegratedNuisances(at[r].unknowns, error, s[r]).remove_from(error);
-    for (const Complex& value : error) out(row++) = value;
+    for (std::size_t b = 0; b < error.size(); ++b, ++row) {
+      out.per_deviation(row) = 1. / std::sqrt(s[r][b]);
+      out.error(row) = error[b] * out.per_deviation(row);
+    }
   }
-  return out;
-}
-
-namespace {
-
-Eigen::VectorXd inverse_deviations(const std::vector<std::vector<double>>& variances,
-                                   const Eigen::Index n) {
-  Eigen::VectorXd out(n);
-  Eigen::Index row = 0;
-  for (const std::vector<double>& bins : variances)
-    for (const double variance : bins) out(row++) = 1. / std::sqrt(variance);
-  return out;
-}
-
-DiscrepancyLevels levels(const Eigen::VectorXd& x, const double form_level) {
-  DiscrepancyLevels out{};
-  for (std::size_t i = 0; i < n_discrepancy_levels; ++i)
-    out[i] = std::exp(x(static_cast<Eigen::Index>(index_of_discrepancy + i)));
-  out[index_of_form_level] = form_level;
-  return out;
-}
-
-}  // namespace
-
-FitPosterior::WhitenedErrors FitPosterior::whitened_errors(const std::vector<Prediction>& at,
-                                                           const BinVariances& s) const {
-  WhitenedErrors out{errors(at, s), inverse_deviations(s, discrepancy_.n_rows())};
-  out.error.array() *= out.per_deviation.array();
   return out;
 }
 
@@ -229,43 +207,33 @@ FitPosterior::BinVariances FitPosterior::variances(const Eigen::VectorXd& x,
   return s;
 }
 
-void FitPosterior::set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                                    const BinVariances& s, const double acceleration_variance,
-                                    const std::size_t index, Derivatives& out) const {
+/// Of the variance, by a noise level or by the level of incoherent errors, of form errors or of the
+/// unknown cause.
+void FitPosterior::set_level_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                                    const BinVariances& s, const Eigen::Index index,
+                                    Derivatives& out) const {
   const double moment = std::exp(2. * x(index_of_moment_noise)),
-               acceleration = 2. * std::exp(2. * x(index_of_acceleration_noise));
+               level = 2. * std::exp(2. * x(index));
   const auto slope = [&](const std::size_t r, const std::size_t b) {
-    if (index == index_of_acceleration_noise) return acceleration * at[r].acceleration_noise[b];
-    const double flicker = flicker_at(experiment_.records[r], b, x);
-    return moment * at[r].moment_noise[b] *
-           (index == index_of_flicker ? flicker : 2. * (1. + flicker));
+    const auto flicker = [&] { return flicker_at(experiment_.records[r], b, x); };
+    switch (index) {
+      case index_of_moment_noise:
+        return level * at[r].moment_noise[b] * (1. + flicker());
+      case index_of_acceleration_noise:
+        return level * at[r].acceleration_noise[b];
+      case index_of_flicker:
+        return moment * at[r].moment_noise[b] * flicker();
+      case index_of_incoherence:
+        return level * incoherent_[r][b];
+      default:
+        if (has_form_errors()) return level * form_[r][b];
+        return unknown_index(r, b) == index ? level * power_[r][b] : 0.;
+    }
   };
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r)
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
-      out.variance(row, static_cast<Eigen::Index>(index)) = slope(r, b) / s[r][b];
-  if (index == index_of_acceleration_noise)
-    out.acceleration(index_of_acceleration_noise) = acceleration / acceleration_variance;
-}
-
-/// Of the level of incoherent errors, of form errors or of the unknown cause.
-void FitPosterior::set_level_column(const Eigen::VectorXd& x, const BinVariances& s,
-                                    const Eigen::Index index, Derivatives& out) const {
-  const double level = 2. * std::exp(2. * x(index));
-  Eigen::Index row = 0;
-  for (std::size_t r = 0; r < s.size(); ++r)
-    for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
-      if (index == static_cast<Eigen::Index>(index_of_incoherence))
-        out.variance(row, index) = level * incoherent_[r][b] / s[r][b];
-      else if (has_form_errors())
-        out.variance(row, index) = level * form_[r][b] / s[r][b];
-      else if (unknown_index(r, b) == index)
-        out.variance(row, index) = level * power_[r][b] / s[r][b];
-}
-
-double FitPosterior::step_of(const Eigen::VectorXd& x, const Eigen::Index index) const {
-  const Parameter& parameter = fit_parameters_[static_cast<std::size_t>(index)].description;
-  return x(index) + parameter.step > parameter.prior.high ? -parameter.step : parameter.step;
+      out.variance(row, index) = slope(r, b) / s[r][b];
 }
 
 void FitPosterior::set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
@@ -296,6 +264,9 @@ Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
   Derivatives out{.mean = Eigen::MatrixXd::Zero(2 * n_bins, x.size()),
                   .variance = Eigen::MatrixXd::Zero(n_bins, x.size()),
                   .acceleration = Eigen::VectorXd::Zero(x.size())};
+  const auto step = [&](const Eigen::Index index) {
+    return fit_parameters_[static_cast<std::size_t>(index)].description.step_at(x(index));
+  };
   std::vector<Eigen::Index> indices;
   for (std::size_t i = n_noise_parameters; i < fit_parameters_.size(); ++i) {
     const FitParameter& fit_parameter = fit_parameters_[i];
@@ -308,39 +279,33 @@ Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
     std::vector<Chain> moved;
     for (const Eigen::Index index : std::span(indices).subspan(first, n)) {
       Eigen::VectorXd there = x;
-      there(index) += step_of(x, index);
+      there(index) += step(index);
       moved.push_back(make_chain(experiment_, fit_parameters_, there));
     }
     const auto predictions = predict_together(moved, experiment_.records);
     for (std::size_t i = 0; i < n; ++i) {
       const Eigen::Index index = indices[first + i];
-      set_derivative(x, at, s, moved[i], predictions[i], step_of(x, index), index, out);
+      set_derivative(x, at, s, moved[i], predictions[i], step(index), index, out);
     }
   }
   return out;
 }
 
 Derivatives FitPosterior::whitened(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                                   const BinVariances& s, const double acceleration_variance,
+                                   const BinVariances& s, const Eigen::VectorXd& per_deviation,
+                                   const double acceleration_variance,
                                    const Derivatives& derivatives) const {
-  Eigen::VectorXd per_deviation(derivatives.mean.rows()), per_variance(derivatives.variance.rows());
-  Eigen::Index row = 0;
-  for (const std::vector<double>& bins : s)
-    for (const double variance : bins) {
-      per_variance(row) = 1. / variance;
-      per_deviation(2 * row) = per_deviation(2 * row + 1) = 1. / std::sqrt(variance);
-      ++row;
-    }
-  Derivatives out{.mean = per_deviation.asDiagonal() * derivatives.mean,
-                  .variance = per_variance.asDiagonal() * derivatives.variance,
+  // Real and imaginary parts in turn.
+  const Eigen::VectorXd of_parts = per_deviation.transpose().replicate<2, 1>().reshaped();
+  Derivatives out{.mean = of_parts.asDiagonal() * derivatives.mean,
+                  .variance = per_deviation.cwiseAbs2().asDiagonal() * derivatives.variance,
                   .acceleration = derivatives.acceleration / acceleration_variance};
-  for (std::size_t i = 0; i < fit_parameters_.size(); ++i) {
-    const auto index = static_cast<Eigen::Index>(i);
-    if (i < n_noise_parameters)
-      set_noise_column(x, at, s, acceleration_variance, i, out);
-    else if (fit_parameters_[i].effect == nullptr && i >= index_of_incoherence)
-      set_level_column(x, s, index, out);
-  }
+  out.acceleration(index_of_acceleration_noise) =
+      2. * std::exp(2. * x(index_of_acceleration_noise)) / acceleration_variance;
+  for (std::size_t i = 0; i < fit_parameters_.size(); ++i)
+    if (i < n_noise_parameters ||
+        (fit_parameters_[i].effect == nullptr && i >= index_of_incoherence))
+      set_level_column(x, at, s, static_cast<Eigen::Index>(i), out);
   return out;
 }
 
@@ -349,15 +314,12 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
                              Eigen::MatrixXd& information) const {
   const double a_variance = acceleration_variance(x);
   const BinVariances s = variances(x, at, a_variance);
-  const Derivatives d = whitened(x, at, s, a_variance, derivatives);
   const WhitenedErrors whitened_error = whitened_errors(at, s);
   const Eigen::VectorXcd& whole = whitened_error.error;
+  const Derivatives d = whitened(x, at, s, whitened_error.per_deviation, a_variance, derivatives);
   const ModelDiscrepancy::Solution terms = discrepancy(x, whitened_error);
-  Eigen::VectorXd error(d.mean.rows());
-  for (Eigen::Index row = 0; row < whole.size(); ++row) {
-    error(2 * row) = whole(row).real();
-    error(2 * row + 1) = whole(row).imag();
-  }
+  const Eigen::Map<const Eigen::VectorXd> error(reinterpret_cast<const double*>(whole.data()),
+                                                d.mean.rows());
   const Eigen::VectorXd excess =
       (whole - terms.mean()).cwiseAbs2().array() - 1. + terms.leverage().array();
   double a_gradient = 0., a_lines = 0.;

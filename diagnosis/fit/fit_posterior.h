@@ -76,8 +76,6 @@ class FitPosterior {
   Eigen::VectorXcd change_by(const Effect& effect, const Eigen::VectorXd& x,
                              const Eigen::VectorXcd& mean) const;
 
-  /// Finite-difference step of a parameter.
-  double step_of(const Eigen::VectorXd& x, Eigen::Index index) const;
   /// Derivatives from the predictions of a chain after a step h of one parameter.
   void set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                       const BinVariances& s, const Chain& moved,
@@ -85,13 +83,10 @@ class FitPosterior {
                       Derivatives& out) const;
   /// Derivatives of the total variance divided by it; sets those by the noise parameters.
   Derivatives whitened(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                       const BinVariances& s, double acceleration_variance,
-                       const Derivatives& derivatives) const;
-  void set_noise_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                        const BinVariances& s, double acceleration_variance, std::size_t index,
-                        Derivatives& out) const;
-  void set_level_column(const Eigen::VectorXd& x, const BinVariances& s, Eigen::Index index,
-                        Derivatives& out) const;
+                       const BinVariances& s, const Eigen::VectorXd& per_deviation,
+                       double acceleration_variance, const Derivatives& derivatives) const;
+  void set_level_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                        const BinVariances& s, Eigen::Index index, Derivatives& out) const;
   BinVariances variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                          double acceleration_variance) const;
   void remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
@@ -99,8 +94,6 @@ class FitPosterior {
   WhitenedErrors whitened_errors(const std::vector<Prediction>& at, const BinVariances& s) const;
   ModelDiscrepancy::Solution discrepancy(const Eigen::VectorXd& x,
                                          const WhitenedErrors& whitened) const;
-  /// The error of all records [N m], without the most probable per-record nuisance parameters.
-  Eigen::VectorXcd errors(const std::vector<Prediction>& at, const BinVariances& s) const;
   /// Parameter of the unknown cause for a bin.
   Eigen::Index unknown_index(std::size_t record, std::size_t b) const;
   /// Variance of the accelerometer under a given chain.

@@ -54,6 +54,16 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
   return x;
 }
 
+/// Moves one effect to these values, within its bounds.
+void set_effect(const std::vector<FitParameter>& fit_parameters, const Effect& effect,
+                const std::vector<double>& values, Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < fit_parameters.size(); ++i)
+    if (fit_parameters[i].effect == &effect)
+      x(static_cast<Eigen::Index>(i)) =
+          fit_parameters[i].description.coordinate(values[fit_parameters[i].parameter]);
+  clamp(fit_parameters, x);
+}
+
 /// All combinations of the starts of the effects that the given start does not contain.
 std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
                                            const std::vector<FitParameter>& fit_parameters,
@@ -67,11 +77,7 @@ std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
     for (const Eigen::VectorXd& x : starts)
       for (const std::vector<double>& values : effect->starts) {
         more.push_back(x);
-        for (std::size_t i = 0; i < fit_parameters.size(); ++i)
-          if (fit_parameters[i].effect == effect)
-            more.back()(static_cast<Eigen::Index>(i)) =
-                fit_parameters[i].description.coordinate(values[fit_parameters[i].parameter]);
-        clamp(fit_parameters, more.back());
+        set_effect(fit_parameters, *effect, values, more.back());
       }
     starts = std::move(more);
   }
@@ -87,11 +93,7 @@ Eigen::VectorXd further_start(const Experiment& experiment,
                               const std::vector<FitParameter>& fit_parameters,
                               const FurtherStart& further) {
   Eigen::VectorXd x = start_vector(experiment, fit_parameters, further.without, false);
-  for (std::size_t i = 0; i < fit_parameters.size(); ++i)
-    if (fit_parameters[i].effect == further.effect)
-      x(static_cast<Eigen::Index>(i)) =
-          fit_parameters[i].description.coordinate(further.values[fit_parameters[i].parameter]);
-  clamp(fit_parameters, x);
+  set_effect(fit_parameters, *further.effect, further.values, x);
   return x;
 }
 
@@ -130,19 +132,6 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
   }
   return records;
 }
-
-}  // namespace
-
-bool has_recalibrated(const HypothesisFit& fit) {
-  for (std::size_t i = n_common_parameters; i < fit.fit_parameters.size(); ++i) {
-    const Prior& prior = fit.fit_parameters[i].description.prior;
-    const double moved = fit.x(static_cast<Eigen::Index>(i)) - prior.centre;
-    if (fit.fit_parameters[i].nuisance && std::abs(moved) > prior.scale) return true;
-  }
-  return false;
-}
-
-namespace {
 
 /// The levels of the discrepancy stay at the centres of their priors: far from the optimum they
 /// would explain what the parameters should.
@@ -211,38 +200,6 @@ void set_at(HypothesisFit& fit, const Experiment& experiment, FitPosterior& post
   fit.records = fitted_records(experiment, posterior, fit, state.predictions);
 }
 
-}  // namespace
-
-std::optional<std::size_t> HypothesisFit::index(const std::string& effect,
-                                                const std::size_t parameter) const {
-  for (std::size_t i = 0; i < fit_parameters.size(); ++i)
-    if (fit_parameters[i].effect != nullptr && fit_parameters[i].effect->id == effect &&
-        fit_parameters[i].parameter == parameter)
-      return i;
-  return std::nullopt;
-}
-
-std::vector<const Effect*> HypothesisFit::changes() const {
-  std::vector<const Effect*> out;
-  for (const FitParameter& parameter : fit_parameters)
-    if (parameter.effect != nullptr && parameter.parameter == 0) out.push_back(parameter.effect);
-  return out;
-}
-
-std::vector<std::string> HypothesisFit::nominal_calibrations() const {
-  std::vector<std::string> out;
-  for (const FitParameter& parameter : fit_parameters)
-    if (parameter.nuisance && parameter.parameter == 0 && parameter.description.prior.is_fixed())
-      out.push_back(parameter.effect->id);
-  return out;
-}
-
-Chain HypothesisFit::chain(const Experiment& experiment) const {
-  return make_chain(experiment, fit_parameters, x);
-}
-
-namespace {
-
 /// Optimisations of one hypothesis from several starts; keeps the best result.
 class Attempts {
  public:
@@ -286,6 +243,43 @@ class Attempts {
 };
 
 }  // namespace
+
+std::optional<std::size_t> HypothesisFit::index(const std::string& effect,
+                                                const std::size_t parameter) const {
+  for (std::size_t i = 0; i < fit_parameters.size(); ++i)
+    if (fit_parameters[i].effect != nullptr && fit_parameters[i].effect->id == effect &&
+        fit_parameters[i].parameter == parameter)
+      return i;
+  return std::nullopt;
+}
+
+std::vector<const Effect*> HypothesisFit::changes() const {
+  std::vector<const Effect*> out;
+  for (const FitParameter& parameter : fit_parameters)
+    if (parameter.effect != nullptr && parameter.parameter == 0) out.push_back(parameter.effect);
+  return out;
+}
+
+std::vector<std::string> HypothesisFit::nominal_calibrations() const {
+  std::vector<std::string> out;
+  for (const FitParameter& parameter : fit_parameters)
+    if (parameter.nuisance && parameter.parameter == 0 && parameter.description.prior.is_fixed())
+      out.push_back(parameter.effect->id);
+  return out;
+}
+
+Chain HypothesisFit::chain(const Experiment& experiment) const {
+  return make_chain(experiment, fit_parameters, x);
+}
+
+bool has_recalibrated(const HypothesisFit& fit) {
+  for (std::size_t i = n_common_parameters; i < fit.fit_parameters.size(); ++i) {
+    const Prior& prior = fit.fit_parameters[i].description.prior;
+    const double moved = fit.x(static_cast<Eigen::Index>(i)) - prior.centre;
+    if (fit.fit_parameters[i].nuisance && std::abs(moved) > prior.scale) return true;
+  }
+  return false;
+}
 
 HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hypothesis,
                              const HypothesisFit* start, const FitOptions& options,

@@ -78,6 +78,17 @@ std::vector<Complex> quasi_static(const Experiment& experiment) {
   return out;
 }
 
+/// The wide forms of each kind, then the residual of missing modes.
+std::size_t level_of_form(const Eigen::Index form, const Eigen::Index n_forms) {
+  const auto n_kinds = static_cast<Eigen::Index>(n_record_kinds);
+  return static_cast<std::size_t>(n_kinds + form / ((n_forms - 1) / n_kinds));
+}
+
+/// Logarithm of the determinant of a Hermitian matrix.
+double log_determinant(const Eigen::LLT<Eigen::MatrixXcd>& llt) {
+  return 2. * llt.matrixLLT().diagonal().real().array().log().sum();
+}
+
 }  // namespace
 
 std::size_t record_kind(const PreparedRecord& record) {
@@ -118,16 +129,6 @@ ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment)
       segments_.push_back({.block = k, .first = row, .n = 1});
   }
 }
-
-namespace {
-
-/// The wide forms of each kind, then the residual of missing modes.
-std::size_t level_of_form(const Eigen::Index form, const Eigen::Index n_forms) {
-  const auto n_kinds = static_cast<Eigen::Index>(n_record_kinds);
-  return static_cast<std::size_t>(n_kinds + form / ((n_forms - 1) / n_kinds));
-}
-
-}  // namespace
 
 /// The wide forms, in units of the block's own terms: terms x forms.
 Eigen::MatrixXd ModelDiscrepancy::forms_of_block(const std::size_t block,
@@ -175,15 +176,6 @@ ModelDiscrepancy::Solution ModelDiscrepancy::solve(const Eigen::VectorXcd& error
   out.add_gradient(out.wide_amplitudes(products));
   return out;
 }
-
-namespace {
-
-/// Logarithm of the determinant of a Hermitian matrix.
-double log_determinant(const Eigen::LLT<Eigen::MatrixXcd>& llt) {
-  return 2. * llt.matrixLLT().diagonal().real().array().log().sum();
-}
-
-}  // namespace
 
 void ModelDiscrepancy::Solution::invert(const DiscrepancyLevels& levels) {
   const Eigen::Index n_terms = whitened_.cols(),

@@ -14,6 +14,18 @@ double student_log_norm(const double dof) {
          std::lgamma(0.5 * (dof + 1.));
 }
 
+/// Positive parameter between two values, with a prior of its logarithm.
+Parameter logarithmic(std::string name, std::string unit, Prior prior, const double low,
+                      const double high, const double neutral) {
+  prior.low = std::log(low);
+  prior.high = std::log(high);
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .logarithmic = true,
+          .prior = prior,
+          .neutral = neutral};
+}
+
 }  // namespace
 
 Prior::Shape Prior::shape(const double x) const {
@@ -49,11 +61,7 @@ double Prior::curvature(const double x) const {
 
 Parameter log_uniform(std::string name, std::string unit, const double low, const double high,
                       const double neutral) {
-  return {.name = std::move(name),
-          .unit = std::move(unit),
-          .logarithmic = true,
-          .prior = {.kind = Prior::Kind::uniform, .low = std::log(low), .high = std::log(high)},
-          .neutral = neutral};
+  return logarithmic(std::move(name), std::move(unit), {}, low, high, neutral);
 }
 
 Parameter uniform(std::string name, std::string unit, const double low, const double high,
@@ -73,29 +81,19 @@ Parameter relative(std::string to, Parameter parameter) {
 Parameter log_usual(std::string name, std::string unit, const double usual_low,
                     const double usual_high, const double low, const double high,
                     const double neutral) {
-  return {.name = std::move(name),
-          .unit = std::move(unit),
-          .logarithmic = true,
-          .prior = {.kind = Prior::Kind::student,
-                    .centre = 0.5 * std::log(usual_low * usual_high),
-                    .scale = 0.25 * std::log(usual_high / usual_low),
-                    .low = std::log(low),
-                    .high = std::log(high)},
-          .neutral = neutral};
+  return logarithmic(std::move(name), std::move(unit),
+                     {.kind = Prior::Kind::student,
+                      .centre = 0.5 * std::log(usual_low * usual_high),
+                      .scale = 0.25 * std::log(usual_high / usual_low)},
+                     low, high, neutral);
 }
 
 Parameter ratio_near_one(std::string name, const double relative_scale, const double low,
                          const double high) {
-  return {.name = std::move(name),
-          .unit = "1",
-          .relative_to = "times the simulated value",
-          .logarithmic = true,
-          .prior = {.kind = Prior::Kind::normal,
-                    .centre = 0.,
-                    .scale = relative_scale,
-                    .low = std::log(low),
-                    .high = std::log(high)},
-          .neutral = 1.};
+  return relative(
+      "times the simulated value",
+      logarithmic(std::move(name), "1", {.kind = Prior::Kind::normal, .scale = relative_scale}, low,
+                  high, 1.));
 }
 
 Parameter normal(std::string name, std::string unit, const double centre, const double scale,

@@ -12,20 +12,64 @@
 #include "signals/base/number_text.h"
 
 namespace vibrissa::diagnosis {
+
+using json = nlohmann::ordered_json;
+using signals::JsonEntry;
+
+static void to_json(json& out, const StructuralMode& mode) {
+  out = {{"frequency_rad_s", mode.frequency_rad_s},   {"damping_ratio", mode.damping_ratio},
+         {"base_gain_n_m_per_m_s2", mode.base_gain},  {"base_rate_n_m_per_m_s2", mode.base_rate},
+         {"wind_gain_n_m_per_m2_s2", mode.wind_gain}, {"wind_rate_n_m_per_m2_s2", mode.wind_rate}};
+}
+
+static void to_json(json& out, const ParameterPath& path) {
+  out = {{"frequency", path.frequency},
+         {"base_gain", path.base_gain},
+         {"wind_gain", path.wind_gain},
+         {"static_base_moment", path.static_base_moment},
+         {"static_wind_moment", path.static_wind_moment}};
+}
+
+static void to_json(json& out, const NominalModel& model) {
+  out = {{"readout", model.readout == signals::Readout::rotation ? "rotation" : "moment"},
+         {"modes", model.modes},
+         {"base_direct_n_m_per_m_s2", model.base_direct},
+         {"wind_direct_n_m_per_m2_s2", model.wind_direct},
+         {"has_base", model.has_base},
+         {"has_wind", model.has_wind},
+         {"joint_share", model.joint_share},
+         {"joint_share_deviation", model.joint_share_deviation},
+         {"joint_loss_factor", model.joint_loss_factor},
+         {"base_misfit", model.base_misfit},
+         {"wind_misfit", model.wind_misfit},
+         {"drag_curve",
+          {{"speed_m_s", model.drag_curve.speed_m_s}, {"factor", model.drag_curve.factor}}},
+         {"exponents_by_parameter", model.paths}};
+}
+
+static void to_json(json& out, const Scales& scales) {
+  out = {{"joint_moment_n_m", scales.joint_moment_n_m},
+         {"duration_s", scales.duration_s},
+         {"first_mode_rad_s", scales.first_mode_rad_s},
+         {"static_gain_n_m_per_m_s2", scales.static_gain},
+         {"moment_rms_n_m", scales.moment_rms_n_m}};
+}
+
+static void to_json(json& out, const KnownEffect& known) {
+  json parameters = json::array();
+  const Effect& effect = find_effect(known.id);
+  for (std::size_t i = 0; i < effect.parameters.size(); ++i)
+    parameters.push_back({{"name", effect.parameters[i].name},
+                          {"value", known.values[i]},
+                          {"unit", effect.parameters[i].unit}});
+  out = {{"id", known.id}, {"parameters", parameters}, {"scales", known.scales}};
+}
+
 namespace {
 
 /// The second name is that of files of program version 1.
 bool is_known_schema(const std::string& schema) {
   return schema == updated_model_schema || schema == "vibrissa-mended-model-1";  // version 1
-}
-
-using json = nlohmann::ordered_json;
-using signals::JsonEntry;
-
-json to_json(const StructuralMode& mode) {
-  return {{"frequency_rad_s", mode.frequency_rad_s},   {"damping_ratio", mode.damping_ratio},
-          {"base_gain_n_m_per_m_s2", mode.base_gain},  {"base_rate_n_m_per_m_s2", mode.base_rate},
-          {"wind_gain_n_m_per_m2_s2", mode.wind_gain}, {"wind_rate_n_m_per_m2_s2", mode.wind_rate}};
 }
 
 double positive(const JsonEntry& entry) {
@@ -49,14 +93,6 @@ StructuralMode read_mode(const JsonEntry& entry) {
           .wind_rate = entry["wind_rate_n_m_per_m2_s2"].number()};
 }
 
-json to_json(const ParameterPath& path) {
-  return {{"frequency", path.frequency},
-          {"base_gain", path.base_gain},
-          {"wind_gain", path.wind_gain},
-          {"static_base_moment", path.static_base_moment},
-          {"static_wind_moment", path.static_wind_moment}};
-}
-
 ParameterPath read_path(const JsonEntry& entry, const std::size_t n_modes) {
   const auto exponents = [&](const std::string& name) {
     std::vector<double> values = entry[name].numbers();
@@ -78,26 +114,6 @@ DragCurve read_drag_curve(const JsonEntry& entry) {
       std::ranges::adjacent_find(curve.speed_m_s, std::greater_equal()) == curve.speed_m_s.end(),
       "must be in ascending order");
   return curve;
-}
-
-json to_json(const NominalModel& model) {
-  json modes = json::array(), paths = json::object();
-  for (const auto& [name, path] : model.paths) paths[name] = to_json(path);
-  for (const StructuralMode& mode : model.modes) modes.push_back(to_json(mode));
-  return {{"readout", model.readout == signals::Readout::rotation ? "rotation" : "moment"},
-          {"modes", modes},
-          {"base_direct_n_m_per_m_s2", model.base_direct},
-          {"wind_direct_n_m_per_m2_s2", model.wind_direct},
-          {"has_base", model.has_base},
-          {"has_wind", model.has_wind},
-          {"joint_share", model.joint_share},
-          {"joint_share_deviation", model.joint_share_deviation},
-          {"joint_loss_factor", model.joint_loss_factor},
-          {"base_misfit", model.base_misfit},
-          {"wind_misfit", model.wind_misfit},
-          {"drag_curve",
-           {{"speed_m_s", model.drag_curve.speed_m_s}, {"factor", model.drag_curve.factor}}},
-          {"exponents_by_parameter", paths}};
 }
 
 signals::Readout read_readout(const JsonEntry& entry) {
@@ -125,30 +141,12 @@ NominalModel read_nominal(const JsonEntry& entry) {
   return model;
 }
 
-json to_json(const Scales& scales) {
-  return {{"joint_moment_n_m", scales.joint_moment_n_m},
-          {"duration_s", scales.duration_s},
-          {"first_mode_rad_s", scales.first_mode_rad_s},
-          {"static_gain_n_m_per_m_s2", scales.static_gain},
-          {"moment_rms_n_m", scales.moment_rms_n_m}};
-}
-
 Scales read_scales(const JsonEntry& entry) {
   return {.joint_moment_n_m = positive(entry["joint_moment_n_m"]),
           .duration_s = positive(entry["duration_s"]),
           .first_mode_rad_s = positive(entry["first_mode_rad_s"]),
           .static_gain = not_negative(entry["static_gain_n_m_per_m_s2"]),
           .moment_rms_n_m = positive(entry["moment_rms_n_m"])};
-}
-
-json to_json(const KnownEffect& known) {
-  json parameters = json::array();
-  const Effect& effect = find_effect(known.id);
-  for (std::size_t i = 0; i < effect.parameters.size(); ++i)
-    parameters.push_back({{"name", effect.parameters[i].name},
-                          {"value", known.values[i]},
-                          {"unit", effect.parameters[i].unit}});
-  return {{"id", known.id}, {"parameters", parameters}, {"scales", to_json(known.scales)}};
 }
 
 double read_value(const JsonEntry& entry, const Parameter& parameter) {
@@ -198,10 +196,8 @@ Chain UpdatedModel::chain() const {
 }
 
 std::string updated_model_json(const UpdatedModel& model) {
-  json effects = json::array();
-  for (const KnownEffect& known : model.effects) effects.push_back(to_json(known));
   const json document{
-      {"schema", updated_model_schema}, {"nominal", to_json(model.nominal)}, {"effects", effects}};
+      {"schema", updated_model_schema}, {"nominal", model.nominal}, {"effects", model.effects}};
   return document.dump(1);
 }
 

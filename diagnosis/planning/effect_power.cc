@@ -160,7 +160,7 @@ class PowerStudy {
     // The effect is too strong to be predicted.
     if (!change.allFinite()) return std::numeric_limits<double>::infinity();
     return project(point_, change, free_parameters(kind, effect.effect)).left +
-           std::max(0., point_.changes().beyond_square(change));
+           std::max(0., point_.beyond_square(change));
   }
 
   /// Secant steps in logarithms, because nats grow as a power of the size.
@@ -244,20 +244,15 @@ class PowerStudy {
 
   /// All parameters and all starts of the effects that take part in pairs, as directions.
   void set_directions() {
-    std::vector<Eigen::VectorXd> columns = point_.columns();
-    std::vector<double> half_priors;
-    for (const FitParameter& fit_parameter : point_.fit_parameters())
-      half_priors.push_back(half_prior(fit_parameter, fit_parameter.description.prior.centre,
-                                       fit_parameter.nuisance ? spreads_of_tolerance : 1.));
+    std::vector<Eigen::VectorXd> further;
     for (StudiedEffect& effect : effects_) {
-      effect.first_column = columns.size();
+      effect.first_column = point_.columns().size() + further.size();
       for (const FaintStart& start : effect.faint) {
-        columns.push_back(start.change);
-        if (!start.change.allFinite()) columns.back().setZero();
+        further.push_back(start.change);
+        if (!start.change.allFinite()) further.back().setZero();
       }
     }
-    half_priors.resize(columns.size(), 0.);
-    directions_ = FisherDirections(columns, half_priors);
+    directions_ = FisherDirections(point_, further);
   }
 
   /// Nats of the effect's direction, at its typical energy, that remain when all directions of the

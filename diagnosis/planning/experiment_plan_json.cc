@@ -165,20 +165,17 @@ std::string plan_json(const ExperimentPlan& plan) {
 std::string plan_text(const ExperimentPlan& plan) {
   constexpr std::size_t most_lines = 20;
   Words lines;
-  const auto add = [&](const std::string& line) {
-    if (line.empty()) return;
-    for (std::string& part : wrapped(line, 2)) lines.push_back(std::move(part));
+  const auto add = [&](const Words& added) {
+    for (const std::string& line : added)
+      for (std::string& part : wrapped(line, 2)) lines.push_back(std::move(part));
   };
-  add(records_line(plan));
-  add(detected_line(plan));
-  for (const std::string& line : not_shown_lines(plan)) add(line);
-  for (const std::string& line : limits_lines(plan)) add(line);
-  for (const std::string& line : alike_lines(plan)) add(line);
+  add({records_line(plan), detected_line(plan)});
+  for (const auto& part : {not_shown_lines(plan), limits_lines(plan), alike_lines(plan)}) add(part);
   Words steps;
   std::swap(steps, lines);
-  add("Probability that an effect stays undetected or is mistaken for another (undecided): " +
-      percent(plan.undecided));
-  for (const std::string& line : step_lines(plan)) add(line);
+  add({"Probability that an effect stays undetected or is mistaken for another (undecided): " +
+       percent(plan.undecided)});
+  add(step_lines(plan));
   // The recommended experiments are never cut.
   if (steps.size() + lines.size() > most_lines) steps.resize(most_lines - lines.size());
   steps.insert(steps.end(), lines.begin(), lines.end());

@@ -31,19 +31,6 @@ std::vector<double> lines_of(std::size_t n, const std::vector<std::size_t>& line
   return samples_of(spectrum, n);
 }
 
-class NoiseMaker {
- public:
-  std::vector<double> with_noise(std::vector<double> x, std::size_t n, double deviation) {
-    x.resize(n, 0.);
-    for (double& value : x) value += deviation * normal_(random_);
-    return x;
-  }
-
- private:
-  std::mt19937 random_{20240611};
-  std::normal_distribution<double> normal_;
-};
-
 using Inputs = std::vector<PlannedInput>;
 
 constexpr double usual_level = 4., usual_wind = 2.;  // m/s^2 rms, m/s
@@ -191,20 +178,26 @@ PlannedInput gust_input(const std::string& name, const double mean_m_s, const do
 signals::Dataset planned_dataset(const NominalModel& nominal,
                                  const std::vector<PlannedInput>& inputs,
                                  const ChannelNoise& noise) {
-  NoiseMaker maker;
+  std::mt19937 random(20240611);
+  std::normal_distribution<double> normal;
+  const auto with_noise = [&](std::vector<double> x, const std::size_t n, const double deviation) {
+    x.resize(n, 0.);
+    for (double& value : x) value += deviation * normal(random);
+    return x;
+  };
   signals::Dataset out;
   for (const PlannedInput& input : inputs) {
     const std::size_t n = input.n_samples;
     signals::Record record(input.sampling_rate_hz, n);
     record.set_channel(channel::base_acceleration,
-                       maker.with_noise(input.acceleration, n, noise.acceleration_m_s2));
+                       with_noise(input.acceleration, n, noise.acceleration_m_s2));
     if (!input.cross_acceleration.empty())
       record.set_channel(channel::cross_acceleration,
-                         maker.with_noise(input.cross_acceleration, n, noise.acceleration_m_s2));
+                         with_noise(input.cross_acceleration, n, noise.acceleration_m_s2));
     const std::vector<Complex> moment =
         nominal_moment(nominal, n, input.sampling_rate_hz, input.acceleration, input.wind);
     record.set_channel(channel::base_moment,
-                       maker.with_noise(samples_of(moment, n), n, noise.moment_n_m));
+                       with_noise(samples_of(moment, n), n, noise.moment_n_m));
     if (!input.wind.empty()) record.set_channel(channel::wind_speed, input.wind);
     out.records.push_back({input.name,
                            std::move(record),

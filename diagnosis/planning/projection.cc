@@ -5,36 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/fit/fit_posterior.h"
-
 namespace vibrissa::diagnosis {
 namespace {
-
-Eigen::VectorXd nominal_x(const std::vector<FitParameter>& fit_parameters,
-                          const ChannelNoise& noise) {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(fit_parameters.size()));
-  for (std::size_t i = 0; i < fit_parameters.size(); ++i)
-    x(static_cast<Eigen::Index>(i)) = fit_parameters[i].description.prior.centre;
-  x(index_of_moment_noise) = std::log(noise.moment_n_m);
-  x(index_of_acceleration_noise) = std::log(noise.acceleration_m_s2);
-  // The limits are those by noise alone.
-  x(index_of_incoherence) = fit_parameters[index_of_incoherence].description.prior.low;
-  return x;
-}
-
-ReferencePoint nominal_point(const Experiment& experiment, const ChannelNoise& noise) {
-  std::vector<FitParameter> fit_parameters = make_fit_parameters(experiment, Hypothesis{});
-  const Eigen::VectorXd x = nominal_x(fit_parameters, noise);
-  FitPosterior posterior(experiment, fit_parameters, Hypothesis{});
-  const std::vector<Prediction> at = posterior.predict(x);
-  posterior.update_slow_variance(x, at);
-  std::vector<double> deviation;
-  for (std::size_t r = 0; r < at.size(); ++r)
-    for (const double variance :
-         posterior.variance(x, at[r], r, posterior.acceleration_variance(x)))
-      deviation.push_back(std::sqrt(variance));
-  return {experiment, std::move(fit_parameters), x, std::move(deviation)};
-}
 
 /// Remaining nats that count as zero.
 constexpr double surely_followed = 0.5;
@@ -47,9 +19,8 @@ class LeastSquaresProjection {
                          const std::optional<Alternative>& alternative)
       : point_(point), change_(change), fit_parameters_(fit_parameters), alternative_(alternative) {
     for (const std::size_t i : fit_parameters) {
-      const FitParameter& own = point.fit_parameters()[i];
-      add(own.description, point.x()(static_cast<Eigen::Index>(i)),
-          half_prior(own, own.description.prior.centre, own.nuisance ? spreads_of_tolerance : 1.));
+      const auto index = static_cast<Eigen::Index>(i);
+      add(point.fit_parameters()[i].description, point.x()(index), point.half_priors()(index));
     }
     for (std::size_t i = 0; alternative && i < alternative->values.size(); ++i) {
       const Parameter& own = alternative->effect->parameters[i];
@@ -67,10 +38,9 @@ class LeastSquaresProjection {
     for (int i = 0; i < n_steps && !ended_; ++i) step();
     if (!alternative_) return {.left = cost_};
     const Eigen::VectorXd alone = point_.change(parameters_at(z_));
-    return {
-        .left = cost_,
-        .alternative_energy = std::min(point_.changes().mean_energy(change_),
-                                       point_.changes().mean_energy(change_ - residual_ - alone))};
+    return {.left = cost_,
+            .alternative_energy = std::min(point_.mean_energy(change_),
+                                           point_.mean_energy(change_ - residual_ - alone))};
   }
 
  private:
@@ -219,36 +189,6 @@ class LeastSquaresProjection {
 };
 
 }  // namespace
-
-ReferencePoint::ReferencePoint(const Experiment& experiment,
-                               std::vector<FitParameter> fit_parameters, Eigen::VectorXd x,
-                               std::vector<double> deviation)
-    : experiment_(experiment),
-      fit_parameters_(std::move(fit_parameters)),
-      x_(std::move(x)),
-      changes_(experiment, std::move(deviation), noisy_chain(experiment, fit_parameters_, x_)) {
-  for (std::size_t i = 0; i < fit_parameters_.size(); ++i) {
-    Eigen::VectorXd x = x_;
-    const auto index = static_cast<Eigen::Index>(i);
-    const double h = fit_parameters_[i].description.step_at(x(index));
-    x(index) += h;
-    columns_.push_back(change(x) / h);
-  }
-}
-
-NominalPoint::NominalPoint(const Experiment& experiment, const ChannelNoise& noise)
-    : ReferencePoint(nominal_point(experiment, noise)) {}
-
-Eigen::VectorXd ReferencePoint::change(const Eigen::VectorXd& x, const Effect* left_out) const {
-  return changes_.of(noisy_chain(experiment_, fit_parameters_, x, left_out));
-}
-
-Eigen::VectorXd ReferencePoint::change(const Eigen::VectorXd& x, const Effect& effect,
-                                       const std::vector<double>& values) const {
-  NoisyChain moved = noisy_chain(experiment_, fit_parameters_, x);
-  effect.extend(moved.chain, values, experiment_.scales);
-  return changes_.of(moved);
-}
 
 Projection project(const ReferencePoint& point, const Eigen::VectorXd& change,
                    const std::vector<std::size_t>& fit_parameters,

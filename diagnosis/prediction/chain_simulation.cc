@@ -21,12 +21,9 @@ std::vector<Complex> wind_force_spectrum(const Chain& chain, const PreparedRecor
 /// Derivative of (u - v) |u - v| by the base velocity at rest, root mean square over the wind
 /// record.
 double drag_per_velocity(const Chain& chain, const PreparedRecord& record) {
-  double sum = 0.;
-  for (const double u : record.wind) sum += u * u;
-  return record.wind.empty()
-             ? 0.
-             : 2. * chain.relative_wind.base_share * chain.drag_factor * record.wind_share *
-                   std::sqrt(sum / static_cast<double>(record.wind.size()));
+  if (record.wind.empty()) return 0.;
+  return 2. * chain.relative_wind.base_share * chain.drag_factor * record.wind_share *
+         std::sqrt(mean_square(record.wind));
 }
 
 Complex reading_of_source(const Chain& chain, const PreparedRecord& record, std::size_t k) {

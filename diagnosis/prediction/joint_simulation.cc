@@ -97,26 +97,24 @@ class DifferenceIntegrator {
   int n_corrections_ = 0;
 };
 
-/// A record on the fine time grid. Periodic records are in steady state, so their last part is
-/// prepended.
-struct FineSignal {
-  std::vector<double> samples{};
-  std::size_t before = 0;
-};
+std::size_t warm_up(const PreparedRecord& record, std::size_t factor) {
+  const std::size_t n = record.n_samples * factor;
+  return record.periodic ? n - n / 2 : 0;
+}
 
-/// All steps of a record; zero after its end.
-std::vector<double> all_steps(const FineSignal& signal, std::size_t n_steps) {
-  const auto& [x, before] = signal;
+/// All steps of a record on the fine time grid, zero after its end. Periodic records are in steady
+/// state, so their last part is prepended.
+std::vector<double> all_steps(const PreparedRecord& record, std::span<const Complex> spectrum,
+                              std::size_t factor, std::size_t n_steps) {
+  const std::vector<double> x = upsampled(spectrum, record.n_samples, factor);
+  const auto before = static_cast<std::ptrdiff_t>(warm_up(record, factor));
   std::vector<double> out(n_steps, 0.);
-  std::copy(x.end() - static_cast<std::ptrdiff_t>(before), x.end(), out.begin());
-  std::copy(x.begin(), x.end(), out.begin() + static_cast<std::ptrdiff_t>(before));
+  std::copy(x.begin(), x.end(), std::copy(x.end() - before, x.end(), out.begin()));
   return out;
 }
 
 /// One lane per record.
-std::vector<Lanes> interleaved(const std::vector<FineSignal>& signals, std::size_t n_steps) {
-  std::vector<std::vector<double>> of_lanes;
-  for (const FineSignal& signal : signals) of_lanes.push_back(all_steps(signal, n_steps));
+std::vector<Lanes> interleaved(std::vector<std::vector<double>> of_lanes, std::size_t n_steps) {
   of_lanes.resize(n_lanes, std::vector<double>(n_steps, 0.));
   std::array<const double*, n_lanes> x{};
   for (std::size_t lane = 0; lane < n_lanes; ++lane) x[lane] = of_lanes[lane].data();
@@ -133,11 +131,6 @@ struct FineSignals {
   Lanes wind_share = Lanes::Zero();
 };
 
-std::size_t warm_up(const PreparedRecord& record, std::size_t factor) {
-  const std::size_t n = record.n_samples * factor;
-  return record.periodic ? n - n / 2 : 0;
-}
-
 std::vector<Complex> base_velocity(const PreparedRecord& record) {
   std::vector<Complex> velocity(record.n_samples / 2 + 1, 0.);
   for (std::size_t k = 1; k < velocity.size() && k < record.acceleration.size(); ++k) {
@@ -149,30 +142,32 @@ std::vector<Complex> base_velocity(const PreparedRecord& record) {
 
 FineSignals fine_signals(const Chain& chain, std::span<const ElasticMoment> elastic,
                          std::size_t factor, std::size_t n_steps) {
-  std::vector<FineSignal> y, y_rate, wind, base;
+  std::vector<std::vector<double>> y, y_rate, wind, base;
   Lanes wind_share = Lanes::Zero();
   bool any_wind = false;
   for (std::size_t lane = 0; lane < elastic.size(); ++lane) {
     const PreparedRecord& record = *elastic[lane].record;
-    const std::size_t n = record.n_samples, before = warm_up(record, factor);
-    y.push_back({upsampled(elastic[lane].spectrum, n, factor), before});
+    const auto fine = [&](std::span<const Complex> spectrum) {
+      return all_steps(record, spectrum, factor, n_steps);
+    };
+    y.push_back(fine(elastic[lane].spectrum));
     std::vector<Complex> rate = elastic[lane].spectrum;
     for (std::size_t k = 0; k < rate.size(); ++k) rate[k] *= record.line_s(k);
-    y_rate.push_back({upsampled(rate, n, factor), before});
-    wind.emplace_back();
-    base.emplace_back();
+    y_rate.push_back(fine(rate));
+    wind.emplace_back(n_steps, 0.);
+    base.emplace_back(n_steps, 0.);
     if (!chain.relative_wind.on || record.wind.empty()) continue;
     any_wind = true;
     wind_share(static_cast<Eigen::Index>(lane)) = record.wind_share;
-    wind.back() = {upsampled(spectrum_of(record.wind), n, factor), before};
-    base.back() = {upsampled(base_velocity(record), n, factor), before};
+    wind.back() = fine(spectrum_of(record.wind));
+    base.back() = fine(base_velocity(record));
   }
-  FineSignals out{.y = interleaved(y, n_steps),
-                  .y_rate = interleaved(y_rate, n_steps),
+  FineSignals out{.y = interleaved(std::move(y), n_steps),
+                  .y_rate = interleaved(std::move(y_rate), n_steps),
                   .wind_share = wind_share};
   if (any_wind) {
-    out.wind = interleaved(wind, n_steps);
-    out.base_velocity = interleaved(base, n_steps);
+    out.wind = interleaved(std::move(wind), n_steps);
+    out.base_velocity = interleaved(std::move(base), n_steps);
   }
   return out;
 }

@@ -9,7 +9,6 @@
 #include <numeric>
 #include <random>
 
-#include "diagnosis/fit/noise_levels.h"
 #include "diagnosis/prediction/chain_simulation.h"
 #include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
@@ -18,6 +17,42 @@
 
 namespace vibrissa::diagnosis {
 namespace {
+
+/// Noise variance of a channel per sample [(N m)^2, (m/s^2)^2], and the standard deviation of the
+/// logarithm of its square root.
+struct NoiseLevel {
+  double variance = 0., log_deviation = 0.;
+};
+
+struct NoiseLevels {
+  NoiseLevel moment, acceleration;
+};
+
+NoiseLevel noise_level(const HypothesisFit& fit, const std::size_t fit_parameter) {
+  const auto index = static_cast<Eigen::Index>(fit_parameter);
+  return {std::exp(2. * fit.x(index)), std::sqrt(fit.covariance(index, index))};
+}
+
+/// Noise levels measured at rest, so that the error of a poor fit does not count as noise; without
+/// such records as fitted. A fit that names reference_noise includes it. chain: the fit's chain.
+NoiseLevels noise_levels(const Experiment& experiment, const HypothesisFit& fit,
+                         const Chain& chain) {
+  NoiseLevels levels{noise_level(fit, index_of_moment_noise),
+                     noise_level(fit, index_of_acceleration_noise)};
+  double lines = 0.;
+  for (const PreparedRecord& record : experiment.records)
+    if (record.excitation == signals::Excitation{})
+      lines += 0.5 * static_cast<double>(record.n_bins());
+    else if (record.periodic)
+      lines += 0.5 * static_cast<double>(record.n_acceleration_noise);
+  if (lines < 32.) return levels;
+  const double deviation = 0.5 / std::sqrt(lines);
+  levels.moment = {experiment.moment_noise * experiment.moment_noise, deviation};
+  if (chain.reference_variance == 0.)
+    levels.acceleration = {experiment.acceleration_noise * experiment.acceleration_noise,
+                           deviation};
+  return levels;
+}
 
 using Samples = Eigen::VectorXd;
 

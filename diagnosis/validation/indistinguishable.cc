@@ -4,9 +4,8 @@
 #include <span>
 
 #include "diagnosis/planning/effect_power.h"
-#include "diagnosis/planning/projection.h"
+#include "diagnosis/planning/reference_point.h"
 #include "diagnosis/search/effect_size.h"
-#include "diagnosis/search/fisher_changes.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -27,25 +26,21 @@ std::vector<double> deviation_of(const Experiment& experiment, const HypothesisF
 class Directions {
  public:
   Directions(const Experiment& experiment, const HypothesisFit& fit)
-      : point_(experiment, fit.fit_parameters, fit.x, deviation_of(experiment, fit)),
+      : point_(experiment, fit.fit_parameters, fit.x, deviation_of(experiment, fit),
+               {.nuisances = n_spreads, .others = n_spreads}),
         n_parameters_(fit.fit_parameters.size()) {
-    std::vector<Eigen::VectorXd> columns = point_.columns();
-    std::vector<double> half_priors;
-    for (const FitParameter& fit_parameter : fit.fit_parameters) {
-      const auto index = static_cast<Eigen::Index>(effects_.size());
-      half_priors.push_back(half_prior(fit_parameter, fit.x(index), n_spreads));
+    std::vector<Eigen::VectorXd> further;
+    for (const FitParameter& fit_parameter : fit.fit_parameters)
       effects_.push_back(fit_parameter.effect);
-    }
     for (const Effect& effect : effect_catalogue()) {
       if (std::ranges::count(effects_, &effect) > 0 || !shows(experiment, effect)) continue;
       for (const std::vector<double>& start : effect.starts) {
         const EffectFamily family(effect, size_parameters(effect), start);
-        columns.push_back(point_.change(fit.x, effect, family.values(faint_share)));
+        further.push_back(point_.change(fit.x, effect, family.values(faint_share)));
         effects_.push_back(&effect);
       }
     }
-    half_priors.resize(columns.size(), 0.);
-    directions_ = FisherDirections(columns, half_priors);
+    directions_ = FisherDirections(point_, further);
   }
 
   /// The indistinguishable sets of one named effect of the fit.

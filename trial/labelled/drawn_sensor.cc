@@ -34,7 +34,7 @@ std::string DrawnSensor::shown_name(const diagnosis::NominalPoint& point) const 
   std::vector<std::string> shown;
   for (const std::string& id : diagnosis::effect_ids(name_)) {
     const Eigen::VectorXd change = point.change(point.x(), diagnosis::find_effect(id), values(id));
-    const double nats = change.squaredNorm() + point.changes().beyond_square(change);
+    const double nats = change.squaredNorm() + point.beyond_square(change);
     if (2. * nats >= deviations_to_detect * deviations_to_detect) shown.push_back(id);
   }
   return diagnosis::joined_name(shown);
