@@ -47,7 +47,7 @@ void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
   std::string text =
       "too little data for a diagnosis: no fit record is long enough and has an excitation that is "
       "both measured and simulated";
-  for (const Finding& finding : findings) text += "\n" + finding.text();
+  for (const Finding& finding : findings) text.append("\n").append(finding.text());
   throw TooLittleData(text);
 }
 
