@@ -207,8 +207,7 @@ Effect viscoelastic() {
 }
 
 Effect extra_mode() {
-  constexpr double lowest_hz = 45.;
-  Parameter frequency = log_uniform("frequency", "Hz", lowest_hz, 240., 100.);
+  Parameter frequency = log_uniform("frequency", "Hz", 45., 240., 100.);
   // Beyond the motion it is no more than the residual of modes that the simulation lacks.
   frequency.in_moved_band = true;
   return Effect{.id = "extra_mode",
@@ -216,7 +215,7 @@ Effect extra_mode() {
                 .link = Link::structure,
                 .source = "Ewins 2000, ch. 2: response as a sum of modes",
                 .model_form_error = 0.03,
-                .needs = {.base = true, .moved_s = 3., .moved_hz = lowest_hz},
+                .needs = {.base = true, .moved_s = 3.},
                 .parameters = {frequency,
                                relative("of critical damping",
                                         log_uniform("damping_ratio", "1", 0.004, 0.15, 0.02)),

@@ -47,7 +47,7 @@ struct Parameter {
   Prior prior{};
   double neutral = 0.;   // value (not x) at which the effect vanishes
   std::size_t mode = 0;  // acts only where the simulation has at least so many modes
-  /// A frequency below Scales::moved_band_hz.
+  /// A frequency below Scales::moved_band_hz; data whose band ends below its range do not show it.
   bool in_moved_band = false;
   double step = 1e-4;  // step of x for derivatives
   /// Largest change of x in one iteration of a fit, because basins of attraction may be narrow.
@@ -91,7 +91,6 @@ struct Needs {
   bool base = false, wind = false, cross = false;
   bool repeats = false;  // an accelerometer with sample-and-hold repeats
   double moved_s = 0.;   // least duration of motion in all records together
-  double moved_hz = 0.;  // the base's motion reaches at least this frequency
 };
 
 /// One entry of the catalogue of docs/effects.md (equation, sources of ranges and priors, what

@@ -309,7 +309,10 @@ std::vector<Lack> lacks(const Experiment& experiment, const Effect& effect) {
   if (experiment.nominal.modes.empty() && !acts_without_modes(effect)) out.push_back(Lack::modes);
   if (needs.moved_s > 0. && moved_seconds(experiment) <= needs.moved_s)
     out.push_back(Lack::duration);
-  if (needs.moved_hz > 0. && experiment.scales.moved_band_hz < needs.moved_hz)
+  const double highest = std::log(experiment.scales.moved_band_hz);
+  if (std::ranges::any_of(effect.parameters, [&](const Parameter& parameter) {
+        return parameter.in_moved_band && highest < parameter.prior.low;
+      }))
     out.push_back(Lack::band);
   return out;
 }
