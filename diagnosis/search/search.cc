@@ -81,7 +81,6 @@ class Searcher {
 
   SearchResult run() {
     fit_all({{Hypothesis{}, std::nullopt}});
-    fit_all({{Hypothesis::discrepancy(), 0}});
     for (std::size_t size = 1; size <= options_.max_effects; ++size) {
       if (is_late() || (size > 1 && !has_improved(size))) break;
       const std::size_t n_before = fits_.size();
@@ -342,10 +341,12 @@ class Searcher {
     return out;
   }
 
-  /// Single effects: those that the residual of the recalibrated simulation resembles, and those
-  /// that calibration parameters may have absorbed.
+  /// An unknown cause, and single effects: those that the residual of the recalibrated simulation
+  /// resembles, and those that calibration parameters may have absorbed.
   std::vector<Task> single_effects() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     std::vector<Task> tasks = extended(0, fits_.front(), 0.);
+    tasks.push_back({.hypothesis = Hypothesis::discrepancy(), .start = 0, .hoped = infinity});
     if (!has_recalibrated(fits_.front())) return tasks;
     // Stiffness, damping and gain together do what another mass does, so no residual shows it.
     const auto mass = std::ranges::find(testable_, "mass", &Effect::id);
@@ -353,7 +354,7 @@ class Searcher {
       tasks.push_back({.hypothesis = Hypothesis({*mass}),
                        .start = 0,
                        .effect = *mass,
-                       .hoped = std::numeric_limits<double>::infinity()});
+                       .hoped = infinity});
     const HypothesisFit as_simulated = fit_as_simulated(experiment_);
     for (Task& task :
          extended(0, as_simulated, fits_.front().log_posterior - as_simulated.log_posterior)) {
