@@ -93,7 +93,11 @@ std::optional<Finding> contradiction(const Diagnosis& diagnosis, const Hypothesi
 
 void rank(Diagnosis& out, const SearchResult& result, const NominalModel& nominal) {
   const Candidate& best = result.candidates.front();
-  out.probability_of_tried = probability_of_tried(answer_kind(best.name), best.probability);
+  double same_effects = 0.;
+  for (const Candidate& candidate : result.candidates)
+    if (without_calibrations(candidate.name) == without_calibrations(best.name))
+      same_effects += candidate.probability;
+  out.probability_of_tried = probability_of_tried(answer_kind(best.name), same_effects);
   const auto outside = std::ranges::find(result.candidates, outside_catalogue, &Candidate::name);
   out.probability_of_outside =
       out.probability_of_tried * (outside == result.candidates.end() ? 0. : outside->probability) +

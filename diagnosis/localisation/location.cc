@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "diagnosis/model/words.h"
-#include "diagnosis/search/calibrated_odds.h"
 
 namespace vibrissa::diagnosis {
 
@@ -28,7 +27,7 @@ Location locate_gap(const Experiment& experiment) {
 
 std::vector<std::string> likely_links(const SearchResult& result) {
   constexpr double least = 0.1;
-  if (answer_kind(result.candidates.front().name) == AnswerKind::none) return {};
+  if (result.candidates.front().name == "none") return {};
   std::map<std::string, double> sums;
   for (const Candidate& candidate : result.candidates) {
     std::set<std::string> links;

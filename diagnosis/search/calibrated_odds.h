@@ -13,7 +13,10 @@ inline constexpr double confidence_in_fits = 0.6;
 /// 1 and more stay unchanged.
 double calibrated_odds(double odds_against, double confidence = confidence_in_fits);
 
-/// Kind of an answer; calibration effects count as effects.
+/// The effects of an answer beside wrong calibrations; "none" where there are none.
+std::string without_calibrations(const std::string& answer);
+
+/// Kind of an answer, by the number of its effects beside wrong calibrations.
 enum class AnswerKind { none, single, several, outside };
 AnswerKind answer_kind(const std::string& answer);
 
@@ -32,8 +35,9 @@ double unknown_share(AnswerKind kind);
 /// Logit of a probability, limited to probabilities between 1e-4 and 1 - 1e-4.
 double log_odds(double probability);
 
-/// Probability that any tested answer is right, when the best one has the given probability among
-/// them; at most 1. Proven by tests/diagnosis/search/calibrated_odds_test.cc.
+/// Probability that any tested answer is right, when those with the effects of the best one have
+/// the given probability among them; at most 1. Proven by
+/// tests/diagnosis/search/calibrated_odds_test.cc.
 double probability_of_tried(AnswerKind kind, double best);
 
 }  // namespace vibrissa::diagnosis

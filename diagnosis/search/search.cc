@@ -281,10 +281,10 @@ class Searcher {
     return gain > std::max(0., least_part * left);
   }
 
-  /// Does a fit leave so much of the error of the recalibrated simulation that another combination
-  /// may be the right one? If not, only noise may still be missing.
+  /// Does a fit leave so much of the error of the recalibrated simulation that a further effect may
+  /// be worth a name? If not, only noise may still be missing.
   bool leaves_much(std::size_t fit) const {
-    constexpr double enough = 0.003;
+    constexpr double enough = 0.5 * least_share;
     double measured = 0.;
     for (const PreparedRecord& record : experiment_.records) measured += total_power(record.moment);
     return left_by(fit) >= std::max(enough * left_by(known_.at("none")),
@@ -351,10 +351,8 @@ class Searcher {
     // Stiffness, damping and gain together do what another mass does, so no residual shows it.
     const auto mass = std::ranges::find(testable_, "mass", &Effect::id);
     if (mass != testable_.end() && std::ranges::find(tasks, *mass, &Task::effect) == tasks.end())
-      tasks.push_back({.hypothesis = Hypothesis({*mass}),
-                       .start = 0,
-                       .effect = *mass,
-                       .hoped = infinity});
+      tasks.push_back(
+          {.hypothesis = Hypothesis({*mass}), .start = 0, .effect = *mass, .hoped = infinity});
     const HypothesisFit as_simulated = fit_as_simulated(experiment_);
     for (Task& task :
          extended(0, as_simulated, fits_.front().log_posterior - as_simulated.log_posterior)) {

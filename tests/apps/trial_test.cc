@@ -128,8 +128,8 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
   EXPECT_EQ(share("single at 3 limits, right"), Pair(1, 2));
   EXPECT_EQ(share("single of all sizes, right"), Pair(1, 3));
   EXPECT_EQ(share("none, false alarm"), Pair(0, 1));
-  EXPECT_EQ(score.trust.at("none").second, 2u);
-  EXPECT_EQ(score.trust.at("single").second, 4u);
+  EXPECT_EQ(score.trust.at("none").second, 3u);
+  EXPECT_EQ(score.trust.at("single").second, 3u);
   // One of the two wrong answers had a cause outside the catalogue.
   EXPECT_EQ(score.unknown.at("single").hits, 1u);
   EXPECT_EQ(score.unknown.at("single").of, 2u);

@@ -135,13 +135,14 @@ json as_version_2(json diagnosis) {
 void read_answer(ScoredCase& out, const json& diagnosis, const json& effects) {
   out.verdict = diagnosis.at("verdict");
   const json& ranking = diagnosis.at("ranking");
-  out.probability = ranking.at(0).at("probability");
   out.probability_of_tried = diagnosis.value("probability_of_tried", 1.);
   out.probability_of_outside = diagnosis.value("probability_of_outside", 0.);
   for (std::size_t i = 0; i < ranking.size(); ++i) {
     const std::string name = ranking[i].at("effect");
     if (i < 3) out.in_top_three |= is_right(out, name);
     out.probabilities[name] = ranking[i].at("probability");
+    if (compared(out, name) == compared(out, out.verdict))
+      out.probability += ranking[i].at("probability").get<double>();
   }
   out.right = is_right(out, out.verdict);
   out.right_within_set = out.right || within_a_set(diagnosis.at("indistinguishable"), out.truth,

@@ -30,8 +30,9 @@ TEST(Calibration, AnAnswerIsOfTheKindOfWhatItNames) {
   EXPECT_EQ(answer_kind("none"), AnswerKind::none);
   EXPECT_EQ(answer_kind("outside_catalogue"), AnswerKind::outside);
   EXPECT_EQ(answer_kind("hardening"), AnswerKind::single);
-  EXPECT_EQ(answer_kind("sensor_gain"), AnswerKind::single);
-  EXPECT_EQ(answer_kind("hardening+sensor_gain"), AnswerKind::several);
+  EXPECT_EQ(answer_kind("sensor_gain"), AnswerKind::none);
+  EXPECT_EQ(answer_kind("hardening+sensor_gain"), AnswerKind::single);
+  EXPECT_EQ(answer_kind("delay+hardening+sensor_gain"), AnswerKind::several);
 }
 
 TEST(Calibration, NoTrustMakesAnAnswerSurer) {
