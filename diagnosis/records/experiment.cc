@@ -10,6 +10,7 @@
 
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/error.h"
+#include "signals/record/whole_transient.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -31,6 +32,7 @@ bool is_periodic(const DatasetRecord& entry) {
 std::optional<std::size_t> skipped_samples(const NominalModel& nominal,
                                            const DatasetRecord& entry) {
   if (is_periodic(entry) || entry.excitation == signals::Excitation{}) return std::nullopt;
+  if (!entry.excitation.wind && signals::is_whole_transient(entry.record)) return std::nullopt;
   return nominal.decay_samples(n_time_constants, entry.record.sampling_rate_hz()) + end_margin;
 }
 
