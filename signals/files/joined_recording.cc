@@ -33,9 +33,9 @@ void take_channels(const Record& from, const double rate_hz, const PlaceOf& plac
   }
 }
 
-// Adds the overlap of two pieces. Both pass the same filter: a response between them is as before.
+// Adds the overlap of two pieces.
 void add_overlap(const Record& slow, const Record& fast, const FastClock& clock,
-                 std::vector<Record>& records) {
+                 const SlowerDevice slower, std::vector<Record>& records) {
   const double rate = slow.sampling_rate_hz();
   const auto row_of = [&](const double time_s) { return (time_s - slow.time_s(0)) * rate; };
   const double end_s = fast.time_s(fast.n_samples() - 1);
@@ -44,9 +44,10 @@ void add_overlap(const Record& slow, const Record& fast, const FastClock& clock,
   const double to =
       std::floor(std::min(double(slow.n_samples() - 1), row_of(clock.slow_time_s(end_s))) - margin);
   if (to - from + 1. < double(least_samples)) return;
-  Record record(rate, std::size_t(to - from) + 1, slow.time_s(std::size_t(from)));
-  take_channels(
-      slow, rate, [&](const std::size_t i) { return from + double(i); }, record);
+  Record record = slow.slice(std::size_t(from), std::size_t(to - from) + 1);
+  if (slower == SlowerDevice::filtered_alike)
+    take_channels(
+        slow, rate, [&](const std::size_t i) { return from + double(i); }, record);
   const auto fast_place = [&](const std::size_t i) {
     return (clock.fast_time_s(record.time_s(i)) - fast.time_s(0)) * fast.sampling_rate_hz();
   };
@@ -73,11 +74,12 @@ bool is_slower(const Recording& one, const Recording& other) {
   return one.pieces.front().sampling_rate_hz() <= other.pieces.front().sampling_rate_hz();
 }
 
-Recording overlap_of(const Recording& slow, const Recording& fast, const FastClock& clock) {
+Recording overlap_of(const Recording& slow, const Recording& fast, const FastClock& clock,
+                     const SlowerDevice slower) {
   Recording both;
   both.epoch_s = slow.epoch_s;
   for (const Record& a : slow.pieces)
-    for (const Record& b : fast.pieces) add_overlap(a, b, clock, both.pieces);
+    for (const Record& b : fast.pieces) add_overlap(a, b, clock, slower, both.pieces);
   if (both.pieces.empty())
     throw UserError("--join: the two files have no " + std::to_string(least_samples) +
                     " samples at the same time (the slower device begins at " +
@@ -133,17 +135,19 @@ Recording joined(const Recording& one, const Recording& other) {
   check_epochs(one, other);
   const bool is_one_slower = is_slower(one, other);
   const Recording &slow = is_one_slower ? one : other, &fast = is_one_slower ? other : one;
-  Recording both = overlap_of(slow, fast, {slow.epoch_s - fast.epoch_s, 1.});
+  Recording both =
+      overlap_of(slow, fast, {slow.epoch_s - fast.epoch_s, 1.}, SlowerDevice::filtered_alike);
   both.words = joined_words(both, "the stamps");
   return both;
 }
 
-Recording joined(const Recording& one, const Recording& other, const ClockRelation& clocks) {
+Recording joined(const Recording& one, const Recording& other, const ClockRelation& clocks,
+                 const SlowerDevice slower) {
   const Recording rest = without_channels_of(other, one);
   const double pace = 1. + clocks.drift;
   Recording both = is_slower(one, other)
-                       ? overlap_of(one, rest, {-clocks.offset_s / pace, 1. / pace})
-                       : overlap_of(rest, one, {clocks.offset_s, pace});
+                       ? overlap_of(one, rest, {-clocks.offset_s / pace, 1. / pace}, slower)
+                       : overlap_of(rest, one, {clocks.offset_s, pace}, slower);
   both.words =
       joined_words(both, is_slower(one, other) ? "the first file" : "the second, slower file") +
       "; " + clock_words(clocks);
