@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "diagnosis/model/words.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/record/channel_name.h"
-#include "signals/spectra/fft.h"
+#include "signals/spectra/frequency_response.h"
 
 namespace vibrissa::checks {
 namespace {
@@ -62,14 +61,14 @@ std::optional<double> step_of(std::span<const double> x, double range) {
   return step;
 }
 
-/// Powers under a Hann window; entry k belongs to line k.
-std::vector<double> windowed_powers(std::span<const double> x, double mean) {
-  std::vector<double> tapered(x.begin(), x.end());
-  const double n = double(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-    tapered[i] = (x[i] - mean) * (1. - std::cos(2. * std::numbers::pi * (double(i) + 0.5) / n));
-  std::vector<double> power;
-  for (const auto& line : signals::real_fft(tapered)) power.push_back(std::norm(line) / (n * n));
+/// Powers of the lines of the whole record under a Hann window: half the mean square of a tone at
+/// a line is in its line.
+std::vector<double> line_powers(std::span<const double> x, const double rate_hz) {
+  const std::size_t n = x.size();
+  std::vector<double> power = signals::welch_spectrum(x, rate_hz, {.segment_samples = n}).density;
+  // The noise bandwidth of the window is 1.5 lines, and a tone has 2/3 of its square in the middle.
+  const double half_of_a_tone = 0.75 * rate_hz / double(n);
+  for (double& p : power) p *= half_of_a_tone;
   return power;
 }
 
@@ -98,9 +97,11 @@ std::optional<double> standing_out(const std::vector<double>& power, std::size_t
 }
 
 void find_hum(std::span<const double> x, double rate_hz, ChannelFacts& facts) {
+  constexpr std::size_t fewest = 64;
+  if (x.size() < fewest) return;
   constexpr int n_harmonics = 10;
   constexpr double false_alarm = 0.01 / (2 * n_harmonics), grid_share = 2e-3;
-  const std::vector<double> power = windowed_powers(x, facts.mean);
+  const std::vector<double> power = line_powers(x, rate_hz);
   const double per_line_hz = rate_hz / double(x.size());
   for (const double mains_hz : {50., 60.}) {
     std::vector<HumLine> lines;

@@ -1,5 +1,6 @@
 #include "apps/command_line/record_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -211,11 +212,24 @@ signals::Recording RecordOptions::read_joined(const std::string& file) const {
   return join_clocks(one, other);
 }
 
-void RecordOptions::refuse_unused(const std::string& file) const {
+namespace {
+
+/// Whether this is a text table, or a folder that has one.
+bool is_text(const std::filesystem::path& file) {
   namespace formats = signals::formats;
-  const auto is_text = [](const std::string& name) {
-    return &formats::format_of(name) == &formats::file_formats().front();
-  };
+  if (std::error_code none; std::filesystem::is_directory(file, none)) {
+    const std::filesystem::directory_iterator entries(file);
+    return std::any_of(begin(entries), end(entries), [](const auto& entry) {
+      const auto ending = entry.path().extension();
+      return ending != ".json" && !entry.is_directory() && is_text(entry.path());
+    });
+  }
+  return &formats::format_of(file) == &formats::file_formats().front();
+}
+
+}  // namespace
+
+void RecordOptions::refuse_unused(const std::string& file) const {
   if (is_text(file) || (join && is_text(*join))) return;
   for (const auto& [name, is_given] : {std::pair{"--separator", separator.has_value()},
                                        {"--decimal", decimal.has_value()},

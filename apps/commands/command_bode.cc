@@ -57,6 +57,10 @@ views::BodeCurve of_case(const BodeOptions& options) {
 }
 
 MeasuredResponse of_record(const BodeOptions& options) {
+  if (!options.realisations.empty())
+    refuse_given(*options.command, {"--join"},
+                 "joins one record, and --realisation gives several; join each of them first by "
+                 "'vibrissa convert --join'");
   std::vector<signals::Record> records = {options.record.read(options.input)};
   for (const auto& file : options.realisations) records.push_back(options.record.read(file));
   return measure_response(records, options.response);

@@ -83,11 +83,12 @@ void diagnose_records(const DiagnoseCommand& options) {
   const bool show = options.common.is_talkative();
   options.simulation.check_one_is_given();
   options.record.refuse_unused(*options.real);
-  const signals::Dataset real = signals::read_dataset(*options.real, options.record.read_options());
-  if (show)
-    for (const std::string& reading : signals::short_readings(real.readings))
-      std::cerr << reading << std::endl;
-  const NominalInput::Simulation simulation = options.simulation.read(show);
+  const signals::ReadOptions reading = options.record.read_options();
+  const signals::Dataset real = signals::read_dataset(*options.real, reading);
+  const NominalInput::Simulation simulation = options.simulation.read(show, reading);
+  for (const signals::Dataset* dataset : {&real, &simulation.dataset})
+    for (const std::string& words : signals::short_readings(dataset->readings))
+      if (show) std::cerr << words << std::endl;
   refuse_the_same(simulation.dataset, real);
   // About forty single effects and combinations are fitted.
   constexpr std::size_t usual_fits = 75;

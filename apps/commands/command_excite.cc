@@ -146,7 +146,6 @@ void write_files(const ExciteOptions& options, const signals::DesignedExcitation
     signals::write_drive_wav(folder / (name + ".wav"), excitation, drive, format);
     document["drives"][i]["wav"] = name + ".wav";
   }
-  document["channel"] = channel;
   if (options.wav)
     document["wav_scale"] = "1.0 in the file is " + signals::to_text(excitation.full_scale()) +
                             " " + excitation.design.unit;
@@ -207,6 +206,13 @@ void refuse_unused(const ExciteOptions& options) {
   if (options.kind == "sweep") refuse({"--seed"}, "is for random drives, which a sweep is not");
   if (options.grid != "random-odd") refuse({"--group"}, "is for --grid random-odd");
   if (!options.wav) refuse({"--wav-format"}, "needs --wav");
+  // The first realisation begins with Schroeder's phases, unless they are to be random.
+  const bool has_random_phases = options.phase == "random" || (options.phase == "optimised" &&
+                                                               options.design.n_realisations > 1);
+  if (options.kind == "multisine" && options.grid != "random-odd" && !has_random_phases)
+    refuse({"--seed"},
+           "is for random lines or phases (--grid random-odd, --phase random, or several "
+           "--realisations)");
 }
 
 void excite(const ExciteOptions& options) {
@@ -214,6 +220,7 @@ void excite(const ExciteOptions& options) {
   refuse_unused(options);
   const auto excitation = signals::design_excitation(resolved(options));
   nlohmann::json document = signals::to_json(excitation);
+  document["channel"] = channel_of(options);
   std::optional<fs::path> folder;
   if (options.folder)
     folder = *options.folder;

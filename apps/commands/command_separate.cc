@@ -123,7 +123,7 @@ void add_wind_speeds(const SeparateOptions& options,
 }
 
 void separate_as_stream(const SeparateOptions& options) {
-  if (options.truth_column || options.sensor_model_file)
+  if (options.truth_column || options.dtw_path_file || options.sensor_model_file)
     throw signals::UserError(
         "--stream holds no record, which --truth, --dtw-path and --sensor-model need; leave "
         "--stream or these options out");
@@ -172,8 +172,11 @@ void refuse_unused(const SeparateOptions& options) {
   if (!uses_any(options, {"fdaf"})) refuse_given(command, {"--step"}, "needs --method fdaf");
   if (!options.sensor_model_file)
     refuse_given(command, {"--moment-deviation"}, "needs --sensor-model");
-  if (options.stream)
+  if (options.stream) {
     refuse_given(command, {"--settling"}, "is for scores, which --stream does not give");
+    if (options.record.gaps == "pieces")
+      refuse_given(command, {"--gaps"}, "pieces needs the whole record, and --stream refuses gaps");
+  }
   if (options.record.join)
     refuse_given(command, {"--truth", "--stream"},
                  "reads one file: join the files first by 'vibrissa convert --join'");

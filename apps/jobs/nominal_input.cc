@@ -1,5 +1,6 @@
 #include "apps/jobs/nominal_input.h"
 
+#include <exception>
 #include <filesystem>
 
 #include "case/case_file.h"
@@ -21,6 +22,23 @@ signals::ReducedModel solve_case(const std::string& file, bool show_progress) {
                                          show_progress);
 }
 
+// The error of the names in the file itself is the one that is said.
+signals::Dataset read_simulated(const std::string& source, const signals::ReadOptions& of_real) {
+  try {
+    return signals::read_dataset(source);
+  } catch (const signals::UserError&) {
+    if (of_real.columns.empty()) throw;
+    const std::exception_ptr failure = std::current_exception();
+    try {
+      return signals::read_dataset(source, {.columns = of_real.columns,
+                                            .sampling_rate_hz = of_real.sampling_rate_hz,
+                                            .text = of_real.text});
+    } catch (const signals::UserError&) {
+      std::rethrow_exception(failure);
+    }
+  }
+}
+
 }  // namespace
 
 double NominalInput::Simulation::sampling_rate_hz() const {
@@ -38,10 +56,11 @@ void NominalInput::check_one_is_given() const {
         "give the simulation either as --model CASE.prm|model.json or as --sim DATASET");
 }
 
-NominalInput::Simulation NominalInput::read(const bool show_progress) const {
+NominalInput::Simulation NominalInput::read(const bool show_progress,
+                                            const signals::ReadOptions& of_real) const {
   check_one_is_given();
   if (simulation) {
-    signals::Dataset dataset = signals::read_dataset(*simulation);
+    signals::Dataset dataset = read_simulated(*simulation, of_real);
     return {diagnosis::identify_nominal(dataset), std::move(dataset)};
   }
   if (diagnosis::is_updated_model(*model)) return {diagnosis::read_updated_model(*model), {}};

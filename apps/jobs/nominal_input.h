@@ -21,7 +21,9 @@ struct NominalInput {
     /// Of the first record; 0: none.
     double sampling_rate_hz() const;
   };
-  Simulation read(bool show_progress) const;
+  /// of_real: how the real sensor's files are read; its columns and rate are taken for --sim, too,
+  /// where --sim has no channel under a name of its own.
+  Simulation read(bool show_progress, const signals::ReadOptions& of_real = {}) const;
   /// What read() does first.
   void check_one_is_given() const;
   /// The model alone, which must be a case file or a reduced model.

@@ -57,7 +57,9 @@ ResponseClocks clocks_by_response(const signals::Recording& one, const signals::
                               is_moment_in_other ? base_moment : base_acceleration,
                               signals::SharedMotion::response);
   clocks.is_opposite = false;  // the sign is the sensor's
-  const signals::Recording both = signals::joined(one, other, clocks);
+  // All of the moment tells the delay, also where the acceleration has nothing left.
+  const signals::Recording both =
+      signals::joined(one, other, clocks, signals::SlowerDevice::as_recorded);
   const ElasticDelay late = delay_between(both.pieces[both.longest()]);
   clocks.offset_s += is_moment_in_other ? -late.delay_s.value : late.delay_s.value;
   result.sensor_part_s = delay_at_rest_s(late.model);

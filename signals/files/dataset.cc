@@ -117,6 +117,15 @@ std::vector<std::string> names_of(const json& list, const std::string& where) {
 
 ReadOptions options_of(const json& document, const json& entry, const std::string& where,
                        const ReadOptions& given) {
+  const auto refuse_twice = [&](const bool is_given, const std::string& key,
+                                const std::string& option) {
+    if (is_given && either(document, entry, key) != nullptr)
+      refuse_dataset(where, "dataset.json states '" + key + "', so " + option +
+                                " would not be used; leave one of them out");
+  };
+  refuse_twice(given.sampling_rate_hz.has_value(), "sampling_rate_hz", "--rate");
+  refuse_twice(!given.columns.empty(), "columns", "--column");
+  refuse_twice(!given.remove_mean.empty(), "remove_mean", "--remove-mean");
   ReadOptions options = given;
   if (const json* const rate = either(document, entry, "sampling_rate_hz")) {
     if (!rate->is_number()) refuse_dataset(where + "/sampling_rate_hz", "must be a number");
@@ -250,10 +259,32 @@ std::vector<fs::path> record_files(const fs::path& folder) {
   return files;
 }
 
+double power(const std::span<const double> values) {
+  const std::vector<double> x = remove_mean(values);
+  return std::inner_product(x.begin(), x.end(), x.begin(), 0.) / static_cast<double>(x.size());
+}
+
+/// Whether the base comes to rest before the last third, as in an earthquake: what is left there is
+/// a decay without a drive, which scores no prediction.
+bool ends_before(const Record& record, const std::size_t n_fit, const Excitation& excitation) {
+  if (!excitation.base || excitation.wind) return false;
+  constexpr double at_rest = 1e-2;  // of the power, 20 dB
+  const auto acceleration = record.channel(channel::base_acceleration);
+  return power(acceleration.subspan(n_fit)) < at_rest * power(acceleration.first(n_fit));
+}
+
 void add_guessed(const std::string& name, const Record& record, const double clock_start_s,
                  Dataset& dataset) {
   const Excitation excitation = guessed_excitation(record);
   const std::size_t n_fit = record.n_samples() * 2 / 3;
+  if (ends_before(record, n_fit, excitation)) {
+    dataset.records.push_back(
+        {.name = name, .record = record, .excitation = excitation, .clock_start_s = clock_start_s});
+    dataset.guesses.push_back(name +
+                              ": excitation base, not periodic, not held out, because the base "
+                              "rests in its last third");
+    return;
+  }
   dataset.records.push_back({.name = name,
                              .record = record.slice(0, n_fit),
                              .excitation = excitation,
@@ -267,6 +298,17 @@ void add_guessed(const std::string& name, const Record& record, const double clo
        .clock_start_s = clock_start_s + record.time_s(n_fit) - record.time_s(0)});
   dataset.guesses.push_back(name + ": excitation " + to_string(excitation) +
                             ", not periodic, last third held out");
+}
+
+/// Where no record has a part that is held out, the last of several.
+void hold_out_last(Dataset& dataset) {
+  const bool holds_out = std::ranges::any_of(
+      dataset.records, [](const DatasetRecord& r) { return r.split == Split::held_out; });
+  if (holds_out || dataset.records.size() < 2) return;
+  dataset.records.back().split = Split::held_out;
+  dataset.guesses.back() = dataset.records.back().name +
+                           ": excitation base, not periodic, held out, because the base rests in "
+                           "the last third of every record";
 }
 
 Dataset guess(const std::vector<fs::path>& files, const ReadOptions& options) {
@@ -283,6 +325,7 @@ Dataset guess(const std::vector<fs::path>& files, const ReadOptions& options) {
       add_guessed(name, piece, piece.time_s(0) - start_s, dataset);
     }
   }
+  hold_out_last(dataset);
   return dataset;
 }
 

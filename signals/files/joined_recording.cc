@@ -20,25 +20,38 @@ struct FastClock {
   double slow_time_s(const double fast_time_s) const { return (fast_time_s - offset_s) / pace; }
 };
 
-// Adds the overlap of two pieces.
-void add_overlap(const Record& slow, const Record& fast, const FastClock& clock,
-                 std::vector<Record>& records) {
-  const double rate = slow.sampling_rate_hz(), fast_rate = fast.sampling_rate_hz();
-  const double margin_s = BandLimitedSignal::half_length_samples / rate;
-  const double start = clock.slow_time_s(fast.time_s(0)) + margin_s;
-  const double end = clock.slow_time_s(fast.time_s(fast.n_samples() - 1)) - margin_s;
-  const double from = std::max(0., std::ceil((start - slow.time_s(0)) * rate));
-  const double to =
-      std::min(double(slow.n_samples() - 1), std::floor((end - slow.time_s(0)) * rate));
-  if (to - from + 1. < double(least_samples)) return;
-  Record record = slow.slice(std::size_t(from), std::size_t(to - from) + 1);
-  for (const std::string& name : fast.channel_names()) {
-    const auto between = BandLimitedSignal::at_rate(fast.channel(name), fast_rate, rate);
+// The values at the times of the record, of the clock that `place_of` gives in samples.
+template <typename PlaceOf>
+void take_channels(const Record& from, const double rate_hz, const PlaceOf& place_of,
+                   Record& record) {
+  for (const std::string& name : from.channel_names()) {
+    const auto between =
+        BandLimitedSignal::at_rate(from.channel(name), from.sampling_rate_hz(), rate_hz);
     std::vector<double> taken(record.n_samples());
-    for (std::size_t i = 0; i < taken.size(); ++i)
-      taken[i] = between.at((clock.fast_time_s(record.time_s(i)) - fast.time_s(0)) * fast_rate);
+    for (std::size_t i = 0; i < taken.size(); ++i) taken[i] = between.at(place_of(i));
     record.set_channel(name, std::move(taken));
   }
+}
+
+// Adds the overlap of two pieces.
+void add_overlap(const Record& slow, const Record& fast, const FastClock& clock,
+                 const SlowerDevice slower, std::vector<Record>& records) {
+  const double rate = slow.sampling_rate_hz();
+  const auto row_of = [&](const double time_s) { return (time_s - slow.time_s(0)) * rate; };
+  const double end_s = fast.time_s(fast.n_samples() - 1);
+  const double margin = BandLimitedSignal::half_length_samples;
+  const double from = std::ceil(std::max(0., row_of(clock.slow_time_s(fast.time_s(0)))) + margin);
+  const double to =
+      std::floor(std::min(double(slow.n_samples() - 1), row_of(clock.slow_time_s(end_s))) - margin);
+  if (to - from + 1. < double(least_samples)) return;
+  Record record = slow.slice(std::size_t(from), std::size_t(to - from) + 1);
+  if (slower == SlowerDevice::filtered_alike)
+    take_channels(
+        slow, rate, [&](const std::size_t i) { return from + double(i); }, record);
+  const auto fast_place = [&](const std::size_t i) {
+    return (clock.fast_time_s(record.time_s(i)) - fast.time_s(0)) * fast.sampling_rate_hz();
+  };
+  take_channels(fast, rate, fast_place, record);
   records.push_back(std::move(record));
 }
 
@@ -61,11 +74,12 @@ bool is_slower(const Recording& one, const Recording& other) {
   return one.pieces.front().sampling_rate_hz() <= other.pieces.front().sampling_rate_hz();
 }
 
-Recording overlap_of(const Recording& slow, const Recording& fast, const FastClock& clock) {
+Recording overlap_of(const Recording& slow, const Recording& fast, const FastClock& clock,
+                     const SlowerDevice slower) {
   Recording both;
   both.epoch_s = slow.epoch_s;
   for (const Record& a : slow.pieces)
-    for (const Record& b : fast.pieces) add_overlap(a, b, clock, both.pieces);
+    for (const Record& b : fast.pieces) add_overlap(a, b, clock, slower, both.pieces);
   if (both.pieces.empty())
     throw UserError("--join: the two files have no " + std::to_string(least_samples) +
                     " samples at the same time (the slower device begins at " +
@@ -77,7 +91,9 @@ Recording overlap_of(const Recording& slow, const Recording& fast, const FastClo
 
 std::string joined_words(const Recording& both, const std::string& clock) {
   return "joined on the clock of " + clock + " at " +
-         to_text(both.pieces.front().sampling_rate_hz()) +
+         to_text(both.pieces.front().sampling_rate_hz()) + " Hz, without what is above " +
+         to_text(
+             std::round(BandLimitedSignal::flat_share * both.pieces.front().sampling_rate_hz())) +
          " Hz: " + std::to_string(both.pieces.front().n_samples()) + " samples" +
          (both.pieces.size() > 1
               ? " in the first of " + std::to_string(both.pieces.size()) + " pieces"
@@ -119,17 +135,19 @@ Recording joined(const Recording& one, const Recording& other) {
   check_epochs(one, other);
   const bool is_one_slower = is_slower(one, other);
   const Recording &slow = is_one_slower ? one : other, &fast = is_one_slower ? other : one;
-  Recording both = overlap_of(slow, fast, {slow.epoch_s - fast.epoch_s, 1.});
+  Recording both =
+      overlap_of(slow, fast, {slow.epoch_s - fast.epoch_s, 1.}, SlowerDevice::filtered_alike);
   both.words = joined_words(both, "the stamps");
   return both;
 }
 
-Recording joined(const Recording& one, const Recording& other, const ClockRelation& clocks) {
+Recording joined(const Recording& one, const Recording& other, const ClockRelation& clocks,
+                 const SlowerDevice slower) {
   const Recording rest = without_channels_of(other, one);
   const double pace = 1. + clocks.drift;
   Recording both = is_slower(one, other)
-                       ? overlap_of(one, rest, {-clocks.offset_s / pace, 1. / pace})
-                       : overlap_of(rest, one, {clocks.offset_s, pace});
+                       ? overlap_of(one, rest, {-clocks.offset_s / pace, 1. / pace}, slower)
+                       : overlap_of(rest, one, {clocks.offset_s, pace}, slower);
   both.words =
       joined_words(both, is_slower(one, other) ? "the first file" : "the second, slower file") +
       "; " + clock_words(clocks);

@@ -199,6 +199,10 @@ std::vector<Record> read_rows(const RecordTable& file, const std::string& path,
   auto [values, digits] = file.read({columns, options.first_row, n_rows, time_column});
   for (std::size_t c = 0; c < values.size(); ++c)
     convert(file, wanted[c], options.first_row, values[c]);
+  if (options.resample_hz && !sources.time)
+    throw UserError(path +
+                    ": --resample is for uneven stamps, and this file has a rate and no stamps; "
+                    "leave it out");
   if (options.resample_hz && reads_time) {
     if (sources.time_unit_is_unknown)
       check_time_unit(file, *sources.time, options.first_row, values.back());

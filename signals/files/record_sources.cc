@@ -246,6 +246,17 @@ void SourceFinder::add_all_numbers(Sources& sources) const {
   }
 }
 
+void refuse_spectrum(const formats::RecordTable& file) {
+  const auto frequency = std::ranges::find_if(file.columns(), is_frequency_name);
+  if (frequency == file.columns().end()) return;
+  throw UserError(file.place(0) + "this is a frequency response or a spectrum, and no record: '" +
+                  *frequency +
+                  "' is its frequency, and it has no time; a response is read by 'vibrissa "
+                  "identify --frequency-response', or by --response-as where it has names of its "
+                  "own. Columns: " +
+                  listed(file.columns()));
+}
+
 }  // namespace
 
 Sources find_sources(const formats::RecordTable& file, const ReadOptions& options) {
@@ -255,6 +266,7 @@ Sources find_sources(const formats::RecordTable& file, const ReadOptions& option
   const bool has_exact_clock = file.clock() && !file.clock_is_nominal();
   finder.add_time_by_name(sources, !options.sampling_rate_hz && !has_exact_clock);
   if (sources.channels.empty() && options.takes_all_columns) finder.add_all_numbers(sources);
+  if (!sources.time && !options.sampling_rate_hz && !file.clock()) refuse_spectrum(file);
   if (sources.channels.empty())
     throw UserError(
         file.place(0) +

@@ -1,10 +1,10 @@
 #include "signals/files/resampled_rows.h"
 
-#include <cmath>
 #include <span>
 
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
+#include "signals/base/significant_digits.h"
 #include "signals/files/record_rows.h"
 #include "signals/spectra/uneven_resample.h"
 
@@ -12,9 +12,7 @@ namespace vibrissa::signals {
 namespace {
 
 std::string three_digits(const double value) {
-  if (!(value > 0.)) return to_text(value);
-  const double place = std::pow(10., 2. - std::floor(std::log10(value)));
-  return to_text(std::round(value * place) / place);
+  return to_text(with_significant_digits(value, 3));
 }
 
 }  // namespace

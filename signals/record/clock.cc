@@ -11,6 +11,7 @@
 #include "signals/base/error.h"
 #include "signals/base/median.h"
 #include "signals/base/number_text.h"
+#include "signals/base/significant_digits.h"
 #include "signals/record/stamp_regression.h"
 
 namespace vibrissa::signals {
@@ -59,11 +60,7 @@ bool are_intervals(const std::vector<double>& times) {
 }
 
 std::string rounded(const double value, const int n_digits) {
-  if (value == 0. || !std::isfinite(value)) return to_text(value);
-  const double place = std::pow(10., std::floor(std::log10(std::abs(value))) - n_digits + 1.);
-  const double factor = std::round(1. / place);
-  return to_text(factor > 1. ? std::round(value * factor) / factor
-                             : std::round(value / place) * place);
+  return to_text(with_significant_digits(value, n_digits));
 }
 
 std::string words_of(const Clock& clock, const std::size_t n_stamps, const std::string& column) {
@@ -71,9 +68,12 @@ std::string words_of(const Clock& clock, const std::size_t n_stamps, const std::
       int(std::log10(clock.sampling_rate_hz / std::max(clock.rate_error_hz, 1e-300))) + 2, 3, 9);
   return rounded(clock.sampling_rate_hz, digits) + " +- " + rounded(clock.rate_error_hz, 1) +
          " Hz by regression over the " + std::to_string(n_stamps) + " stamps of '" + column +
-         (clock.is_from_bursts
-              ? "', which come in bursts, as from a buffer: they leave the mean by "
-              : "', which jitter by ") +
+         "', " +
+         (clock.packet > 1
+              ? "which come in packets of " + std::to_string(clock.packet) + " with one stamp and "
+              : "which ") +
+         (clock.is_from_bursts ? "come in bursts, as from a buffer: they leave the mean by "
+                               : "jitter by ") +
          rounded(1e3 * clock.jitter_s, 2) + " ms";
 }
 

@@ -23,6 +23,7 @@ struct Clock {
   std::size_t n_lost = 0;
   double epoch_s = 0.;                  // that was subtracted from times since 1970
   bool is_from_bursts = false;          // the mean rate of bursts read from a buffer
+  std::size_t packet = 1;               // samples that share one stamp, in nearly all packets
   std::vector<ClockPiece> pieces = {};  // in the order of the file; one where nothing is lost
   std::string words = {};  // "499.98 +- 0.01 Hz by regression over 1000 stamps, jitter 0.6 ms"
 };

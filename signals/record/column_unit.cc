@@ -40,6 +40,10 @@ NamedUnit split_unit(const std::string& column) {
   return {column, ""};
 }
 
+bool is_frequency_name(const std::string& column) {
+  return lower_case(std::string(trimmed(column))).starts_with("freq");
+}
+
 bool is_time_name(const std::string& column) {
   static constexpr auto names = std::to_array<std::string_view>(
       {"t",          "time",         "times",        "zeit",        "timestamp",    "time stamp",

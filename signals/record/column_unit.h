@@ -16,7 +16,9 @@ NamedUnit split_unit(const std::string& column);
 /// Whether a name is that of a time column of a logger: "t", "Time (s)", "timestamp", "millis",
 /// "Zeit [s]", "X_Value".
 bool is_time_name(const std::string& column);
-/// The unit that such a name tells without stating it: "ms" for millis; empty: none.
+/// Whether a name is that of the frequencies of a response or a spectrum: "frequency_hz", "Freq".
+bool is_frequency_name(const std::string& column);
+/// The unit that such a name of time tells without stating it: "ms" for millis; empty: none.
 std::string unit_of_time_name(const std::string& column);
 
 }  // namespace vibrissa::signals

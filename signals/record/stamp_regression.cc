@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -58,8 +59,7 @@ double local_jitter(const Events& events, const double period_s) {
   for (std::size_t i = 1; i < events.times_s.size(); ++i)
     changes.push_back(std::abs(events.times_s[i] - events.times_s[i - 1] -
                                period_s * (events.samples[i] - events.samples[i - 1])));
-  constexpr double deviation_over_median = 1.4826, of_a_difference = 1.4142;
-  return median(std::move(changes)) * deviation_over_median / of_a_difference;
+  return robust_deviation(std::move(changes)) / std::numbers::sqrt2;  // of a difference
 }
 
 // Whether a step backward is longer than jitter explains.
@@ -235,7 +235,8 @@ std::optional<Clock> regress_stamps(const std::span<const double> times_s,
   Clock clock{.sampling_rate_hz = 1. / lines.period_s,
               .rate_error_hz = lines.period_error_s / (lines.period_s * lines.period_s),
               .jitter_s = lines.deviation_s,
-              .is_from_bursts = is_burst};
+              .is_from_bursts = is_burst,
+              .packet = events.packet};
   set_pieces(events, lost, lines, times_s.size(), clock);
   return clock;
 }

@@ -1,7 +1,6 @@
 #include "signals/record/time_axis.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <charconv>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "signals/base/error.h"
 #include "signals/base/median.h"
 #include "signals/base/number_text.h"
+#include "signals/base/significant_digits.h"
 
 namespace vibrissa::signals {
 
@@ -77,16 +77,6 @@ std::size_t worst_off_grid(const PrintedTimes& times, const double period) {
     worst_distance = distance;
   }
   return worst;
-}
-
-double with_significant_digits(const double value, const int n_digits) {
-  std::array<char, 40> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::scientific, n_digits - 1)
-                       .ptr;
-  double rounded = value;
-  std::from_chars(text.data(), end, rounded);
-  return rounded;
 }
 
 // Without the rounding errors of a difference, for messages.

@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "signals/spectra/kaiser_sinc.h"
 
 namespace vibrissa::signals {
 
 namespace {
-
-double kaiser(const double share) {
-  constexpr double beta = 8.;
-  if (std::abs(share) >= 1.) return 0.;
-  return std::cyl_bessel_i(0., beta * std::sqrt(1. - share * share)) / std::cyl_bessel_i(0., beta);
-}
 
 // Straight lines between its entries are exact to 1e-6.
 constexpr std::size_t n_steps = 1 << 15;
@@ -25,10 +20,9 @@ BandLimitedSignal::BandLimitedSignal(const std::span<const double> samples, cons
       half_length_(half_length),
       steps_per_sample_(double(n_steps) / half_length),
       table_(n_steps + 2) {
-  for (std::size_t i = 0; i < table_.size(); ++i) {
-    const double lag = double(i) / steps_per_sample_, x = 2. * std::numbers::pi * cutoff * lag;
-    table_[i] = (i == 0 ? 1. : std::sin(x) / x) * kaiser(lag / half_length);
-  }
+  const KaiserSinc low_pass{.cut_off = cutoff, .half_length = half_length, .shape = 8.};
+  for (std::size_t i = 0; i < table_.size(); ++i)
+    table_[i] = low_pass(double(i) / steps_per_sample_);
 }
 
 BandLimitedSignal BandLimitedSignal::at_rate(const std::span<const double> samples,

@@ -10,6 +10,7 @@
 
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
+#include "signals/spectra/kaiser_sinc.h"
 
 namespace vibrissa::signals {
 namespace {
@@ -58,37 +59,20 @@ Ratio ratio_of_rates(const double from_hz, const double to_hz) {
   return ratio;
 }
 
-// Low pass between a share and the whole of the lower Nyquist frequency as a sinc in a Kaiser
-// window; length and shape by Kaiser's formulas (Oppenheim and Schafer, Discrete-Time Signal
-// Processing, 3rd edition, chapter 7, Kaiser window). Times are in samples of the input.
-class Kernel {
- public:
-  Kernel(const Ratio& ratio, const double flat_to_share)
-      : lower_nyquist_(0.5 * std::min(1., value_of(ratio))),
-        cut_off_(0.5 * (1. + flat_to_share) * lower_nyquist_) {
-    const double transition_rad = 2. * std::numbers::pi * (1. - flat_to_share) * lower_nyquist_;
-    half_length_ = 0.5 * (attenuation_db - 7.95) / (2.285 * transition_rad);
-    shape_ = 0.1102 * (attenuation_db - 8.7);
-  }
-
-  double half_length() const { return half_length_; }
-
-  double operator()(const double t) const {
-    const double place = t / half_length_;
-    if (std::abs(place) >= 1.) return 0.;
-    const double angle = 2. * std::numbers::pi * cut_off_ * t;
-    const double sinc = angle == 0. ? 1. : std::sin(angle) / angle;
-    return sinc * std::cyl_bessel_i(0., shape_ * std::sqrt(1. - place * place));
-  }
-
- private:
-  static constexpr double attenuation_db = 90.;
-  double lower_nyquist_, cut_off_, half_length_, shape_;
-};
+// Low pass between a share and the whole of the lower Nyquist frequency; length and shape by
+// Kaiser's formulas. Times are in samples of the input.
+KaiserSinc low_pass(const Ratio& ratio, const double flat_to_share) {
+  constexpr double attenuation_db = 90.;
+  const double lower_nyquist = 0.5 * std::min(1., value_of(ratio));
+  const double transition_rad = 2. * std::numbers::pi * (1. - flat_to_share) * lower_nyquist;
+  return {.cut_off = 0.5 * (1. + flat_to_share) * lower_nyquist,
+          .half_length = 0.5 * (attenuation_db - 7.95) / (2.285 * transition_rad),
+          .shape = 0.1102 * (attenuation_db - 8.7)};
+}
 
 // Column p weighs the input samples -reach ... reach around floor(t) for an output at t, where
 // t - floor(t) = p / up. Each column sums to one: a constant comes out as it is.
-Eigen::MatrixXd polyphase_weights(const Ratio& ratio, const Kernel& kernel, const long reach) {
+Eigen::MatrixXd polyphase_weights(const Ratio& ratio, const KaiserSinc& kernel, const long reach) {
   Eigen::MatrixXd weights(2 * reach + 1, ratio.up);
   for (long p = 0; p < ratio.up; ++p) {
     const double fraction = static_cast<double>(p) / static_cast<double>(ratio.up);
@@ -126,8 +110,8 @@ std::vector<double> resample(const std::span<const double> x, const double from_
                     " of half the sampling rate is not possible; give a share between 0 and 1");
   const Ratio ratio = ratio_of_rates(from_hz, to_hz);
   if (x.empty() || (ratio.up == 1 && ratio.down == 1)) return {x.begin(), x.end()};
-  const Kernel kernel(ratio, flat_to_share);
-  const auto reach = static_cast<long>(std::ceil(kernel.half_length()));
+  const KaiserSinc kernel = low_pass(ratio, flat_to_share);
+  const auto reach = static_cast<long>(std::ceil(kernel.half_length));
   const Eigen::MatrixXd weights = polyphase_weights(ratio, kernel, reach);
   const Eigen::VectorXd input = extended(x, reach);
   const long n_output = (static_cast<long>(x.size()) * ratio.up + ratio.down - 1) / ratio.down;

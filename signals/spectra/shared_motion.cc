@@ -85,8 +85,7 @@ class Correlator {
     }
     Values size(n_places_);
     std::ranges::transform(result.r, size.begin(), [](const double r) { return std::abs(r); });
-    constexpr double deviation_over_median = 1.4826;  // of a normal distribution
-    const double deviation = deviation_over_median * median(std::move(size));
+    const double deviation = robust_deviation(std::move(size));
     result.n_effective = deviation > 0. ? 1. / (deviation * deviation) : 0.;
     return result;
   }

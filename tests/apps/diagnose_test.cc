@@ -70,6 +70,21 @@ TEST(DiagnoseCommand, RefusesASimulationAsItsOwnBench) {
   EXPECT_THAT(result.errors, HasSubstr("hold the same samples, so there is no gap"));
 }
 
+// One set of options reads two files of one layout.
+TEST(DiagnoseCommand, TakesTheColumnsOfTheRealSensorForASimulationWithoutNames) {
+  const Folder folder;
+  std::ostringstream csv;
+  for (int i = 0; i < 2000; ++i)
+    csv << std::sin(0.02 * i + 1e-5 * i * i) << ","
+        << 1e-5 * std::sin(0.02 * i + 1e-5 * i * i + 0.1) << "\n";
+  const std::string files = "diagnose --sim " + quoted(folder.write("s.csv", csv.str())) +
+                            " --real " + quoted(folder.write("r.csv", csv.str()));
+  const auto result = vibrissa(
+      files + " --rate 50 --column base_acceleration=column_1 --column base_moment=column_2");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("hold the same samples, so there is no gap"));
+}
+
 TEST(DiagnoseCommand, RefusesFiguresThatContradict) {
   const std::vector<std::array<std::string, 2>> cases{
       {"--resonance 37.32:31.47 --real x", "either resonances or records"},

@@ -97,8 +97,7 @@ TEST_F(TwoDevices, AreJoinedByTheResponseAndSayWhatMayBeTheSensors) {
   ASSERT_EQ(joined.status, 0) << joined.errors;
   EXPECT_THAT(joined.errors, testing::ContainsRegex("is at 12.34[56]"));
   EXPECT_THAT(joined.errors, testing::HasSubstr("the phase of the sensor's damping"));
-  // The offset is known to a part of a sample; less than that is at most named a delay.
-  EXPECT_THAT(verdict_of_joined(), testing::AnyOf("none", "delay")) << joined.errors;
+  EXPECT_EQ(verdict_of_joined(), "none") << joined.errors;
 }
 
 }  // namespace

@@ -82,8 +82,6 @@ TEST(UnusedOptions, OfModelsAndRecordsAreToldApart) {
       {"check any.wav --decimal comma", "--decimal", "text tables"},
       {"diagnose --sim x --real any.mat --separator tab", "--separator", "text tables"},
       {"convert " + record + " to.csv --mat-version 7.3", "--mat-version", ".mat"},
-      {"excite --kind noise --grid odd", "--grid", "multisine"},
-      {"excite --wav-format pcm24", "--wav-format", "--wav"},
       {"modes " + flow() + " --no-convergence --refine-from 1", "--refine-from", "leave it out"}};
   for (const auto& [arguments, option, reason] : refused) expect_unused(arguments, option, reason);
 }
@@ -95,6 +93,83 @@ TEST(Gravity, IsRefusedWhereTheModelDoesNotContainIt) {
                                       "subsection Transient\n  set Gravity = 0, 0, 9.81\nend\n"));
   for (const std::string command : {"run", "simulate", "bode", "static", "plan --model"})
     expect_unused(command + " " + file, "Transient/Gravity", "vibrissa modes");
+}
+
+/// A folder that states its rate and columns, and one without text tables.
+void write_datasets(const Folder& folder) {
+  std::filesystem::create_directory(folder.file("described"));
+  folder.write("described/r.csv", "t,a,m\n0,0,0\n");
+  folder.write("described/dataset.json",
+               R"({"schema": "vibrissa-dataset-1", "sampling_rate_hz": 500, "remove_mean": [],
+                   "columns": {"base_acceleration": "a"},
+                   "records": [{"file": "r.csv", "excitation": "base"}]})");
+  std::filesystem::create_directory(folder.file("arrays"));
+  folder.write("arrays/r.npy", "");
+}
+
+TEST(UnusedOptions, OfExciteBodeDiagnoseAndSeparateInEachMode) {
+  const Folder folder;
+  const std::string record = quoted(folder.write("r.csv", "time_s,base_moment_N_m\n0,0\n"));
+  const std::string model = quoted(folder.write("m.json", "{}"));
+  write_datasets(folder);
+  const std::string described = " --real " + quoted(folder.file("described"));
+  const std::string arrays = " --real " + quoted(folder.file("arrays"));
+  const std::vector<std::array<std::string, 3>> refused = {
+      {"excite --kind noise --grid odd", "--grid", "multisine"},
+      {"excite --kind noise --phase random", "--phase", "multisine"},
+      {"excite --kind sweep --group 4", "--group", "multisine"},
+      {"excite --kind noise --sweep linear", "--sweep", "--kind sweep"},
+      {"excite --fade 0.1", "--fade", "--kind sweep"},
+      {"excite --kind sweep --seed 4", "--seed", "random drives"},
+      {"excite --grid odd --group 4", "--group", "--grid random-odd"},
+      {"excite --grid odd --phase schroeder --seed 4", "--seed", "--phase random"},
+      {"excite --grid full --seed 4", "--seed", "--realisations"},
+      {"excite --wav-format pcm24", "--wav-format", "--wav"},
+      {"excite --period 2048 --resolution 1", "--period", "give one of them"},
+      {"excite --kind sweep --realisations 2", "realisations", "only one realisation"},
+      {"bode " + model + " --period 64", "--period", "is a model"},
+      {"bode " + model + " --method welch", "--method", "is a model"},
+      {"bode " + model + " --realisation x", "--realisation", "is a model"},
+      {"bode " + model + " --rows 1:9", "--rows", "is a model"},
+      {"bode " + model + " --set A/B=1", "--set", "is for case files"},
+      {"bode " + record + " --set A/B=1", "--set", "is for case files"},
+      {"bode " + record + " --high 50", "--high", "is a record"},
+      {"bode " + record + " --period 64 --segment 64", "--segment", "welch"},
+      {"bode " + record + " --method robust --period 64 --realisation " + record + " --join " +
+           record,
+       "--join", "convert --join"},
+      {"diagnose --resonance 37:31 --rate 500", "--rate", "records"},
+      {"diagnose --resonance 37:31 --bench-can quiet", "--bench-can", "records"},
+      {"diagnose --example paper-gap --time-limit 9", "--time-limit", "records"},
+      {"diagnose --example paper-gap --simulation-accuracy 0.1", "--simulation-accuracy",
+       "records"},
+      {"diagnose --sim x --rate 500" + described, "--rate", "states 'sampling_rate_hz'"},
+      {"diagnose --sim x --column base_moment=m" + described, "--column", "states 'columns'"},
+      {"diagnose --sim x --remove-mean base_moment" + described, "--remove-mean",
+       "states 'remove_mean'"},
+      {"diagnose --sim x --separator tab" + arrays, "--separator", "text tables"},
+      {"diagnose --sim x --join y" + described, "--join", "convert"},
+      {"diagnose --sim x --align motion" + described, "--align", "--join"},
+      {"separate " + record + " --stream --dtw-path x.csv", "--dtw-path", "--stream"},
+      {"separate " + record + " --stream --truth w", "--truth", "--stream"},
+      {"separate " + record + " --stream --sensor-model x", "--sensor-model", "--stream"},
+      {"separate " + record + " --stream --settling 1", "--settling", "scores"},
+      {"separate " + record + " --stream --gaps pieces", "--gaps", "--stream"},
+      {"separate " + record + " --stream --remove-mean base_moment", "--remove-mean", "stream"},
+      {"separate " + record + " --dtw-path x.csv", "--dtw-path", "--truth"},
+      {"separate " + record + " --method rls --block 64", "--block", "fdaf or kalman"},
+      {"separate " + record + " --method nlms --step 0.1", "--step", "--method fdaf"},
+      {"separate " + record + " --truth w --join x", "--truth", "convert --join"}};
+  for (const auto& [arguments, option, reason] : refused) expect_unused(arguments, option, reason);
+}
+
+TEST(UnusedOptions, ResampleWithoutStampsIsOne) {
+  const Folder folder;
+  std::string text = "base_moment_N_m\n";
+  for (int i = 0; i < 200; ++i) text += std::to_string(i % 7) + "\n";
+  expect_unused("convert " + quoted(folder.write("r.csv", text)) + " " +
+                    quoted(folder.file("to.csv")) + " --rate 500 --resample 100",
+                "--resample", "uneven stamps");
 }
 
 nlohmann::json modes_of(const std::string& arguments) {

@@ -144,6 +144,28 @@ TEST(DatasetGuess, TakesNoiseOfTheAccelerometerForNoDriveButAFaintDriveForOne) {
   EXPECT_EQ(dataset.records[2].excitation, (Excitation{false, false}));
 }
 
+// An earthquake: what is left in the last third is a decay without a drive.
+TEST(DatasetGuess, HoldsOutAWholeRecordWhereTheBaseRestsInTheLastThirds) {
+  const test::TemporaryFolder folder;
+  for (const double rate : {0.3, 0.4, 0.5}) {
+    std::string text = "time_s,base_acceleration_m_s2,base_moment_N_m\n";
+    for (int i = 0; i < 900; ++i)
+      text += std::to_string(0.02 * i) + "," +
+              std::to_string(i < 500 ? std::sin(rate * i) : 0.01 * std::sin(0.1 * i)) + "," +
+              std::to_string(std::sin(0.2 * i)) + "\n";
+    folder.file("r" + std::to_string(rate) + ".csv", text);
+  }
+  const Dataset dataset = read_dataset(folder.path());
+  ASSERT_EQ(dataset.records.size(), 3u);
+  for (const DatasetRecord& record : dataset.records) EXPECT_EQ(record.record.n_samples(), 900u);
+  EXPECT_EQ(dataset.records[0].split, Split::fit);
+  EXPECT_EQ(dataset.records[1].split, Split::fit);
+  EXPECT_EQ(dataset.records[2].split, Split::held_out);
+  ASSERT_EQ(dataset.guesses.size(), 3u);
+  EXPECT_THAT(dataset.guesses[0], ::testing::HasSubstr("rests in its last third"));
+  EXPECT_THAT(dataset.guesses[2], ::testing::HasSubstr("held out"));
+}
+
 TEST_F(DatasetFolder, TakesWhenThePieceOfALongerRecordBegan) {
   describe(R"({"file": "a.csv", "excitation": "base", "clock_start_s": 120.5})");
   EXPECT_EQ(read_dataset(folder_.path()).records[0].clock_start_s, 120.5);

@@ -50,7 +50,7 @@ TEST_F(Joined, TakesBothDevicesAtTheTimesOfTheSlowerOne) {
     const auto a = record.channel(channel::base_acceleration);
     const auto m = record.channel(channel::base_moment);
     for (std::size_t i = 0; i < record.n_samples(); ++i) {
-      ASSERT_NEAR(m[i], motion(record.time_s(i)), 1e-12);
+      ASSERT_NEAR(m[i], motion(record.time_s(i)), 2e-3);
       ASSERT_NEAR(a[i], m[i], 2e-3) << i;
     }
     EXPECT_GT(record.n_samples(), 1700u);
@@ -65,6 +65,27 @@ TEST_F(Joined, FollowsADeviceThatRunsFast) {
   const auto a = record.channel(channel::base_acceleration);
   const auto m = record.channel(channel::base_moment);
   for (std::size_t i = 0; i < record.n_samples(); ++i) ASSERT_NEAR(a[i], m[i], 5e-3) << i;
+}
+
+// Near the highest frequency of the slower device, too, both channels show the same motion: a
+// response between them gets no resonance from the filter.
+TEST_F(Joined, FiltersBothDevicesAlike) {
+  const auto near_the_edge = [](const std::string& name, const double rate_hz) {
+    std::string text = "t," + name + "\n";
+    for (int i = 0; i < int(4. * rate_hz); ++i) {
+      double value = 0.;
+      for (const double hz : {31., 198., 207., 215., 223., 231.})
+        value += std::sin(2. * std::numbers::pi * hz * i / rate_hz + hz);
+      text += to_text(i / rate_hz) + "," + to_text(value) + "\n";
+    }
+    return text;
+  };
+  const Recording slow = read("m.csv", near_the_edge("m", 500.), "base_moment=m");
+  const Recording fast = read("a.csv", near_the_edge("ax", 1000.), "base_acceleration=ax");
+  const Record record = joined(fast, slow).pieces.front();
+  const auto a = record.channel(channel::base_acceleration);
+  const auto m = record.channel(channel::base_moment);
+  for (std::size_t i = 0; i < record.n_samples(); ++i) ASSERT_NEAR(a[i], m[i], 2e-3) << i;
 }
 
 TEST_F(Joined, RefusesRecordingsThatDoNotOverlap) {

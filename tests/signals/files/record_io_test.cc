@@ -200,6 +200,13 @@ TEST_F(ReadRecord, AsksForTheRateWhenThereIsNoTime) {
                                                HasSubstr("give --rate"))));
 }
 
+TEST_F(ReadRecord, NamesAResponseOrASpectrumForWhatItIs) {
+  EXPECT_THAT(
+      reading("frequency_hz,response_real,response_imaginary\n1,2,3\n2,2,3\n"),
+      ThrowsMessage<UserError>(AllOf(HasSubstr("this is a frequency response or a spectrum"),
+                                     HasSubstr("--frequency-response"))));
+}
+
 TEST_F(ReadRecord, RefusesARateThatContradictsTime) {
   const std::string content = csv(plain_header, plain);
   EXPECT_EQ(read(content, {.sampling_rate_hz = 500.4}).sampling_rate_hz(), 500.4);

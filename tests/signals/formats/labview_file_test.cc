@@ -121,7 +121,7 @@ TEST(LabviewFile, PutsChannelsOfDifferentRatesOnOneClock) {
   const auto a = record.channel(channel::base_acceleration);
   const auto m = record.channel(channel::base_moment);
   for (std::size_t i = 0; i < record.n_samples(); ++i) {
-    ASSERT_NEAR(m[i], std::sin(2. * M_PI * 31. * record.time_s(i)), 1e-12);
+    ASSERT_NEAR(m[i], std::sin(2. * M_PI * 31. * record.time_s(i)), 1e-6);
     ASSERT_NEAR(a[i], m[i], 2e-3);
   }
   const Record fast = read_record(file, {.columns = {parse_column_choice("base_acceleration=a")}});

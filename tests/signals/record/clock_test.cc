@@ -134,6 +134,9 @@ TEST(Clock, FindsRateAndLostSamplesOfFortyDevices) {
     const bool is_right = off_hz <= 3. * clock.rate_error_hz + rounding_hz ||
                           (clock.rate_error_hz == 0. && off_hz <= 1e-4 * device.rate_hz);
     n_right += is_right;
+    EXPECT_EQ(clock.words.find("in packets of 3 with one stamp") != std::string::npos,
+              device.packet == 3)
+        << clock.words;
     EXPECT_TRUE(is_right) << device.seed << ": " << clock.words << ", true " << device.rate_hz;
     n_lost += stamps.first_behind_loss.size();
     n_found_in_all += n_found(stamps, clock);

@@ -41,5 +41,12 @@ TEST(TimeName, IsKnownWithAndWithoutAUnit) {
   EXPECT_EQ(unit_of_time_name("t"), "");
 }
 
+TEST(FrequencyName, IsKnownInAnySpelling) {
+  for (const std::string name : {"frequency_hz", "Freq_domain", "Frequency [Hz]", " freq"})
+    EXPECT_TRUE(is_frequency_name(name)) << name;
+  for (const std::string name : {"f", "time", "base_acceleration_m_s2", "infrequent"})
+    EXPECT_FALSE(is_frequency_name(name)) << name;
+}
+
 }  // namespace
 }  // namespace vibrissa::signals

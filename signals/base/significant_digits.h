@@ -1,0 +1,20 @@
+#pragma once
+
+#include <array>
+#include <charconv>
+
+namespace vibrissa::signals {
+
+/// The nearest number with so many significant digits, at least 1. Proven by
+/// tests/signals/base/significant_digits_test.cc.
+inline double with_significant_digits(const double value, const int n_digits) {
+  std::array<char, 40> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::scientific, n_digits - 1)
+                       .ptr;
+  double rounded = value;
+  std::from_chars(text.data(), end, rounded);
+  return rounded;
+}
+
+}  // namespace vibrissa::signals

@@ -1,0 +1,19 @@
+#include "signals/base/significant_digits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace vibrissa::signals {
+namespace {
+
+TEST(SignificantDigits, AreThoseOfTheNearestNumber) {
+  EXPECT_EQ(with_significant_digits(123456., 3), 123000.);
+  EXPECT_EQ(with_significant_digits(-0.0099951, 3), -0.01);
+  EXPECT_EQ(with_significant_digits(2e-300, 1), 2e-300);
+  EXPECT_EQ(with_significant_digits(0., 5), 0.);
+  EXPECT_TRUE(std::isnan(with_significant_digits(std::nan(""), 3)));
+}
+
+}  // namespace
+}  // namespace vibrissa::signals
