@@ -184,8 +184,8 @@ void read_entry(const fs::path& folder, const json& document, const json& entry,
   const double start_s = recording.pieces.front().time_s(0);
   const std::size_t longest = recording.pieces[recording.longest()].n_samples();
   for (std::size_t i = 0; i < recording.pieces.size(); ++i) {
-    const std::string name =
-        fs::path(file).stem().string() + (is_one ? "" : "_" + std::to_string(i + 1));
+    std::string name = fs::path(file).stem().string();
+    if (!is_one) name.append(1, '_').append(std::to_string(i + 1));
     const double after_s = recording.pieces[i].time_s(0) - start_s;
     DatasetRecord record =
         described_record(document, entry, where, name, std::move(recording.pieces[i]));

@@ -11,10 +11,9 @@ namespace vibrissa::signals {
 namespace {
 
 double mean_square_about(const std::span<const double> values, const double level) {
-  const double sum =
-      std::accumulate(values.begin(), values.end(), 0., [&](const double total, const double v) {
-        return total + (v - level) * (v - level);
-      });
+  const double sum = std::accumulate(
+      values.begin(), values.end(), 0.,
+      [&](const double total, const double v) { return total + (v - level) * (v - level); });
   return sum / static_cast<double>(values.size());
 }
 
