@@ -50,7 +50,7 @@ LaneRows FourierBasis::coordinates(const LaneRows& samples) const {
 }
 
 Eigen::VectorXd FourierBasis::converted(const Eigen::VectorXd& coordinates,
-                                     const FourierBasis& from) const {
+                                        const FourierBasis& from) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(n_coordinates());
   for (std::size_t i = 0; i < orders_.size(); ++i) {
     const auto at = std::find(from.orders_.begin(), from.orders_.end(), orders_[i]);
