@@ -12,6 +12,7 @@ class DeadZone : public JointLaw {
   Lanes moment(const Lanes& y, const Lanes&, const Lanes&, double, bool) override {
     return -loss_ * y.max(-gap_).min(gap_);
   }
+  bool has_memory() const override { return false; }
 
  private:
   double gap_, loss_;
@@ -28,6 +29,7 @@ class Cubic : public JointLaw {
     const Lanes bent = y.max(-straight_).min(straight_);
     return coefficient_ * bent * bent * (3. * y - 2. * bent);
   }
+  bool has_memory() const override { return false; }
 
  private:
   double coefficient_, straight_;
@@ -63,12 +65,13 @@ class Softening : public JointLaw {
  public:
   Softening(double depth, double level) : depth_(depth), level_(level) {}
   Lanes moment(const Lanes& y, const Lanes&, const Lanes&, double, bool commit) override {
-    const Lanes size = y.abs();
-    if (commit && (size > largest_).any()) {
-      largest_ = largest_.max(size);
-      factor_ = -depth_ * (1. - (-largest_ / level_).exp());
-    }
+    if (commit) remember_peak(y.abs());
     return factor_ * y;
+  }
+  void remember_peak(const Lanes& peak) override {
+    if (!(peak > largest_).any()) return;
+    largest_ = largest_.max(peak);
+    factor_ = -depth_ * (1. - (-largest_ / level_).exp());
   }
 
  private:
@@ -83,6 +86,7 @@ class Drift : public JointLaw {
   Lanes moment(const Lanes& y, const Lanes& y_rate, const Lanes& t_s, double, bool) override {
     return (offset_ + slope_ * t_s) * (y + loss_s_ * y_rate);
   }
+  bool has_memory() const override { return false; }
 
  private:
   Lanes slope_, offset_;

@@ -26,6 +26,10 @@ class JointLaw {
   /// commit: the step is final, so the memory is updated.
   virtual Lanes moment(const Lanes& y, const Lanes& y_rate, const Lanes& t_s, double dt,
                        bool commit) = 0;
+  /// Does the moment depend on earlier steps?
+  virtual bool has_memory() const { return true; }
+  /// The joint had been strained to this elastic moment [N m] before, for laws that stay changed.
+  virtual void remember_peak(const Lanes&) {}
 };
 /// Creates the law for records, given their numbers in the order of the dataset.
 using JointLawMaker = std::function<std::unique_ptr<JointLaw>(const Lanes& record_number)>;

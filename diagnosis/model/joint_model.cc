@@ -11,12 +11,6 @@ namespace {
 /// and the joint some loss.
 constexpr double most_share = 0.9999, least_loss = 1e-3;
 
-JointModel made_dynamic(JointModel model) {
-  model.share = std::min(model.share, most_share);
-  model.loss = std::max(model.loss, least_loss);
-  return model;
-}
-
 }  // namespace
 
 JointModel::JointModel(const StructuralMode& mode, const double joint_share,
@@ -27,6 +21,19 @@ JointModel::JointModel(const StructuralMode& mode, const double joint_share,
   damping = mode.damping_ratio - 0.5 * in_joint;
 }
 
+JointModel JointModel::dynamic() const {
+  JointModel model = *this;
+  model.share = std::min(share, most_share);
+  model.loss = std::max(loss, least_loss);
+  return model;
+}
+
+JointModel::ElasticResponse JointModel::elastic_response(const Complex s) const {
+  const Complex resisting = changed_inertia(s), whole = 1. + (1. - share) * resisting,
+                per_load = 1. / (share * resisting + whole * changed_stiffness_ratio(s));
+  return {.torque = -whole * per_load, .external = per_load};
+}
+
 std::optional<JointModel> joint_of(const Chain& chain) {
   if (chain.structure.modes.empty()) return std::nullopt;
   return JointModel(chain.structure.modes.front(), chain.joint_share,
@@ -34,8 +41,8 @@ std::optional<JointModel> joint_of(const Chain& chain) {
                     chain.joint_change);
 }
 
-JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) {
-  const JointModel model = made_dynamic(joint);
+JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) : dt_(dt) {
+  const JointModel model = joint.dynamic();
   share_ = model.share;
   rest_ = 1. / (1. - model.share);
   spring_ = model.change.spring;
@@ -70,12 +77,10 @@ double JointIntegrator::rate(const Eigen::Vector3d& state) const {
   return rate_factor_ * ((state(0) - share_ * state(2)) * rest_ - spring_ * state(2));
 }
 
-JointIntegrator::AtBase JointIntegrator::accept(const Lanes& torque, const Lanes& external) {
-  const auto loaded = [&](const Lanes& free, Eigen::Index i) -> Lanes {
-    return free + torque_new_(i) * torque + external_new_(i) * external;
-  };
-  const Lanes theta = loaded(free_.theta, 0), speed = loaded(free_.speed, 1),
-              y = loaded(free_.y, 2);
+void JointIntegrator::set_free(const Lanes& theta, const Lanes& speed, const Lanes& y,
+                               const Lanes& torque, const Lanes& external) {
+  theta_ = theta;
+  speed_ = speed;
   const auto next = [&](Eigen::Index i) -> Lanes {
     return transition_(i, 0) * theta + transition_(i, 1) * speed + transition_(i, 2) * y +
            torque_old_(i) * torque + external_old_(i) * external;
@@ -84,6 +89,20 @@ JointIntegrator::AtBase JointIntegrator::accept(const Lanes& torque, const Lanes
   free_.speed = next(1);
   free_.y = next(2);
   free_.rate = rate_factor_ * ((free_.theta - share_ * free_.y) * rest_ - spring_ * free_.y);
+}
+
+void JointIntegrator::start(const Lanes& theta, const Lanes& theta_rate, const Lanes& y,
+                            const Lanes& torque, const Lanes& external) {
+  set_free(theta, theta_rate * dt_, y, torque, external);
+}
+
+JointIntegrator::AtBase JointIntegrator::accept(const Lanes& torque, const Lanes& external) {
+  const auto loaded = [&](const Lanes& free, Eigen::Index i) -> Lanes {
+    return free + torque_new_(i) * torque + external_new_(i) * external;
+  };
+  const Lanes theta = loaded(free_.theta, 0), speed = loaded(free_.speed, 1),
+              y = loaded(free_.y, 2);
+  set_free(theta, speed, y, torque, external);
   return {(theta - share_ * y) * rest_, y};
 }
 

@@ -42,6 +42,15 @@ struct JointModel {
   }
   /// Total moment of the joint's spring and damper divided by the elastic one, 1 + rho s / w.
   Complex stiffness_ratio(Complex s) const { return 1. + loss * s / frequency_rad_s; }
+
+  /// The model that JointIntegrator integrates: with some flexibility of the whisker and some loss
+  /// of the joint.
+  JointModel dynamic() const;
+  /// Elastic moment y of the joint per T and per M_ext, with the factors.
+  struct ElasticResponse {
+    Complex torque, external;
+  };
+  ElasticResponse elastic_response(Complex s) const;
 };
 
 /// The joint model of a chain's first mode; nothing without a mode.
@@ -63,13 +72,21 @@ class JointIntegrator {
   struct AtBase {
     Lanes moment, elastic;  // total, and the joint's elastic one
   };
+  /// The state (theta' per second) from which the next step goes.
+  void start(const Lanes& theta, const Lanes& theta_rate, const Lanes& y, const Lanes& torque,
+             const Lanes& external);
+  /// theta at the end of the last step, and its rate per second.
+  const Lanes& theta() const { return theta_; }
+  Lanes theta_rate() const { return speed_ / dt_; }
   /// Makes the step; returns the moments at its end.
   AtBase accept(const Lanes& torque, const Lanes& external);
 
  private:
   double rate(const Eigen::Vector3d& state) const;
+  void set_free(const Lanes& theta, const Lanes& speed, const Lanes& y, const Lanes& torque,
+                const Lanes& external);
 
-  double share_, rest_, rate_factor_, spring_;  // p, 1 / (1 - p), w / rho
+  double dt_, share_, rest_, rate_factor_, spring_;  // p, 1 / (1 - p), w / rho
   // State (theta, theta' per step, y).
   Eigen::Matrix3d transition_;
   Eigen::Vector3d torque_old_, torque_new_, external_old_, external_new_;
@@ -77,6 +94,7 @@ class JointIntegrator {
   struct Free {
     Lanes theta, speed, y, rate;
   } free_;  // next state without new loads
+  Lanes theta_ = Lanes::Zero(), speed_ = Lanes::Zero();
 };
 
 }  // namespace vibrissa::diagnosis

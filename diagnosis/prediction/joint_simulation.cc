@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/prediction/difference_integrator.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/model/base_velocity.h"
 
@@ -12,90 +13,6 @@ namespace vibrissa::diagnosis {
 namespace {
 
 constexpr auto n_lanes = static_cast<std::size_t>(Lanes::SizeAtCompileTime);
-
-/// Integrates the addition to the linear part, whose elastic joint moment is given. A step consists
-/// of begin, correct (repeated until convergence) and end.
-class DifferenceIntegrator {
- public:
-  DifferenceIntegrator(const Chain& chain, const JointModel& joint, const Lanes& record_number,
-                       double dt)
-      : dt_(dt), is_loaded_(chain.relative_wind.on), integrator_(joint, dt) {
-    for (const JointLawMaker& maker : chain.joint) laws_.push_back(maker(record_number));
-  }
-
-  /// Begins a step to (y, y_rate) of the linear part at times t_s.
-  void begin(const Lanes& y, const Lanes& y_rate, const Lanes& t_s) {
-    y_ = y;
-    y_rate_ = y_rate;
-    t_s_ = t_s;
-    n_corrections_ = 0;
-    if (!laws_.empty()) begin_torque();
-  }
-
-  /// Was the residual before the last correction large in any lane? The residual after it is far
-  /// smaller.
-  bool is_open() const {
-    constexpr double tolerance = 1e-5;
-    constexpr int most_corrections = 4;
-    if (laws_.empty() || n_corrections_ == most_corrections) return false;
-    return (from_excess_.abs() - tolerance * at_.abs()).maxCoeff() > 0.;
-  }
-
-  void correct() {
-    ++n_corrections_;
-    const Lanes at_excess = law_moment(at_, false) - at_;
-    const Lanes slopes = (at_excess - from_excess_) / (at_ - from_);
-    from_ = at_;
-    from_excess_ = at_excess;
-    slope_ = where_negative(slopes, slopes, slope_);
-    at_ -= where_negative(slopes, at_excess, Lanes::Zero()) / slope_;
-  }
-
-  /// load gives the additional wind load for a rate of the joint moment. Returns the change of the
-  /// base moment.
-  template <typename Load>
-  JointIntegrator::AtBase end(const Load& load) {
-    if (laws_.empty()) {
-      for (int pass = 0; pass < 2; ++pass)
-        external_ = load(y_rate_ + integrator_.elastic_rate(torque_, external_));
-      return integrator_.accept(torque_, external_);
-    }
-    torque_before_ = torque_;
-    torque_ = at_;
-    if (is_loaded_) external_ = load(y_rate_ + integrator_.elastic_rate(torque_, external_));
-    law_moment(torque_, true);
-    return integrator_.accept(torque_, external_);
-  }
-
- private:
-  /// The additional moment at the step's end changes the joint's rotation at the same time, so a
-  /// stiff law needs the implicit solution of T = law(y(T)), by the secant method from an
-  /// extrapolation of the previous steps.
-  void begin_torque() {
-    from_ = 2. * torque_ - torque_before_;
-    from_excess_ = law_moment(from_, false) - from_;
-    at_ = from_ - from_excess_ / slope_;
-  }
-
-  Lanes law_moment(const Lanes& assumed, bool commit) {
-    const Lanes elastic = y_ + integrator_.elastic(assumed, external_);
-    const Lanes rate = y_rate_ + integrator_.elastic_rate(assumed, external_);
-    Lanes sum = Lanes::Zero();
-    for (const auto& law : laws_) sum += law->moment(elastic, rate, t_s_, dt_, commit);
-    return sum;
-  }
-
-  double dt_;
-  bool is_loaded_;
-  JointIntegrator integrator_;
-  std::vector<std::unique_ptr<JointLaw>> laws_;
-  Lanes torque_ = Lanes::Zero(), torque_before_ = Lanes::Zero(), external_ = Lanes::Zero();
-  Lanes slope_ = Lanes::Constant(-1.);  // of law(y(T)) - T, at the previous step
-  // State of the step in progress.
-  Lanes y_ = Lanes::Zero(), y_rate_ = Lanes::Zero(), t_s_ = Lanes::Zero();
-  Lanes from_ = Lanes::Zero(), from_excess_ = Lanes::Zero(), at_ = Lanes::Zero();
-  int n_corrections_ = 0;
-};
 
 std::size_t warm_up(const PreparedRecord& record, std::size_t factor) {
   const std::size_t n = record.n_samples * factor;
@@ -216,10 +133,7 @@ class SideBySide {
   void end(std::size_t i) {
     const auto load = [&](const Lanes& rate) -> Lanes {
       if (fine_.wind.empty()) return Lanes::Zero();
-      const Lanes& u = fine_.wind[i];
-      const Lanes felt =
-          u - moving_.base_share * fine_.base_velocity[i] - moving_.velocity_per_moment_rate * rate;
-      return wind_gain_ * (felt * felt.abs() - u * u.abs());
+      return wind_gain_ * relative_drag(moving_, fine_.wind[i], fine_.base_velocity[i], rate);
     };
     const JointIntegrator::AtBase added = integrator_.end(load);
     // Overwrites values that this step was the last to read.

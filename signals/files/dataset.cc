@@ -9,6 +9,7 @@
 #include "signals/base/error.h"
 #include "signals/base/json_input.h"
 #include "signals/files/file_format.h"
+#include "signals/record/dataset_entry.h"
 #include "signals/spectra/resample.h"
 
 namespace vibrissa::signals {
@@ -18,8 +19,9 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 const std::vector<std::string> record_keys{
-    "file",    "excitation",    "period_samples", "split",      "setup", "sampling_rate_hz",
-    "readout", "clock_start_s", "columns",        "remove_mean"};
+    "kind",          "file",    "excitation",       "period_samples",
+    "split",         "setup",   "sampling_rate_hz", "readout",
+    "clock_start_s", "columns", "remove_mean"};
 
 /// Entries of the whole dataset, including those that its records may also have.
 const std::vector<std::string> file_keys{
@@ -27,18 +29,6 @@ const std::vector<std::string> file_keys{
 
 bool holds(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
-
-/// Throws UserError with the place of an entry of dataset.json and the error.
-[[noreturn]] void refuse_dataset(const std::string& where, const std::string& reason) {
-  throw UserError(where + ": " + reason);
-}
-
-std::string text_of(const json& object, const std::string& key, const std::string& where,
-                    const std::string& fallback) {
-  if (!object.contains(key)) return fallback;
-  if (!object[key].is_string()) refuse_dataset(where + "/" + key, "must be a string");
-  return object[key];
 }
 
 Excitation excitation_of(const std::string& word, const std::string& where) {
@@ -55,12 +45,6 @@ Readout readout_of(const std::string& word, const std::string& where) {
   refuse_dataset(where, unknown_name("readout", word, {"moment", "rotation"}));
 }
 
-Split split_of(const std::string& word, const std::string& where) {
-  if (word == "fit") return Split::fit;
-  if (word == "held_out") return Split::held_out;
-  refuse_dataset(where, unknown_name("split", word, {"fit", "held_out"}));
-}
-
 std::size_t period_of(const json& entry, const std::string& where) {
   if (!entry.contains("period_samples")) return 0;
   const json& period = entry["period_samples"];
@@ -75,12 +59,6 @@ double clock_start_of(const json& entry, const std::string& where) {
   if (!start.is_number() || start.get<double>() < 0.)
     refuse_dataset(where + "/clock_start_s", "must be a time in seconds, 0 or more");
   return start.get<double>();
-}
-
-BenchSetup setup_of(const json& document, const json& entry, const std::string& where) {
-  if (entry.contains("setup")) return read_bench_setup(entry["setup"], where + "/setup");
-  return document.contains("setup") ? read_bench_setup(document["setup"], where + ", from /setup")
-                                    : BenchSetup{};
 }
 
 /// An entry of the record, or else of the whole dataset; nothing where neither has it.
@@ -161,23 +139,28 @@ DatasetRecord described_record(const json& document, const json& entry, const st
       .record = std::move(record),
       .excitation = excitation_of(text_of(entry, "excitation", where, ""), where + "/excitation"),
       .period_samples = period_of(entry, where),
-      .split = split_of(text_of(entry, "split", where, "fit"), where + "/split"),
+      .split = split_of(entry, where),
       .readout = readout_of(text_of(entry, "readout", where, readout), where + "/readout"),
       .setup = setup_of(document, entry, where),
       .clock_start_s = clock_start_of(entry, where),
       .readout_is_given = document.contains("readout") || entry.contains("readout")};
 }
 
-/// One record, or each piece that has a whole period.
+/// One response or record, or each piece of it that has a whole period.
 void read_entry(const fs::path& folder, const json& document, const json& entry,
                 const std::string& where, const ReadOptions& given, Dataset& dataset) {
   if (!entry.is_object()) refuse_dataset(where, "must be an object");
-  for (const auto& item : entry.items())
-    if (!holds(record_keys, item.key()))
-      refuse_dataset(where, unknown_name("entry", item.key(), record_keys));
-  const std::string file = text_of(entry, "file", where, "");
-  if (file.empty())
-    refuse_dataset(where, "the entry 'file' is missing or empty; name the file of the record");
+  if (is_response(entry, where)) {
+    if (!given.takes_responses)
+      refuse_dataset(
+          where,
+          "is a response; this command compares records in time only. Take its entry out "
+          "of the dataset, or give the recording from which it was made");
+    dataset.responses.push_back(read_dataset_response(folder, document, entry, where));
+    return;
+  }
+  refuse_unknown_entries(entry, record_keys, where);
+  const std::string file = file_of(entry, where);
   Recording recording = read_recording(folder / file, options_of(document, entry, where, given));
   dataset.readings.push_back((folder / file).string() + ": read as: " + recording.words);
   const bool is_one = recording.pieces.size() == 1;
@@ -211,6 +194,8 @@ Dataset read_described(const fs::path& folder, const fs::path& file, const ReadO
   for (std::size_t i = 0; i < document["records"].size(); ++i)
     read_entry(folder, document, document["records"][i], name + ": /records/" + std::to_string(i),
                given, dataset);
+  refuse_doubled_levels(dataset.responses, name);
+  use_repeats(dataset.responses);
   return dataset;
 }
 

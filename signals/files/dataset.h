@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "signals/files/dataset_response.h"
 #include "signals/files/record_io.h"
 #include "signals/record/bench_setup.h"
 #include "signals/record/record.h"
+#include "signals/record/split.h"
 
 namespace vibrissa::signals {
 
@@ -19,9 +21,6 @@ struct Excitation {
 };
 /// none, base, wind or base+wind.
 std::string to_string(const Excitation& excitation);
-
-/// fit: used to fit and to select. held_out: only used to score.
-enum class Split { fit, held_out };
 
 /// moment: the base moment itself. rotation: a statically calibrated Hall element over the
 /// silicone, M = k_nominal phi.
@@ -43,8 +42,9 @@ struct DatasetRecord {
 /// Records of one sensor; docs/records.md describes the folder.
 struct Dataset {
   std::vector<DatasetRecord> records;
+  std::vector<DatasetResponse> responses{};
   /// Assumptions about what the folder does not state; empty when it states everything.
-  std::vector<std::string> guesses;
+  std::vector<std::string> guesses{};
   /// How each file was read: "bench.csv: read as: ..."
   std::vector<std::string> readings = {};
 };
@@ -63,11 +63,12 @@ std::vector<std::string> short_readings(const std::vector<std::string>& readings
 /// channels that vary (a white acceleration below 0.1 m/s2 rms is noise), and the last third of
 /// each record is held out. dataset.json may contain, for all records or for one, "columns":
 /// {"base_acceleration": "ax[g]"} and "remove_mean": ["base_acceleration"]; otherwise the given
-/// options apply. Where samples are lost and options.gaps allows it, each piece is a record. Throws
-/// UserError with file and entry for: a missing source, no records, a wrong schema or entry (lists
-/// the known words), a rate that contradicts time_s, a period longer than its record, a record
-/// without a base moment, and all errors of read_record. Proven by
-/// tests/signals/files/dataset_test.cc.
+/// options apply. An entry of the kind response is read by read_dataset_response() where
+/// options.takes_responses allows it, otherwise refused. Where samples are lost and options.gaps
+/// allows it, each piece is a record. Throws UserError with file and entry for: a missing source,
+/// no records, a wrong schema or entry (lists the known words), a rate that contradicts time_s, a
+/// period longer than its record, a record without a base moment, and all errors of read_record.
+/// Proven by tests/signals/files/dataset_test.cc.
 Dataset read_dataset(const std::filesystem::path& source, const ReadOptions& options = {});
 
 }  // namespace vibrissa::signals

@@ -29,6 +29,8 @@ struct ReadOptions {
   bool skips_missing_columns = false;      // of the choice; another file may have them
   /// Where no column is a channel: all columns of numbers, under their own names.
   bool takes_all_columns = false;
+  /// Of a dataset: entries of the kind response are read, too; otherwise they are refused.
+  bool takes_responses = false;
 };
 
 /// The records of a file and how it was read.

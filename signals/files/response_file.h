@@ -28,6 +28,14 @@ struct ResponseChoice {
   /// mm/g]", "[uT/g]*0.18[N m/T]", "3" for the third function of a Universal File; or conj(...) for
   /// a response with the convention exp(-j w t).
   std::string as{};
+  /// SI unit of what responds, where it is no moment, and whether the values are per acceleration
+  /// (m/s^2) or the amplitude itself.
+  std::string output_unit = "N m";
+  bool per_acceleration = true;
+  /// Columns of the magnitude and phase, NAME[unit]*FACTOR; empty: by their usual names.
+  std::string magnitude{}, phase{};
+  /// Lines may also stand in falling order, as a downward sweep writes them.
+  bool may_fall = false;
 };
 
 /// Reads a frequency response that a modal analysis program or this program wrote. Universal File:
@@ -37,12 +45,18 @@ struct ResponseChoice {
 /// NAME_real and NAME_imaginary (a complex array of a .mat is both) or, for one response, real and
 /// imaginary, or magnitude... (in dB where its name or a negative value says so) and phase in deg
 /// or rad; and optionally standard_deviation... and coherence. NAME is response, frf, H, or the
-/// given name. Lines at 0 Hz, or at the frequency of the previous line, are ignored. Throws
-/// UserError for missing columns or functions (lists the available ones), decreasing frequencies,
-/// units that are not a moment per acceleration, and what opening the file throws. Proven by
-/// tests/signals/formats/response_reader_test.cc and tests/apps/exchange.py.
+/// given name. Lines at 0 Hz, or at the frequency of the previous line, are ignored. A phase may be
+/// wrapped. Throws UserError for missing columns or functions (lists the available ones),
+/// decreasing frequencies, units that are not a moment per acceleration, and what opening the file
+/// throws. Proven by tests/signals/formats/response_reader_test.cc and tests/apps/exchange.py.
 FrequencyResponse read_response(const std::filesystem::path& file,
                                 const ResponseChoice& choice = {});
+
+/// Values of one real column, NAME[unit]*FACTOR in this unit, at the lines that read_response()
+/// returns. Throws UserError as it does.
+std::vector<double> read_response_column(const std::filesystem::path& file,
+                                         const std::string& column, const std::string& unit,
+                                         const ResponseChoice& choice);
 
 /// Writes a frequency response in the format of the file's ending: .uff, .unv, .uf58 with
 /// uff58_of(); .mat with frequency_hz, response (complex), convention and, when they are known,

@@ -27,17 +27,16 @@ namespace {
 
 using Values = std::vector<double>;
 
-const std::string moment_per_acceleration = "N m s2 m-1";
-
-ScaledName scaled_name(const ResponseChoice& choice) {
+ScaledName scaled_name(const std::string& text, const ResponseChoice& choice) {
   try {
-    return parse_scaled_name(choice.as, moment_per_acceleration);
+    return parse_scaled_name(text, choice.output_unit + (choice.per_acceleration ? " s2 m-1" : ""));
   } catch (const UnitError& error) {
-    throw UserError("response '" + choice.as + "': " + error.what() +
-                    ". The unit of a response is moment per acceleration; a factor may have a "
-                    "unit, as in '[uT/g]*0.18[N m/T]'");
+    const std::string quantity = choice.output_unit == "N m" ? "moment" : choice.output_unit;
+    throw UserError("response '" + text + "': " + error.what() + ". The unit of a response is " +
+                    quantity + (choice.per_acceleration ? " per acceleration" : "") +
+                    "; a factor may have a unit, as in '[uT/g]*0.18[N m/T]'");
   } catch (const UserError& error) {
-    throw UserError("response '" + choice.as + "': " + error.what());
+    throw UserError("response '" + text + "': " + error.what());
   }
 }
 
@@ -138,24 +137,51 @@ bool is_in_decibels(const std::string& unit, const Values& magnitude) {
          std::any_of(magnitude.begin(), magnitude.end(), [](const double r) { return r < 0.; });
 }
 
-std::optional<Complex> by_magnitude(const Columns& columns) {
-  const auto magnitudes = columns_called(columns, {"magnitude", "amplitude", "gain"});
-  const auto phases = columns_called(columns, {"phase"});
-  if (magnitudes.empty() || phases.empty()) return {};
-  const auto& [magnitude, unit] = magnitudes.front();
-  const auto& [phase_column, phase_unit] = phases.front();
+// Whether the column contains decibels. Only a response without unit may tell so by its sign alone.
+bool in_decibels(const Columns& columns, const std::size_t column, const std::string& unit,
+                 const Values& magnitude, const bool is_named) {
+  if (unit == "db" || lower_case(columns.name(column)).ends_with("_db")) return true;
+  if (!is_named) return is_in_decibels(unit, magnitude);
+  if (is_in_decibels(unit, magnitude))
+    columns.refuse(
+        "column '" + columns.name(column) +
+        "' has negative values, which no magnitude has; where it is in decibels, name it "
+        "..._dB");
+  return false;
+}
+
+// Column and unit that the choice names, or the first of those with the usual names.
+std::optional<std::pair<std::size_t, std::string>> column_of(
+    const Columns& columns, const std::string& chosen,
+    const std::initializer_list<std::string_view> usual) {
+  if (chosen.empty()) {
+    const auto found = columns_called(columns, usual);
+    return found.empty() ? std::nullopt : std::optional(found.front());
+  }
+  const auto column = columns.find(chosen);
+  if (!column) columns.refuse("no column '" + chosen + "'");
+  return std::pair(*column, plain_name(chosen).unit);
+}
+
+std::optional<Complex> by_magnitude(const Columns& columns, const ResponseChoice& choice) {
+  const ScaledName chosen =
+      choice.magnitude.empty() ? ScaledName{} : scaled_name(choice.magnitude, choice);
+  const auto magnitude = column_of(columns, chosen.name, {"magnitude", "amplitude", "gain"});
+  const auto phases = column_of(columns, choice.phase, {"phase"});
+  if (!magnitude || !phases) return {};
+  const auto& [phase_column, phase_unit] = *phases;
   const bool is_in_radians = phase_unit.starts_with("rad");
   if (!is_in_radians && !phase_unit.starts_with("deg") && phase_unit != "\u00b0")
     columns.refuse("the unit of column '" + columns.name(phase_column) +
                    "' is not known; name it phase_deg or phase_rad");
-  Values r = columns.values(magnitude);
+  Values r = columns.values(magnitude->first);
   const Values phase = columns.values(phase_column);
-  if (is_in_decibels(unit, r))
+  if (in_decibels(columns, magnitude->first, magnitude->second, r, !choice.magnitude.empty()))
     for (double& value : r) value = std::pow(10., value / 20.);
   Complex value;
   for (std::size_t i = 0; i < r.size(); ++i)
     value.push_back(std::polar(1., (is_in_radians ? 1. : std::numbers::pi / 180.) * phase[i]) *
-                    r[i]);
+                    (chosen.scale * r[i]));
   return value;
 }
 
@@ -172,14 +198,15 @@ std::vector<std::string> complex_names(const Columns& columns) {
   return names;
 }
 
-Complex responses(const Columns& columns, const std::string& name) {
+Complex responses(const Columns& columns, const std::string& name, const ResponseChoice& choice) {
+  if (!choice.magnitude.empty()) return *by_magnitude(columns, choice);
   std::vector<std::string> names = {"response", "frf", "H"};
   if (!name.empty()) names = {name};
   for (const std::string& known : names)
     if (auto value = by_parts(columns, known + "_real", known + "_imaginary")) return *value;
   if (name.empty()) {
     if (auto value = by_parts(columns, "real", "imaginary")) return *value;
-    if (auto value = by_magnitude(columns)) return *value;
+    if (auto value = by_magnitude(columns, choice)) return *value;
     const std::vector<std::string> known = complex_names(columns);
     if (known.size() == 1) return *by_parts(columns, known[0] + "_real", known[0] + "_imaginary");
     columns.refuse(
@@ -205,15 +232,16 @@ Values coherence_of(const Columns& columns) {
   return values;
 }
 
-FrequencyResponse from_table(const std::filesystem::path& file, const ScaledName& choice) {
+FrequencyResponse from_table(const std::filesystem::path& file, const ScaledName& name,
+                             const ResponseChoice& choice) {
   const auto table = open_table(file);
   const Columns columns(*table);
-  FrequencyResponse response{frequencies(columns), responses(columns, choice.name), {}, {}};
-  for (auto& value : response.value) value *= choice.scale;
+  FrequencyResponse response{frequencies(columns), responses(columns, name.name, choice), {}, {}};
+  for (auto& value : response.value) value *= name.scale;
   response.coherence = coherence_of(columns);
   if (const auto column = columns.find_start("standard_deviation")) {
     response.standard_deviation = columns.values(*column);
-    for (double& sd : response.standard_deviation) sd *= std::abs(choice.scale);
+    for (double& sd : response.standard_deviation) sd *= std::abs(name.scale);
   }
   return response;
 }
@@ -265,12 +293,13 @@ bool is_told(const std::string& unit) {
   return !unit.empty() && unit != "NONE";
 }
 
-/// Factor from the units of the file to moment per acceleration.
-double scale_of(const Uff58Function& function, const std::string& file) {
+/// Factor from the units of the file to those of the choice.
+double scale_of(const Uff58Function& function, const ResponseChoice& choice,
+                const std::string& file) {
   const std::string &above = function.ordinate_axis.unit, &below = function.denominator_axis.unit;
   if (!is_told(above) || !is_told(below)) return 1.;
   try {
-    return convert_unit(above, "N m").scale / convert_unit(below, "m/s2").scale;
+    return convert_unit(above, choice.output_unit).scale / convert_unit(below, "m/s2").scale;
   } catch (const UnitError& error) {
     throw UserError(file + ": the response is in " + above + " per " + below + ": " + error.what() +
                     ". Give the conversion factor, as in '[uT/g]*0.18[N m/T]'");
@@ -308,11 +337,13 @@ std::vector<double> beside(const std::vector<Uff58Function>& functions, const st
   return {};
 }
 
-FrequencyResponse from_universal_file(const std::filesystem::path& file, const ScaledName& choice) {
+FrequencyResponse from_universal_file(const std::filesystem::path& file, const ScaledName& name,
+                                      const ResponseChoice& choice) {
   const std::vector<Uff58Function> functions = read_uff58(file);
-  const std::size_t i = chosen(functions, choice.name, file.string());
+  const std::size_t i = chosen(functions, name.name, file.string());
   const Uff58Function& function = functions[i];
-  const double scale = choice.has_unit ? choice.scale : choice.scale * scale_of(function, file);
+  const double scale =
+      name.has_unit ? name.scale : name.scale * scale_of(function, choice, file.string());
   FrequencyResponse response{frequencies(function), function.values, {}, {}};
   for (auto& value : response.value) value *= scale;
   response.coherence = beside(functions, i, [](const Uff58Function& other) {
@@ -325,13 +356,44 @@ FrequencyResponse from_universal_file(const std::filesystem::path& file, const S
   return response;
 }
 
+[[noreturn]] void refuse_line(const Values& frequency_hz, const std::size_t i,
+                              const std::string& file, const std::string& what) {
+  throw UserError(file + ": frequency " + std::to_string(i + 1) + " (" + to_text(frequency_hz[i]) +
+                  " Hz) " + what);
+}
+
 void check_frequencies(const Values& frequency_hz, const std::string& file) {
   for (std::size_t i = 0; i < frequency_hz.size(); ++i)
     if (!(frequency_hz[i] >= 0.) || !std::isfinite(frequency_hz[i]) ||
         (i > 0 && frequency_hz[i] < frequency_hz[i - 1]))
-      throw UserError(file + ": frequency " + std::to_string(i + 1) + " (" +
-                      to_text(frequency_hz[i]) +
-                      " Hz) is negative, not finite or below the frequency before it");
+      refuse_line(frequency_hz, i, file,
+                  "is negative, not finite or below the frequency before it");
+}
+
+// Whether all lines stand in falling order. One turn is an upward and a downward sweep; more turns
+// are no sweep.
+bool falls(const Values& f, const std::string& file) {
+  std::vector<std::size_t> turns;
+  double before = 0.;
+  for (std::size_t i = 1; i < f.size(); ++i) {
+    const double step = f[i] - f[i - 1];
+    if (step * before < 0.) turns.push_back(i);
+    if (step != 0.) before = step;
+  }
+  if (turns.size() == 1)
+    refuse_line(f, turns.front(), file,
+                "turns back: the file mixes an upward and a downward sweep; give each its own file "
+                "or columns");
+  if (!turns.empty())
+    refuse_line(f, turns.front(), file, "is out of order; sort the lines by frequency");
+  return f.size() > 1 && f.back() < f.front();
+}
+
+void reverse(FrequencyResponse& response) {
+  std::ranges::reverse(response.frequency_hz);
+  std::ranges::reverse(response.value);
+  std::ranges::reverse(response.coherence);
+  std::ranges::reverse(response.standard_deviation);
 }
 
 // Two lines may have the same frequency: a Universal File keeps six digits of non-uniform
@@ -358,10 +420,11 @@ FrequencyResponse read_response(const std::filesystem::path& file, const Respons
   const std::string as = is_conjugated
                              ? choice.as.substr(start.size(), choice.as.size() - start.size() - 1)
                              : choice.as;
-  const ScaledName name = scaled_name({as});
-  const FrequencyResponse response = format_of(file).has(universal_extension)
-                                         ? from_universal_file(file, name)
-                                         : from_table(file, name);
+  const ScaledName name = scaled_name(as, choice);
+  FrequencyResponse response = format_of(file).has(universal_extension)
+                                   ? from_universal_file(file, name, choice)
+                                   : from_table(file, name, choice);
+  if (choice.may_fall && falls(response.frequency_hz, file.string())) reverse(response);
   check_frequencies(response.frequency_hz, file.string());
   FrequencyResponse lines = rising_lines(response);
   if (lines.value.empty())
@@ -371,6 +434,26 @@ FrequencyResponse read_response(const std::filesystem::path& file, const Respons
   if (is_conjugated)
     for (auto& value : lines.value) value = std::conj(value);
   return lines;
+}
+
+std::vector<double> read_response_column(const std::filesystem::path& file,
+                                         const std::string& column, const std::string& unit,
+                                         const ResponseChoice& choice) {
+  const ScaledName name = parse_scaled_name(column, unit);
+  if (format_of(file).has(universal_extension))
+    throw UserError(file.string() + ": a Universal File has no column '" + column +
+                    "'; give the number itself");
+  const auto table = open_table(file);
+  const Columns columns(*table);
+  const auto found = columns.find(name.name);
+  if (!found) columns.refuse("no column '" + name.name + "'");
+  FrequencyResponse lines{frequencies(columns), {}, {}, {}};
+  for (const double value : columns.values(*found))
+    lines.value.emplace_back(name.scale * value + name.offset);
+  if (choice.may_fall && falls(lines.frequency_hz, file.string())) reverse(lines);
+  std::vector<double> out;
+  for (const auto& value : rising_lines(lines).value) out.push_back(value.real());
+  return out;
 }
 
 }  // namespace vibrissa::signals::formats

@@ -15,7 +15,7 @@ namespace vibrissa::signals {
 
 namespace {
 
-using Spectra = std::vector<std::vector<std::complex<double>>>;  // [period][line - 1]
+using SpectraOfPeriods = std::vector<std::vector<std::complex<double>>>;  // [period][line - 1]
 
 void check_periods(std::size_t n_samples, std::size_t period_samples) {
   if (period_samples < 4 || n_samples < period_samples)
@@ -24,12 +24,12 @@ void check_periods(std::size_t n_samples, std::size_t period_samples) {
                     " samples (a period has at least 4)");
 }
 
-Spectra amplitudes_of_periods(std::span<const double> x, std::size_t period_samples) {
+SpectraOfPeriods amplitudes_of_periods(std::span<const double> x, std::size_t period_samples) {
   const std::size_t n_periods = x.size() / period_samples;
   const std::size_t n_lines = (period_samples + 1) / 2 - 1;
   const auto last = x.last(n_periods * period_samples);
   RealFft fft(period_samples);
-  Spectra spectra(n_periods, std::vector<std::complex<double>>(n_lines));
+  SpectraOfPeriods spectra(n_periods, std::vector<std::complex<double>>(n_lines));
   for (std::size_t p = 0; p < n_periods; ++p) {
     std::ranges::copy(last.subspan(p * period_samples, period_samples), fft.time().begin());
     fft.forward();
@@ -39,7 +39,7 @@ Spectra amplitudes_of_periods(std::span<const double> x, std::size_t period_samp
   return spectra;
 }
 
-std::vector<std::complex<double>> mean_of(const Spectra& spectra) {
+std::vector<std::complex<double>> mean_of(const SpectraOfPeriods& spectra) {
   std::vector<std::complex<double>> mean(spectra.front().size());
   for (const auto& period : spectra)
     for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += period[k];
@@ -49,7 +49,8 @@ std::vector<std::complex<double>> mean_of(const Spectra& spectra) {
 
 // Variances of the means: the scatter of n periods is n - 1 times the variance of one period, n (n
 // - 1) times the variance of their mean.
-void add_scatter(PeriodAverage& average, const Spectra& input, const Spectra& output) {
+void add_scatter(PeriodAverage& average, const SpectraOfPeriods& input,
+                 const SpectraOfPeriods& output) {
   const auto n = static_cast<double>(average.n_periods);
   const double share = n > 1. ? 1. / (n * (n - 1.)) : std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 0; k < average.n_lines(); ++k) {
@@ -91,8 +92,8 @@ PeriodAverage average_periods(std::span<const double> input, std::span<const dou
                               double sampling_rate_hz, std::size_t period_samples) {
   check_channels("period average", input, output, sampling_rate_hz);
   check_periods(input.size(), period_samples);
-  const Spectra u = amplitudes_of_periods(input, period_samples);
-  const Spectra y = amplitudes_of_periods(output, period_samples);
+  const SpectraOfPeriods u = amplitudes_of_periods(input, period_samples);
+  const SpectraOfPeriods y = amplitudes_of_periods(output, period_samples);
   PeriodAverage average{.sampling_rate_hz = sampling_rate_hz,
                         .period_samples = period_samples,
                         .n_periods = u.size(),
