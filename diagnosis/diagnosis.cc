@@ -7,6 +7,7 @@
 #include "diagnosis/model/words.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/records/experiment.h"
+#include "diagnosis/records/response_record.h"
 #include "diagnosis/search/calibrated_odds.h"
 #include "diagnosis/search/confidence_set.h"
 #include "diagnosis/search/misplaced_record.h"
@@ -39,9 +40,14 @@ Finding finding_of(const MisplacedRecord& misplaced) {
 
 void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
                       const std::vector<Finding>& findings) {
-  if (std::ranges::any_of(real.records, [&](const signals::DatasetRecord& entry) {
-        return entry.split == signals::Split::fit && entry.excitation != signals::Excitation{} &&
-               is_comparable(nominal, entry);
+  if (std::ranges::any_of(real.records,
+                          [&](const signals::DatasetRecord& entry) {
+                            return entry.split == signals::Split::fit &&
+                                   entry.excitation != signals::Excitation{} &&
+                                   is_comparable(nominal, entry);
+                          }) ||
+      std::ranges::any_of(real.responses, [&](const signals::DatasetResponse& entry) {
+        return entry.split == signals::Split::fit && is_comparable(nominal, entry);
       }))
     return;
   std::string text =
@@ -49,6 +55,18 @@ void refuse_poor_data(const NominalModel& nominal, const signals::Dataset& real,
       "both measured and simulated";
   for (const Finding& finding : findings) text.append("\n").append(finding.text());
   throw TooLittleData(text);
+}
+
+/// A simulation predicts one quantity.
+void refuse_other_quantities(const NominalModel& nominal, const signals::Dataset& real) {
+  for (const signals::DatasetResponse& entry : real.responses)
+    if (readout_of(entry.quantity) != nominal.readout)
+      throw signals::UserError(
+          "response '" + entry.name + "' is " + to_string(entry.quantity) +
+          ", but the simulation gives " +
+          (nominal.readout == signals::Readout::moment ? "the base moment"
+                                                       : "a rotation or a deflection") +
+          "; give the simulation as --sim with responses of the same quantity");
 }
 
 bool has_moving(const Experiment& experiment) {
@@ -196,6 +214,7 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
   out.findings.insert(out.findings.begin(), aligned.findings.begin(), aligned.findings.end());
   refuse_spoilt_data(out.findings);
   refuse_poor_data(nominal, aligned.dataset, out.findings);
+  refuse_other_quantities(nominal, aligned.dataset);
   const signals::Dataset real = in_pieces(aligned.dataset);
   out.guesses = real.guesses;
   Experiment experiment =
@@ -212,7 +231,8 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
   if (const auto misplaced = misplaced_record(experiment, result, options.search.n_threads)) {
     const auto is_it = [&](const auto& entry) { return entry.name == misplaced->name; };
     signals::Dataset others = recorded;
-    if (std::erase_if(others.records, is_it) == 0) {  // a piece of a long record
+    if (std::erase_if(others.records, is_it) + std::erase_if(others.responses, is_it) ==
+        0) {  // a piece of a long record
       others = real;
       std::erase_if(others.records, is_it);
     }

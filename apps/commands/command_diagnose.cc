@@ -68,10 +68,24 @@ void refuse_the_same(const signals::Dataset& simulated, const signals::Dataset& 
                                            other.end());
                        });
   };
-  if (std::all_of(real.records.begin(), real.records.end(), is_simulated))
+  if (!real.records.empty() && std::ranges::all_of(real.records, is_simulated))
     throw signals::UserError(
         "--real and --sim hold the same samples, so there is no gap; give records of the real "
         "sensor as --real");
+}
+
+/// A rotation and a deflection are in proportion, but the factor is not known.
+void refuse_other_motion(const signals::Dataset& simulated, const signals::Dataset& real) {
+  const auto is_rotation = [](const signals::DatasetResponse& entry) {
+    return entry.quantity == signals::ResponseQuantity::rotation;
+  };
+  for (const signals::DatasetResponse& measured : real.responses)
+    for (const signals::DatasetResponse& entry : simulated.responses)
+      if (is_rotation(measured) != is_rotation(entry))
+        throw signals::UserError("response '" + measured.name + "' is " +
+                                 to_string(measured.quantity) + " and the simulated one '" +
+                                 entry.name + "' is " + to_string(entry.quantity) +
+                                 "; give responses of the same quantity");
 }
 
 void diagnose_records(const DiagnoseCommand& options) {
@@ -83,13 +97,15 @@ void diagnose_records(const DiagnoseCommand& options) {
   const bool show = options.common.is_talkative();
   options.simulation.check_one_is_given();
   options.record.refuse_unused(*options.real);
-  const signals::ReadOptions reading = options.record.read_options();
+  signals::ReadOptions reading = options.record.read_options();
+  reading.takes_responses = true;
   const signals::Dataset real = signals::read_dataset(*options.real, reading);
   const NominalInput::Simulation simulation = options.simulation.read(show, reading);
   for (const signals::Dataset* dataset : {&real, &simulation.dataset})
     for (const std::string& words : signals::short_readings(dataset->readings))
       if (show) std::cerr << words << std::endl;
   refuse_the_same(simulation.dataset, real);
+  refuse_other_motion(simulation.dataset, real);
   // About forty single effects and combinations are fitted.
   constexpr std::size_t usual_fits = 75;
   signals::Progress progress("fitting effects", usual_fits, show);

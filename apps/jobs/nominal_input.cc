@@ -25,14 +25,15 @@ signals::ReducedModel solve_case(const std::string& file, bool show_progress) {
 // The error of the names in the file itself is the one that is said.
 signals::Dataset read_simulated(const std::string& source, const signals::ReadOptions& of_real) {
   try {
-    return signals::read_dataset(source);
+    return signals::read_dataset(source, {.takes_responses = true});
   } catch (const signals::UserError&) {
     if (of_real.columns.empty()) throw;
     const std::exception_ptr failure = std::current_exception();
     try {
       return signals::read_dataset(source, {.columns = of_real.columns,
                                             .sampling_rate_hz = of_real.sampling_rate_hz,
-                                            .text = of_real.text});
+                                            .text = of_real.text,
+                                            .takes_responses = true});
     } catch (const signals::UserError&) {
       std::rethrow_exception(failure);
     }

@@ -27,7 +27,7 @@ std::vector<double> spread_out(std::vector<double> power) {
 
 /// Density of flicker noise at a bin relative to white noise.
 double flicker_at(const PreparedRecord& record, const std::size_t b, const Eigen::VectorXd& x) {
-  return std::exp(x(index_of_flicker)) / (record.bin_hz() * static_cast<double>(b + 1));
+  return std::exp(x(index_of_flicker)) / (record.frequency_hz(b));
 }
 
 double nominal_misfit(const NominalModel& nominal, const PreparedRecord& record) {
@@ -121,8 +121,8 @@ double FitPosterior::acceleration_variance(const Eigen::VectorXd& x) const {
 }
 
 Eigen::Index FitPosterior::unknown_index(std::size_t record, std::size_t b) const {
-  const double ratio = 2. * std::numbers::pi * static_cast<double>(b + 1) *
-                       experiment_.records[record].bin_hz() / experiment_.scales.first_mode_rad_s;
+  const double ratio = 2. * std::numbers::pi * experiment_.records[record].frequency_hz(b) /
+                       experiment_.scales.first_mode_rad_s;
   return static_cast<Eigen::Index>(fit_parameters_.size() - n_unknown_bands() +
                                    unknown_band(ratio));
 }
@@ -282,7 +282,7 @@ Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
       there(index) += step(index);
       moved.push_back(make_chain(experiment_, fit_parameters_, there));
     }
-    const auto predictions = predict_together(moved, experiment_.records);
+    const auto predictions = predict_together(moved, experiment_.records, at);
     for (std::size_t i = 0; i < n; ++i) {
       const Eigen::Index index = indices[first + i];
       set_derivative(x, at, s, moved[i], predictions[i], step(index), index, out);

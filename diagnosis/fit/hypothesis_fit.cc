@@ -157,6 +157,25 @@ std::vector<FitParameter> with_nominal_calibrations(const std::vector<FitParamet
   return with_nominal(all, [](const std::string&) { return true; });
 }
 
+/// The starts with the resonances of the records; empty where those are not known.
+std::vector<Eigen::VectorXd> at_measured_modes(const Experiment& experiment,
+                                               const std::vector<FitParameter>& fit_parameters,
+                                               const std::string& shifted,
+                                               const std::vector<Eigen::VectorXd>& starts) {
+  std::vector<Eigen::VectorXd> out;
+  for (const Eigen::VectorXd& x : starts)
+    if (const auto moved = start_at_measured_modes(experiment, fit_parameters, shifted, x))
+      out.push_back(*moved);
+  return out;
+}
+
+/// Does a resonance that moves with the level show in responses?
+bool moves_in_responses(const Experiment& experiment, const Hypothesis& hypothesis) {
+  return std::ranges::any_of(experiment.records, &PreparedRecord::is_response) &&
+         std::ranges::any_of(hypothesis.effects(),
+                             [](const Effect* effect) { return is_nonlinear(*effect); });
+}
+
 /// Coarse grid of resonances, because a narrow resonance has a narrow basin of attraction: by the
 /// mass where the hypothesis holds it, otherwise by the stiffness; and the resonances of the
 /// records.
@@ -176,8 +195,8 @@ std::vector<Eigen::VectorXd> with_shifted_resonances(
         clamp(fit_parameters, out.back());
       }
   }
-  const auto at_measured = start_at_measured_modes(experiment, fit_parameters, shifted, starts[0]);
-  if (at_measured) out.push_back(*at_measured);
+  const auto measured = at_measured_modes(experiment, fit_parameters, shifted, {starts[0]});
+  out.insert(out.end(), measured.begin(), measured.end());
   return out;
 }
 
@@ -297,6 +316,13 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
     attempts.from(start_vectors(experiment, fit.fit_parameters, hypothesis, start, false));
   else
     attempts.from(with_shifted_resonances(experiment, fit.fit_parameters, hypothesis, nominal));
+  // A narrow resonance far from where it is measured tells a fit little.
+  if (moves_in_responses(experiment, hypothesis))
+    if (const auto measured =
+            at_measured_modes(experiment, fit.fit_parameters,
+                              hypothesis.contains("mass") ? "mass" : "stiffness", nominal);
+        !measured.empty())
+      attempts.from(measured);
   // Calibration parameters may absorb an effect: the other basins of attraction are reached with
   // them held.
   const bool is_refit = start != nullptr && start->hypothesis.name() == hypothesis.name();

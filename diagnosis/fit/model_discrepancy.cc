@@ -21,7 +21,7 @@ std::vector<double> block_edges(const Experiment& experiment) {
   for (const PreparedRecord& record : experiment.records) {
     if (record_kind(record) == n_record_kinds) continue;
     low = std::min(low, record.bin_hz());
-    high = std::max(high, record.bin_hz() * static_cast<double>(record.n_bins() + 1));
+    high = std::max(high, record.frequency_hz(record.n_bins() - 1) + record.bin_hz());
   }
   const double lowest =
       experiment.scales.first_mode_rad_s / (2. * std::numbers::pi) / 32.;  // five octaves below
@@ -106,7 +106,7 @@ ModelDiscrepancy::ModelDiscrepancy(const Experiment& experiment)
       position_.push_back(0.);
       block_.push_back(-1);
       if (kind == n_record_kinds) continue;
-      const double f = record.bin_hz() * static_cast<double>(b + 1);
+      const double f = record.frequency_hz(b);
       const auto above =
           static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), f) - edges.begin());
       const auto [found, is_new] =

@@ -49,7 +49,7 @@ ChannelGap channel_gap(const std::string& channel, const std::vector<RecordGap>&
     double whitened = 0., error = 0., n = 0.;
     for (const RecordGap& gap : gaps)
       for (std::size_t b = 0; b < gap.error.size(); ++b) {
-        const double f = gap.record->bin_hz() * static_cast<double>(b + 1);
+        const double f = gap.record->frequency_hz(b);
         if (f < edges[e] || f >= edges[e + 1] || on_rest_line(rest, *gap.record, b)) continue;
         whitened += std::norm(gap.error[b]) / gap.variance[b];
         error += std::norm(gap.error[b]);
@@ -99,7 +99,7 @@ std::vector<LevelGap> gap_map_by_level(const Experiment& experiment,
   constexpr double same_level = 1.1;
   std::map<double, std::vector<RecordGap>> by_level;
   for (const RecordGap& gap : gaps) {
-    if (kind_of(*gap.record) != "base" || !gap.record->periodic) continue;
+    if (kind_of(*gap.record) != "base" || !gap.record->is_steady()) continue;
     const double level = base_level_m_s2(*gap.record);
     auto index = by_level.lower_bound(level / same_level);
     if (index == by_level.end() || index->first > level * same_level)

@@ -152,7 +152,7 @@ GapInTime excess_of(const RecordGap& gap) {
 std::optional<LevelExponent> level_exponent(const std::vector<RecordGap>& gaps) {
   std::vector<LevelPoint> points;
   for (const RecordGap& gap : gaps)
-    if (kind_of(*gap.record) == "base" && gap.record->periodic)
+    if (kind_of(*gap.record) == "base" && gap.record->is_steady())
       if (const auto point = level_point(gap)) points.push_back(*point);
   if (points.size() < 2) return std::nullopt;
   const auto [low, high] = std::ranges::minmax(points, {}, &LevelPoint::log_level);
@@ -196,8 +196,10 @@ Harmonics harmonics_of(const std::vector<RecordGap>& gaps, const RestNoise& rest
 /// The error along every record with an excitation.
 std::vector<GapInTime> gap_in_time(const std::vector<RecordGap>& gaps) {
   std::vector<GapInTime> out;
-  for (const RecordGap& gap : gaps)
+  for (const RecordGap& gap : gaps) {
+    if (gap.record->is_response()) continue;
     if (GapInTime along = excess_of(gap); !along.time_s.empty()) out.push_back(std::move(along));
+  }
   return out;
 }
 
@@ -205,7 +207,7 @@ std::vector<GapInTime> gap_in_time(const std::vector<RecordGap>& gaps) {
 bool varies_in_time(const std::vector<RecordGap>& gaps) {
   std::vector<double> p_values;
   for (const RecordGap& gap : gaps) {
-    if (kind_of(*gap.record) == "rest") continue;
+    if (kind_of(*gap.record) == "rest" || gap.record->is_response()) continue;
     const std::vector<double> p = trend_p_values(gap);
     p_values.insert(p_values.end(), p.begin(), p.end());
   }

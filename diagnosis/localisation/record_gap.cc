@@ -60,8 +60,7 @@ RestNoise rest_noise(const Experiment& experiment) {
     out.bin_hz = record.bin_hz();
     out.excess = neighbour_mean(power, 3);
     out.lines_hz.clear();
-    for (const std::size_t b : line_bins)
-      out.lines_hz.push_back(record.bin_hz() * static_cast<double>(b + 1));
+    for (const std::size_t b : line_bins) out.lines_hz.push_back(record.frequency_hz(b));
   }
   return out;
 }
@@ -80,8 +79,7 @@ RecordGap gap_of(const Experiment& experiment, const PreparedRecord& record,
     gap.error[b] -= prediction.mean[b];
     double own = moment * prediction.moment_noise[b];
     if (rest.coloured) {
-      const auto bin = static_cast<std::size_t>(
-          std::lround(record.bin_hz() * static_cast<double>(b + 1) / rest.bin_hz));
+      const auto bin = static_cast<std::size_t>(std::lround(record.frequency_hz(b) / rest.bin_hz));
       own *= std::max(1., rest.excess[std::clamp<std::size_t>(bin, 1, rest.excess.size()) - 1]);
     }
     gap.variance.push_back(own + acceleration * prediction.acceleration_noise[b] +
@@ -91,7 +89,7 @@ RecordGap gap_of(const Experiment& experiment, const PreparedRecord& record,
 }
 
 bool on_rest_line(const RestNoise& rest, const PreparedRecord& record, std::size_t b) {
-  const double f = record.bin_hz() * static_cast<double>(b + 1);
+  const double f = record.frequency_hz(b);
   return std::ranges::any_of(rest.lines_hz, [&](double line) {
     return std::abs(f - line) < 3. * std::max(rest.bin_hz, record.bin_hz());
   });

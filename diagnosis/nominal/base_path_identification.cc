@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnosis/nominal/base_path_identification.h"
+#include "diagnosis/records/response_record.h"
 #include "diagnosis/records/spectrum.h"
 #include "separation/identification/identify_frequency.h"
 #include "separation/identification/output_error.h"
@@ -55,6 +56,28 @@ signals::FrequencyResponse joined_response(const Entries& entries) {
     joined.value.push_back(value);
     joined.coherence.push_back(1.);
     joined.standard_deviation.push_back(1e-3 * std::abs(value));
+  }
+  return joined;
+}
+
+/// Lines of responses by their drive, each from the first response that has it.
+signals::FrequencyResponse joined_response(
+    const std::span<const signals::DatasetResponse* const> responses) {
+  std::map<double, std::pair<Complex, double>> lines;
+  for (const signals::DatasetResponse* entry : responses) {
+    const std::vector<Complex> value = as_deflection(*entry);
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const double level = entry->level_m_s2[i],
+                   relative = entry->standard_deviation[i] / std::abs(entry->value[i]);
+      lines.try_emplace(entry->frequency_hz[i], value[i] / level, std::max(1e-3, relative));
+    }
+  }
+  signals::FrequencyResponse joined;
+  for (const auto& [frequency_hz, line] : lines) {
+    joined.frequency_hz.push_back(frequency_hz);
+    joined.value.push_back(line.first);
+    joined.coherence.push_back(1.);
+    joined.standard_deviation.push_back(line.second * std::abs(line.first));
   }
   return joined;
 }
@@ -197,7 +220,32 @@ void set_modes(NominalModel& model, const Bvrm& found) {
   model.base_direct = found.direct_term_kg_m;
 }
 
+/// Sets the gain of a response without dynamics.
+bool is_gain_alone(NominalModel& model, const signals::FrequencyResponse& response) {
+  const std::optional<double> gain = flat_gain(response);
+  if (!gain) return false;
+  model.base_direct = *gain;
+  model.has_base = true;
+  return true;
+}
+
 }  // namespace
+
+void identify_base_path(NominalModel& model,
+                        const std::span<const signals::DatasetResponse* const> responses) {
+  for (const signals::DatasetResponse* entry : responses)
+    if (!entry->phase_offset_is_known)
+      throw signals::UserError("response '" + entry->name +
+                               "': a simulation is identified from responses whose phase is known; "
+                               "turn them and say \"phase\": \"known\"");
+  const signals::FrequencyResponse response = joined_response(responses);
+  if (is_gain_alone(model, response)) return;
+  const auto best = best_candidate(response, {}, {}, /*periodic=*/true);
+  if (!best) return;
+  set_modes(model, best->model);
+  model.has_base = true;
+  model.base_misfit = best->misfit;
+}
 
 separation::Hold identify_base_path(NominalModel& model,
                                     std::span<const signals::DatasetRecord* const> base,
@@ -207,11 +255,7 @@ separation::Hold identify_base_path(NominalModel& model,
   const bool periodic = std::any_of(entries.begin(), entries.end(), is_periodic);
   if (periodic) std::erase_if(entries, [&](const auto* entry) { return !is_periodic(entry); });
   const signals::FrequencyResponse response = joined_response(entries);
-  if (const std::optional<double> gain = flat_gain(response)) {
-    model.base_direct = *gain;
-    model.has_base = true;
-    return separation::Hold::band_limited;
-  }
+  if (is_gain_alone(model, response)) return separation::Hold::band_limited;
   if (const std::optional<PathCandidate> best =
           periodic ? best_of_periodic(response, entries, holds)
                    : best_candidate(response, entries, holds, /*periodic=*/false)) {

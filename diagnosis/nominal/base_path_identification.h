@@ -23,6 +23,11 @@ separation::Hold identify_base_path(NominalModel& model,
                                     std::span<const signals::DatasetRecord* const> base,
                                     Holds holds);
 
+/// The same from simulated responses, lowest level first. Throws UserError where the phase is known
+/// but for an offset.
+void identify_base_path(NominalModel& model,
+                        std::span<const signals::DatasetResponse* const> responses);
+
 /// A simulation that holds or interpolates its input has the same samples whether a mode is at
 /// w_d or at a sum or difference of w_d and a multiple of the sampling frequency (aliases). A mode
 /// above half the sampling rate, or one whose damping ratio is not between those of mass- and

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <numbers>
 
 #include "diagnosis/nominal/base_path_identification.h"
 #include "diagnosis/prediction/chain_simulation.h"
 #include "diagnosis/records/experiment.h"
+#include "diagnosis/records/response_record.h"
 #include "diagnosis/records/spectrum.h"
 #include "separation/identification/identify_frequency.h"
 #include "signals/base/error.h"
@@ -115,9 +118,71 @@ void set_wind_path(NominalModel& model, const signals::Dataset& simulation,
   if (measured > 0.) model.wind_misfit = std::sqrt(std::max(0., left) / measured);
 }
 
+/// Responses of the sensor as it was simulated, lowest level first.
+std::vector<const signals::DatasetResponse*> by_level(const signals::Dataset& dataset) {
+  std::vector<const signals::DatasetResponse*> out;
+  for (const signals::DatasetResponse& entry : dataset.responses)
+    if (entry.setup == signals::BenchSetup{}) out.push_back(&entry);
+  std::ranges::stable_sort(out, {}, [](const signals::DatasetResponse* entry) {
+    return std::ranges::max(entry->level_m_s2);
+  });
+  return out;
+}
+
+/// Peak of a response, and what one mode of constant resonance would have at the lowest line.
+struct Peak {
+  double frequency_hz = 0., amplitude = 0., gain = 0.;
+  double lowest_hz = 0., lowest_gain = 0.;
+};
+Peak peak_of(const signals::DatasetResponse& response) {
+  const std::vector<Complex> value = as_deflection(response);
+  Peak out{.lowest_hz = response.frequency_hz.front(),
+           .lowest_gain = std::abs(value.front()) / response.level_m_s2.front()};
+  for (std::size_t i = 0; i < value.size(); ++i)
+    if (const double gain = std::abs(value[i]) / response.level_m_s2[i]; gain > out.gain) {
+      out.frequency_hz = response.frequency_hz[i];
+      out.amplitude = std::abs(value[i]);
+      out.gain = gain;
+    }
+  return out;
+}
+
+/// The mode at small amplitude from the peaks of all levels, of both directions the higher one: the
+/// square of their frequency changes in proportion to that of the amplitude (backbone of a cubic
+/// spring; Nayfeh and Mook 1979, sec. 4.1). Its damping from the gain at the lowest peak, relative
+/// to that at the lowest line.
+std::optional<StructuralMode> mode_of_peaks(
+    const std::vector<const signals::DatasetResponse*>& responses) {
+  std::map<double, Peak> by_level;
+  for (const signals::DatasetResponse* response : responses) {
+    const Peak peak = peak_of(*response);
+    Peak& highest = by_level[std::ranges::max(response->level_m_s2)];
+    if (peak.amplitude > highest.amplitude) highest = peak;
+  }
+  const auto n = static_cast<Eigen::Index>(by_level.size());
+  Eigen::MatrixX2d line(n, 2);
+  Eigen::VectorXd square(n);
+  Eigen::Index row = 0;
+  for (const auto& [level, peak] : by_level) {
+    line.row(row) << 1., peak.amplitude * peak.amplitude;
+    square(row++) = peak.frequency_hz * peak.frequency_hz;
+  }
+  const double highest = line.col(1).maxCoeff();
+  line.col(1) /= highest;
+  const double intercept =
+      n > 1 ? Eigen::Vector2d(line.colPivHouseholderQr().solve(square))(0) : square(0);
+  const Peak& lowest = by_level.begin()->second;
+  const double r = lowest.lowest_hz * lowest.lowest_hz / intercept;
+  if (!(intercept > 0.) || !(r < 1.)) return std::nullopt;
+  return StructuralMode{.frequency_rad_s = 2. * std::numbers::pi * std::sqrt(intercept),
+                        .damping_ratio = 0.5 * lowest.lowest_gain * (1. - r) / lowest.gain};
+}
+
 /// All records must have the same readout, because a model predicts one kind of reading.
-signals::Readout readout_of(const signals::Dataset& simulation) {
-  if (simulation.records.empty()) return signals::Readout::moment;
+signals::Readout common_readout(const signals::Dataset& simulation) {
+  if (simulation.records.empty())
+    return simulation.responses.empty() ? signals::Readout::moment
+                                        : readout_of(simulation.responses.front().quantity);
   const DatasetRecord& first = simulation.records.front();
   for (const DatasetRecord& entry : simulation.records)
     if (entry.readout != first.readout)
@@ -157,12 +222,15 @@ void set_misfits(NominalModel& model, const signals::Dataset& simulation) {
 
 NominalModel identified(const signals::Dataset& simulation, const Holds holds) {
   NominalModel model;
-  model.readout = readout_of(simulation);
-  model.readout_is_given =
-      !simulation.records.empty() && simulation.records.front().readout_is_given;
+  model.readout = common_readout(simulation);
+  model.readout_is_given = simulation.records.empty() ? !simulation.responses.empty()
+                                                      : simulation.records.front().readout_is_given;
   const auto base = choose(simulation, &signals::Excitation::base, channel::base_acceleration);
-  const separation::Hold hold =
-      base.empty() ? separation::Hold::band_limited : identify_base_path(model, base, holds);
+  separation::Hold hold = separation::Hold::band_limited;
+  if (!base.empty())
+    hold = identify_base_path(model, base, holds);
+  else if (const auto responses = by_level(simulation); !responses.empty())
+    identify_base_path(model, responses);
   set_wind_path(model, simulation, hold);
   if (!model.has_base && !model.has_wind)
     throw signals::UserError(
@@ -183,9 +251,15 @@ NominalModel identify_nominal(const signals::Dataset& simulation) {
 }
 
 std::vector<StructuralMode> measured_modes(signals::Dataset real) {
-  std::erase_if(real.records, [](const signals::DatasetRecord& entry) {
-    return entry.split != signals::Split::fit;
-  });
+  const auto is_kept_back = [](const auto& entry) { return entry.split != signals::Split::fit; };
+  std::erase_if(real.records, is_kept_back);
+  std::erase_if(real.responses, is_kept_back);
+  if (const auto responses = by_level(real); real.records.empty() && !responses.empty()) {
+    if (responses.size() > 1 || !responses.front()->phase_offset_is_known) {
+      const auto mode = mode_of_peaks(responses);
+      return mode ? std::vector{*mode} : std::vector<StructuralMode>{};
+    }
+  }
   try {
     constexpr std::array continuous{separation::Hold::band_limited};
     return identified(real, continuous).modes;

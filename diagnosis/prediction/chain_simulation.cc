@@ -44,7 +44,7 @@ std::vector<std::vector<Complex>> evaluated_means(
 void paint(std::span<double> variance, const NoiseColour& colour, const PreparedRecord& record) {
   if (colour.is_white()) return;
   for (std::size_t b = 0; b < variance.size(); ++b)
-    variance[b] *= colour.density(record.bin_hz() * static_cast<double>(b + 1));
+    variance[b] *= colour.density(record.frequency_hz(b));
 }
 
 }  // namespace
@@ -72,7 +72,9 @@ ChainSimulator::Begun ChainSimulator::begin(std::span<const PreparedRecord> reco
   out.task.chain = &chain_;
   out.task.joint = &*response_.joint();
   for (std::size_t r = 0; r < records.size(); ++r) {
-    if (records[r].is_still() || !records[r].magnet || !is_dynamic(chain_, records[r])) continue;
+    if (records[r].is_still() || records[r].is_response() || !records[r].magnet ||
+        !is_dynamic(chain_, records[r]))
+      continue;
     const std::vector<LinearPart>& lines = response_.lines(records[r]);
     out.indices.push_back(r);
     std::vector<Complex>& elastic =
@@ -99,8 +101,34 @@ std::vector<Complex> ChainSimulator::reading(const PreparedRecord& record,
   return spectrum_of(resampled(moment, n, n, first, 1. + error));
 }
 
+/// near: the states under a chain that hardly differs; may be nullptr.
+std::vector<Complex> ChainSimulator::response_reading(const PreparedRecord& record,
+                                                      const std::vector<Complex>& moment,
+                                                      const SweepStates* near) {
+  std::vector<Complex> out = moment;
+  if (is_nonlinear_sweep(chain_, record)) {
+    std::shared_ptr<const SweepStates>& own = sweeps_[record.number];
+    if (near == nullptr && !own) own = std::make_shared<SweepStates>(chain_, record);
+    const std::vector<Complex> readings =
+        near == nullptr ? own->readings() : near->readings_of(chain_, record);
+    for (std::size_t b = 0; b < readings.size(); ++b)
+      out[b + 1] = record.sines.per_amplitude * readings[b];
+  } else {
+    const std::vector<LinearPart>& lines = response_.lines(record);
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] *= lines[k].sensor;
+  }
+  if (record.sines.phase_is_known) return out;
+  Complex common = 0.;
+  for (std::size_t b = 0; b < record.n_bins(); ++b)
+    common += record.moment[b] * std::conj(out[b + 1]);
+  if (common == 0.) return out;
+  for (Complex& line : out) line *= common / std::abs(common);
+  return out;
+}
+
 ChainSimulator::Spectra ChainSimulator::finish(std::span<const PreparedRecord> records, Begun begun,
-                                               const std::vector<std::vector<double>>& dynamic) {
+                                               const std::vector<std::vector<double>>& dynamic,
+                                               const std::span<const Prediction> near) {
   Spectra moments = std::move(begun.moments);
   for (std::size_t i = 0; i < begun.indices.size(); ++i) {
     const std::vector<Complex> added = spectrum_of(dynamic[i]);
@@ -110,6 +138,11 @@ ChainSimulator::Spectra ChainSimulator::finish(std::span<const PreparedRecord> r
   for (std::size_t r = 0; r < records.size(); ++r) {
     const PreparedRecord& record = records[r];
     if (record.is_still()) continue;
+    if (record.is_response()) {
+      moments[r] =
+          response_reading(record, moments[r], near.empty() ? nullptr : near[r].sweep.get());
+      continue;
+    }
     if (!record.cross_acceleration.empty()) {
       const std::vector<LinearPart>& lines = response_.lines(record);
       for (std::size_t k = 0; k < lines.size(); ++k)
@@ -198,8 +231,16 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
   const std::size_t n_bins = record.n_bins();
   const double n = static_cast<double>(record.n_evaluated);
   prediction.moment_noise.assign(n_bins, n);
-  paint(prediction.moment_noise, record.colours.moment, record);
   prediction.acceleration_noise.assign(n_bins, 0.);
+  if (record.is_response()) {
+    for (std::size_t b = 0; b < n_bins; ++b)
+      prediction.moment_noise[b] *= record.sines.noise_share[b];
+    prediction.process_noise.assign(n_bins, 0.);
+    if (const auto found = sweeps_.find(record.number); found != sweeps_.end())
+      prediction.sweep = found->second;
+    return prediction;
+  }
+  paint(prediction.moment_noise, record.colours.moment, record);
   if (!record.is_still()) {
     add_acceleration_noise(record, prediction.acceleration_noise);
     paint(prediction.acceleration_noise, record.colours.acceleration, record);
@@ -225,7 +266,8 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
 }
 
 std::vector<std::vector<Prediction>> predict_together(std::span<const Chain> chains,
-                                                      std::span<const PreparedRecord> records) {
+                                                      std::span<const PreparedRecord> records,
+                                                      const std::span<const Prediction> near) {
   std::vector<ChainSimulator> simulators(chains.begin(), chains.end());
   std::vector<ChainSimulator::Begun> begun;
   std::vector<DynamicTask> tasks;
@@ -237,7 +279,7 @@ std::vector<std::vector<Prediction>> predict_together(std::span<const Chain> cha
   std::vector<std::vector<Prediction>> out;
   for (std::size_t i = 0; i < simulators.size(); ++i)
     out.push_back(simulators[i].predictions(
-        records, simulators[i].finish(records, std::move(begun[i]), dynamic[i])));
+        records, simulators[i].finish(records, std::move(begun[i]), dynamic[i], near)));
   return out;
 }
 

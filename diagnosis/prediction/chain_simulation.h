@@ -1,13 +1,16 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "diagnosis/model/chain.h"
-#include "diagnosis/prediction/joint_simulation.h"
-#include "diagnosis/prediction/linear_response.h"
 #include "diagnosis/prediction/record_nuisances.h"
+#include "diagnosis/prediction/sweep_states.h"
 #include "diagnosis/records/experiment.h"
+#include "diagnosis/response/joint_simulation.h"
+#include "diagnosis/response/linear_response.h"
 
 namespace vibrissa::diagnosis {
 
@@ -20,12 +23,15 @@ struct Prediction {
   std::vector<double> acceleration_noise;  // to be multiplied by the accelerometer's noise variance
   std::vector<double> process_noise;       // complete
   std::vector<RecordNuisance> unknowns;    // per-record nuisance parameters: the rise of a drift
+  std::shared_ptr<const SweepStates>
+      sweep{};  // of a response that is not proportional to its drive
 };
 
 /// Predicts records under one chain, which must outlive it. Linear parts exactly for band-limited
 /// inputs, by transfer functions at the lines of the record (its start, where the circular
 /// continuation is wrong, is not evaluated); the contributions of joint laws and relative wind are
-/// integrated in time.
+/// integrated in time. Responses are steady states (sweep_states.h); where their phase is unknown,
+/// they are turned to that of the measured one.
 class ChainSimulator {
  public:
   explicit ChainSimulator(const Chain& chain) : chain_(chain), response_(chain) {}
@@ -44,11 +50,16 @@ class ChainSimulator {
     DynamicTask task{};
   };
   friend std::vector<std::vector<Prediction>> predict_together(
-      std::span<const Chain> chains, std::span<const PreparedRecord> records);
+      std::span<const Chain> chains, std::span<const PreparedRecord> records,
+      std::span<const Prediction> near);
 
   Begun begin(std::span<const PreparedRecord> records);
   Spectra finish(std::span<const PreparedRecord> records, Begun begun,
-                 const std::vector<std::vector<double>>& dynamic);
+                 const std::vector<std::vector<double>>& dynamic,
+                 std::span<const Prediction> near = {});
+  std::vector<Complex> response_reading(const PreparedRecord& record,
+                                        const std::vector<Complex>& moment,
+                                        const SweepStates* near);
   Spectra readings(std::span<const PreparedRecord> records);
   std::vector<Prediction> predictions(std::span<const PreparedRecord> records,
                                       const Spectra& readings);
@@ -60,11 +71,14 @@ class ChainSimulator {
 
   const Chain& chain_;
   LinearResponse response_;
+  std::map<std::size_t, std::shared_ptr<const SweepStates>> sweeps_{};  // by number of the record
 };
 
-/// Predictions of each chain, as ChainSimulator::predict but faster.
+/// Predictions of each chain, as ChainSimulator::predict but faster. near: predictions of a chain
+/// that hardly differs, whose branches responses stay on; may be empty.
 std::vector<std::vector<Prediction>> predict_together(std::span<const Chain> chains,
-                                                      std::span<const PreparedRecord> records);
+                                                      std::span<const PreparedRecord> records,
+                                                      std::span<const Prediction> near = {});
 
 /// Prediction of one record.
 Prediction simulate(const Chain& chain, const PreparedRecord& record);

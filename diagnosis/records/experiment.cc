@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "diagnosis/records/response_record.h"
 #include "diagnosis/records/spectrum.h"
 #include "signals/base/error.h"
 #include "signals/record/whole_transient.h"
@@ -227,24 +228,6 @@ PreparedRecord prepare_record(const NominalModel& nominal, const DatasetRecord& 
   return out;
 }
 
-/// Does the effect change anything except the joint of the first mode?
-bool acts_without_modes(const Effect& effect) {
-  const Chain chain = probe(effect, NominalModel{});
-  return !(chain.reference.empty() && chain.mount.empty() && chain.parallel.empty() &&
-           chain.wind.empty() && chain.drag_factor == 1. && chain.feedthrough.empty() &&
-           chain.cross.empty() && chain.readout.empty() && chain.sensor.empty() &&
-           chain.clock_rate_error == 0. && chain.new_sample_share == 0. &&
-           chain.reference_variance == 0. && chain.noise.empty() && chain.ramp_variance_rate == 0.);
-}
-
-double moved_seconds(const Experiment& experiment) {
-  double sum = 0.;
-  for (const PreparedRecord& record : experiment.records)
-    if (record.excitation.base || record.excitation.wind)
-      sum += static_cast<double>(record.n_samples) / record.sampling_rate_hz;
-  return sum;
-}
-
 /// Scales::moved_band_hz.
 double moved_band_hz(const Experiment& experiment) {
   constexpr double nearly_all = 0.99;
@@ -254,8 +237,8 @@ double moved_band_hz(const Experiment& experiment) {
     std::vector<double> sum = powers(record.acceleration);
     std::partial_sum(sum.begin(), sum.end(), sum.begin());
     const auto line = std::ranges::lower_bound(sum, nearly_all * sum.back()) - sum.begin();
-    out = std::max(out, static_cast<double>(line) * record.sampling_rate_hz /
-                            static_cast<double>(record.n_samples));
+    out = std::max(out,
+                   record.line_s(static_cast<std::size_t>(line)).imag() / (2. * std::numbers::pi));
   }
   return out;
 }
@@ -301,26 +284,11 @@ bool is_comparable(const NominalModel& nominal, const DatasetRecord& entry) {
   return (!entry.excitation.base || base_known) && (!entry.excitation.wind || wind_known);
 }
 
-std::vector<Lack> lacks(const Experiment& experiment, const Effect& effect) {
-  const Needs& needs = effect.needs;
-  std::vector<Lack> out;
-  if (needs.base && !experiment.has_base) out.push_back(Lack::base);
-  if (needs.wind && !experiment.has_wind) out.push_back(Lack::wind);
-  if (needs.cross && !experiment.has_cross) out.push_back(Lack::cross);
-  if (needs.repeats && !experiment.has_repeats) out.push_back(Lack::repeats);
-  if (experiment.nominal.modes.empty() && !acts_without_modes(effect)) out.push_back(Lack::modes);
-  if (needs.moved_s > 0. && moved_seconds(experiment) <= needs.moved_s)
-    out.push_back(Lack::duration);
-  const double highest = std::log(experiment.scales.moved_band_hz);
-  if (std::ranges::any_of(effect.parameters, [&](const Parameter& parameter) {
-        return parameter.in_moved_band && highest < parameter.prior.low;
-      }))
-    out.push_back(Lack::band);
-  return out;
-}
-
-bool shows(const Experiment& experiment, const Effect& effect) {
-  return lacks(experiment, effect).empty();
+std::size_t PreparedRecord::block_length() const {
+  constexpr double block_s = 0.25;
+  if (is_response()) return std::max<std::size_t>(1, n_evaluated / 16);
+  return std::max<std::size_t>(1,
+                               static_cast<std::size_t>(std::lround(block_s * sampling_rate_hz)));
 }
 
 std::size_t PreparedRecord::whole_line(const std::size_t b) const {
@@ -331,12 +299,21 @@ std::size_t PreparedRecord::whole_line(const std::size_t b) const {
 }
 
 Complex PreparedRecord::line_s(const std::size_t k) const {
+  if (is_response() && k > 0 && k <= n_bins())
+    return {0., 2. * std::numbers::pi * sines.frequency_hz[k - 1]};
   return {0., 2. * std::numbers::pi * sampling_rate_hz * static_cast<double>(k) /
                   static_cast<double>(n_samples)};
 }
 
 std::vector<double> evaluated_samples(const PreparedRecord& record, std::span<const Complex> bins) {
   assert(bins.size() == record.n_bins());
+  if (record.is_response()) {
+    const double scale = std::sqrt(2. / static_cast<double>(record.n_evaluated));
+    std::vector<double> parts;
+    for (const Complex& bin : bins)
+      parts.insert(parts.end(), {scale * bin.real(), scale * bin.imag()});
+    return parts;
+  }
   std::vector<Complex> whole(record.n_evaluated / 2 + 1, 0.);
   std::copy(bins.begin(), bins.end(), whole.begin() + 1);
   return samples_of(whole, record.n_evaluated);
@@ -377,6 +354,7 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
     experiment.has_cross |= !record.cross_acceleration.empty();
     experiment.has_repeats |= !record.source_acceleration.empty();
   }
+  add_responses(experiment, dataset, split);
   if (!experiment.has_base && !experiment.has_wind && split == signals::Split::fit)
     throw signals::UserError(
         "no record can be compared with the simulation: give a fit record that is long enough and "
@@ -385,6 +363,7 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
   if (experiment.moment_noise <= 0.)
     experiment.moment_noise = 1e-3 * experiment.scales.moment_rms_n_m;
   if (experiment.acceleration_noise <= 0.) experiment.acceleration_noise = 1e-3;
+  share_noise(experiment);
   return experiment;
 }
 

@@ -10,8 +10,19 @@
 
 namespace vibrissa::diagnosis {
 
+/// What a response has instead of samples: the steady state under one sine in each bin. A sine of
+/// amplitude A counts as a line of per_amplitude A of a DFT of 2 (n + 1) samples, so that the sines
+/// together have the power of a record whose n lines share it.
+struct SineLines {
+  std::vector<double> frequency_hz{};  // rising; empty: a record in time
+  signals::SweepDirection direction = signals::SweepDirection::up;
+  double per_amplitude = 1.;
+  bool phase_is_known = true;         // otherwise all lines may be turned by one angle
+  std::vector<double> noise_share{};  // of the bins, relative to white noise of the moment
+};
+
 /// One prepared record: the excitation as spectra over the whole record, the measured moment as the
-/// spectrum of the evaluated part. DFTs are unscaled.
+/// spectrum of the evaluated part. DFTs are unscaled. A response has its sines as bins instead.
 struct PreparedRecord {
   std::string name;
   signals::Excitation excitation;
@@ -32,13 +43,22 @@ struct PreparedRecord {
   std::vector<double> wind{};                 // one value per sample; empty: not measured
   /// Share of the accelerometer noise that remains at lines of the whole record, and at its bins.
   std::vector<double> noise_share{}, bin_noise_share{};
-  ChannelColours colours{};              // of the noise of both channels
+  ChannelColours colours{};  // of the noise of both channels
+  SineLines sines{};
   double acceleration_noise_power = 0.;  // sum |A_k|^2 at rest, for the noise variance
   std::size_t n_acceleration_noise = 0;  // number of lines in the sum
 
   std::vector<Complex> moment{};  // bins 1 .. of the evaluated part
   std::size_t n_bins() const { return moment.size(); }
+  bool is_response() const { return !sines.frequency_hz.empty(); }
+  bool is_steady() const { return periodic || is_response(); }
+  double frequency_hz(const std::size_t b) const {
+    return is_response() ? sines.frequency_hz[b] : bin_hz() * static_cast<double>(b + 1);
+  }
+  /// Distance of the bins; of a response its mean.
   double bin_hz() const { return sampling_rate_hz / static_cast<double>(n_evaluated); }
+  /// Samples in a block of a bootstrap: a quarter of a second, or a sixteenth of a response.
+  std::size_t block_length() const;
   /// Line of the whole record nearest to evaluated bin b (b = 0 is bin 1 of the DFT).
   std::size_t whole_line(std::size_t b) const;
   /// s = j 2 pi f of line k of the whole record.
@@ -56,7 +76,8 @@ struct WhitenedRecord {
 };
 
 /// Samples of a record's evaluated part from its bins (as PreparedRecord::moment), without the mean
-/// and the component at half the sampling rate.
+/// and the component at half the sampling rate. For a response: real and imaginary parts of the
+/// bins in turn, with the same sum of squares.
 std::vector<double> evaluated_samples(const PreparedRecord& record, std::span<const Complex> bins);
 
 /// Bins of the evaluated part, as PreparedRecord::moment, from the samples of a whole record.
@@ -111,15 +132,18 @@ bool is_simulated(const signals::BenchSetup& setup);
 /// Proven by tests/diagnosis/records/experiment_test.cc.
 bool is_comparable(const NominalModel& nominal, const signals::DatasetRecord& entry);
 
+/// Can a response be compared with the simulation?
+bool is_comparable(const NominalModel& nominal, const signals::DatasetResponse& entry);
+
 /// Requirements of an effect that an experiment may lack.
-enum class Lack { base, wind, cross, repeats, modes, duration, band };
+enum class Lack { base, wind, cross, repeats, modes, duration, band, time };
 /// All missing requirements, in that order.
 std::vector<Lack> lacks(const Experiment& experiment, const Effect& effect);
 /// Does the experiment contain everything that the effect needs?
 bool shows(const Experiment& experiment, const Effect& effect);
 
-/// Prepares the comparable records of the given split. Throws UserError when fit records are
-/// requested and none of them has an excitation.
+/// Prepares the comparable records and responses of the given split. Throws UserError when fit
+/// records are requested and none of them has an excitation.
 Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dataset& dataset,
                               signals::Split split, InputNoise noise);
 

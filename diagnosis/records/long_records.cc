@@ -48,6 +48,7 @@ void add_pieces(const signals::DatasetRecord& entry, signals::Dataset& out) {
 signals::Dataset in_pieces(const signals::Dataset& dataset) {
   signals::Dataset out;
   out.guesses = dataset.guesses;
+  out.responses = dataset.responses;
   for (const signals::DatasetRecord& entry : dataset.records) {
     if (entry.record.n_samples() <= longest_whole_record)
       out.records.push_back(entry);

@@ -32,7 +32,8 @@ SimulationAndRecords read_as_rotation(SimulationAndRecords given) {
 bool is_rotation(const SimulationAndRecords& given, const Experiment& experiment,
                  const SearchResult& result) {
   constexpr std::ptrdiff_t n_probable = 3;
-  if (std::ranges::any_of(given.real.records, &signals::DatasetRecord::readout_is_given))
+  if (!given.real.responses.empty() ||
+      std::ranges::any_of(given.real.records, &signals::DatasetRecord::readout_is_given))
     return false;
   const auto nonlinear = std::ranges::find_if(result.candidates, [&](const Candidate& candidate) {
     return has_joint_law(result.fits[candidate.fit].hypothesis);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/prediction/difference_integrator.h"
+#include "diagnosis/response/difference_integrator.h"
 
 namespace vibrissa::diagnosis {
 namespace {

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
-#include "diagnosis/prediction/difference_integrator.h"
+#include "diagnosis/response/difference_integrator.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -93,8 +94,12 @@ HarmonicBalance::Coefficients HarmonicBalance::coefficients(const double w_rad_s
 
 Eigen::VectorXd HarmonicBalance::linear_motion(const double w_rad_s,
                                                const double drive_share) const {
-  const LinearPart part = response_.at(Complex(0., w_rad_s), drive_.readout);
-  const Complex y = drive_share * drive_.acceleration_m_s2 * part.base * part.elastic;
+  return linear_motion(w_rad_s, drive_share, response_.at(Complex(0., w_rad_s), drive_.readout));
+}
+
+Eigen::VectorXd HarmonicBalance::linear_motion(const double w_rad_s, const double drive_share,
+                                               const LinearPart& part) const {
+  const Complex y = drive_share * drive_.acceleration_at(w_rad_s) * part.base * part.elastic;
   Eigen::VectorXd out = Eigen::VectorXd::Zero(basis_.n_coordinates());
   set_order(out, basis_.fundamental() / 2, y);
   if (!basis_.only_odd()) out(0) = steady_elastic_;
@@ -128,8 +133,9 @@ HarmonicBalance::LaneLoads HarmonicBalance::lane_loads(const LaneRows& y, const 
   if (chain_.relative_wind.on && drive_.wind_speed_m_s) {
     // Base velocity A / (j w).
     LaneRows velocity = LaneRows::Zero(y.rows(), n_lanes);
-    velocity.row(basis_.fundamental() + 1) =
-        -(drive_share * drive_.acceleration_m_s2) / w_rad_s.transpose();
+    const Lanes acceleration =
+        w_rad_s.unaryExpr([&](const double w) { return drive_.acceleration_at(w); });
+    velocity.row(basis_.fundamental() + 1) = -drive_share * (acceleration / w_rad_s).transpose();
     const LaneRows base = basis_.samples(velocity);
     for (Eigen::Index i = 0; i < n; ++i)
       external.row(i) =
@@ -202,7 +208,7 @@ Complex HarmonicBalance::reading(const PeriodicMotion& motion, const LaneLoads& 
   const Complex s(0., motion.w_rad_s);
   const LinearPart part = response_.at(s, drive_.readout);
   Eigen::VectorXd moment = Eigen::VectorXd::Zero(basis_.n_coordinates());
-  const Eigen::VectorXd added = motion.y - linear_motion(motion.w_rad_s);
+  const Eigen::VectorXd added = motion.y - linear_motion(motion.w_rad_s, 1., part);
   const Eigen::VectorXd torque = loads.torque.col(lane);
   for (std::size_t k = 0; k < basis_.orders().size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -214,7 +220,7 @@ Complex HarmonicBalance::reading(const PeriodicMotion& motion, const LaneLoads& 
         drive_.readout == signals::Readout::rotation ? y : stiffness * y + order_of(torque, i));
   }
   const Eigen::Index i = basis_.fundamental() / 2;
-  set_order(moment, i, order_of(moment, i) + part.base * drive_.acceleration_m_s2);
+  set_order(moment, i, order_of(moment, i) + part.base * drive_.acceleration_at(motion.w_rad_s));
   if (!basis_.only_odd()) moment(0) += steady_moment_;
   if (chain_.readout.empty()) return part.sensor * order_of(moment, i);
   // A static law may have even terms, which the odd orders alone cannot carry.
@@ -234,14 +240,44 @@ std::vector<Complex> HarmonicBalance::readings(std::span<const PeriodicMotion> m
   return out;
 }
 
+std::vector<HarmonicBalance::Coefficients> HarmonicBalance::coefficients_of(
+    const std::span<const PeriodicMotion> motions) const {
+  std::vector<Coefficients> out;
+  for (const PeriodicMotion& motion : motions) out.push_back(coefficients(motion.w_rad_s, 1.));
+  return out;
+}
+
 std::vector<Eigen::VectorXd> HarmonicBalance::errors(
     std::span<const PeriodicMotion> motions) const {
+  return errors(motions, coefficients_of(motions));
+}
+
+void HarmonicBalance::correct(const std::span<PeriodicMotion> motions,
+                              const std::span<const Eigen::MatrixXd* const> inverse,
+                              const int n_iterations) const {
+  const std::vector<Coefficients> known = coefficients_of(motions);
+  std::vector<PeriodicMotion> trial(motions.begin(), motions.end());
+  std::vector<double> least(motions.size(), std::numeric_limits<double>::infinity());
+  for (int k = 0; k <= n_iterations; ++k) {
+    const std::vector<Eigen::VectorXd> error = errors(trial, known);
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const Eigen::VectorXd step = *inverse[i] * error[i];
+      if (!(step.norm() < least[i])) continue;
+      least[i] = step.norm();
+      motions[i] = trial[i];
+      trial[i].y -= step;
+    }
+  }
+}
+
+std::vector<Eigen::VectorXd> HarmonicBalance::errors(
+    const std::span<const PeriodicMotion> motions,
+    const std::span<const Coefficients> coefficients) const {
   const InLanes lanes = in_lanes(motions);
   const LaneLoads loads = lane_loads(lanes.y, lanes.w, lanes.earlier_peak, 1.);
   std::vector<Eigen::VectorXd> out;
   for (std::size_t i = 0; i < motions.size(); ++i)
-    out.push_back(error(motions[i].y, coefficients(motions[i].w_rad_s, 1.), loads,
-                        static_cast<Eigen::Index>(i)));
+    out.push_back(error(motions[i].y, coefficients[i], loads, static_cast<Eigen::Index>(i)));
   return out;
 }
 

@@ -1,22 +1,28 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "diagnosis/prediction/linear_response.h"
+#include "diagnosis/response/linear_response.h"
 #include "diagnosis/steady_state/fourier_basis.h"
 
 namespace vibrissa::diagnosis {
 
 /// A sine of the base, in steady wind or none.
 struct HarmonicDrive {
-  double acceleration_m_s2 = 0.;           // amplitude of the accelerometer's reading
-  std::optional<double> wind_speed_m_s{};  // nothing: not measured
+  double acceleration_m_s2 = 0.;  // amplitude of the accelerometer's reading
+  std::function<double(double w_rad_s)> relative_level{};  // factor on it; nothing: 1
+  std::optional<double> wind_speed_m_s{};                  // nothing: not measured
   signals::Readout readout = signals::Readout::moment;
   std::size_t record_number = 0;  // of the laws that change from record to record
   double earlier_peak_n_m = 0.;   // largest elastic moment before, for laws that stay changed
+
+  double acceleration_at(const double w_rad_s) const {
+    return acceleration_m_s2 * (relative_level ? relative_level(w_rad_s) : 1.);
+  }
 };
 
 /// A periodic motion: coordinates of the joint's elastic moment y [N m], its frequency, and the
@@ -67,6 +73,10 @@ class HarmonicBalance {
   std::vector<Complex> readings(std::span<const PeriodicMotion> motions) const;
   /// Error of the equations at each motion; at most signals::n_lanes motions.
   std::vector<Eigen::VectorXd> errors(std::span<const PeriodicMotion> motions) const;
+  /// Chord iterations from motions, at most signals::n_lanes, each with an inverse of the error's
+  /// derivatives by the coordinates near by. Each stays where its next step would be larger.
+  void correct(std::span<PeriodicMotion> motions, std::span<const Eigen::MatrixXd* const> inverse,
+               int n_iterations) const;
   /// Norm of the motion that the orders beyond the highest would add, relative to the motion.
   std::vector<double> neglected(std::span<const PeriodicMotion> motions) const;
 
@@ -83,6 +93,10 @@ class HarmonicBalance {
   Coefficients coefficients(double w_rad_s, double drive_share) const;
   LaneLoads lane_loads(const LaneRows& y, const Lanes& w_rad_s, const Lanes& earlier_peak,
                        double drive_share) const;
+  std::vector<Eigen::VectorXd> errors(std::span<const PeriodicMotion> motions,
+                                      std::span<const Coefficients> coefficients) const;
+  std::vector<Coefficients> coefficients_of(std::span<const PeriodicMotion> motions) const;
+  Eigen::VectorXd linear_motion(double w_rad_s, double drive_share, const LinearPart& part) const;
   Eigen::VectorXd error(const Eigen::VectorXd& y, const Coefficients& coefficients,
                         const LaneLoads& loads, Eigen::Index lane) const;
   Complex reading(const PeriodicMotion& motion, const LaneLoads& loads, Eigen::Index lane) const;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -257,27 +256,6 @@ void ResponseCurve::follow(const double first_rad_s, const double last_rad_s) {
   }
 }
 
-void ResponseCurve::correct(const std::span<PeriodicMotion> motions,
-                            const std::span<const Eigen::MatrixXd*> inverse) const {
-  constexpr int n_iterations = 3;
-  const std::size_t n_lanes = signals::n_lanes;
-  for (std::size_t first = 0; first < motions.size(); first += n_lanes) {
-    const auto batch = motions.subspan(first, std::min(n_lanes, motions.size() - first));
-    std::vector<PeriodicMotion> trial(batch.begin(), batch.end());
-    std::vector<double> least(batch.size(), std::numeric_limits<double>::infinity());
-    for (int k = 0; k <= n_iterations; ++k) {
-      const std::vector<Eigen::VectorXd> errors = balance_->errors(trial);
-      for (std::size_t i = 0; i < batch.size(); ++i) {
-        const Eigen::VectorXd step = *inverse[first + i] * errors[i];
-        if (!(step.norm() < least[i])) continue;
-        least[i] = step.norm();
-        batch[i] = trial[i];
-        trial[i].y -= step;
-      }
-    }
-  }
-}
-
 std::vector<std::vector<PeriodicMotion>> ResponseCurve::at(
     const std::span<const double> w_rad_s) const {
   std::vector<std::size_t> line;
@@ -292,7 +270,13 @@ std::vector<std::vector<PeriodicMotion>> ResponseCurve::at(
         inverse.push_back(&points_[t < 0.5 ? i : i + 1].inverse);
       }
   }
-  correct(motions, inverse);
+  constexpr int n_iterations = 3;
+  constexpr auto n_lanes = static_cast<std::size_t>(signals::n_lanes);
+  for (std::size_t first = 0; first < motions.size(); first += n_lanes) {
+    const std::size_t n = std::min(n_lanes, motions.size() - first);
+    balance_->correct(std::span(motions).subspan(first, n), std::span(inverse).subspan(first, n),
+                      n_iterations);
+  }
   std::vector<std::vector<PeriodicMotion>> out(w_rad_s.size());
   for (std::size_t i = 0; i < line.size(); ++i) out[line[i]].push_back(std::move(motions[i]));
   return out;

@@ -45,8 +45,6 @@ class ResponseCurve {
   void follow(double first_rad_s, double last_rad_s);
   bool begin(double first_rad_s, double direction);
   double largest_neglected() const;
-  /// Chord iterations from interpolated motions, with the inverse of a point beside each.
-  void correct(std::span<PeriodicMotion> motions, std::span<const Eigen::MatrixXd*> inverse) const;
 
   std::optional<HarmonicBalance> balance_{};
   std::vector<Point> points_;

@@ -16,7 +16,6 @@ namespace {
 
 /// More players than this take too long; the others count as always applied.
 constexpr std::size_t most_players = 5;
-constexpr double block_s = 0.25;
 
 /// Error power in each block in time, all records in turn; and how often each block counts.
 using BlockPowers = Eigen::VectorXd;
@@ -49,8 +48,7 @@ class ErrorOfChanges {
   static void add_blocks(const PreparedRecord& record, const std::vector<Complex>& bins,
                          std::vector<double>& out) {
     const std::vector<double> error = evaluated_samples(record, bins);
-    const auto length =
-        static_cast<std::size_t>(std::max(1., std::round(block_s * record.sampling_rate_hz)));
+    const std::size_t length = record.block_length();
     for (std::size_t i = 0; i < error.size(); ++i) {
       if (i % length == 0) out.push_back(0.);
       out.back() += error[i] * error[i];

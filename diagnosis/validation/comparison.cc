@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "diagnosis/prediction/chain_simulation.h"
-#include "diagnosis/prediction/linear_response.h"
 #include "diagnosis/prediction/record_simulation.h"
 #include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
+#include "diagnosis/response/linear_response.h"
 #include "separation/metrics/metrics.h"
 
 namespace vibrissa::diagnosis {
@@ -18,7 +18,7 @@ namespace {
 const PreparedRecord* strongest_periodic(const Experiment& experiment) {
   const PreparedRecord* best = nullptr;
   for (const PreparedRecord& record : experiment.records) {
-    if (!record.periodic || !record.excitation.base || record.excitation.wind) continue;
+    if (!record.is_steady() || !record.excitation.base || record.excitation.wind) continue;
     if (best == nullptr || total_power(record.acceleration) > total_power(best->acceleration))
       best = &record;
   }
@@ -123,7 +123,7 @@ ResponseComparison compare_response(const Experiment& experiment, const Hypothes
   for (std::size_t b = 0; b < record->n_bins(); ++b) {
     const double a = std::abs(record->acceleration[record->whole_line(b)]);
     if (a == 0.) continue;
-    out.frequency_hz.push_back(static_cast<double>(b + 1) * record->bin_hz());
+    out.frequency_hz.push_back(record->frequency_hz(b));
     out.measured.push_back(std::abs(record->moment[b]) / a);
     out.nominal.push_back(std::abs(nominal[b]) / a);
     out.updated.push_back(std::abs(updated.mean[b]) / a);
@@ -136,7 +136,7 @@ TraceComparison compare_trace(const Experiment& fitted_on, const Experiment& hel
                               const HypothesisFit& fit) {
   TraceComparison out;
   for (const PreparedRecord& record : held_out.records) {
-    if (!record.excitation.base && !record.excitation.wind) continue;
+    if (record.is_response() || (!record.excitation.base && !record.excitation.wind)) continue;
     out.record = record.name;
     out.measured = evaluated_samples(record, record.moment);
     out.nominal = evaluated_samples(record, simulate_mean(held_out.nominal_chain(), record));

@@ -214,12 +214,11 @@ ErrorScore score(const std::string& name, const std::vector<Squares>& blocks,
 /// series: errors before and after, and the measured moment.
 std::vector<Squares> blocks_of(const PreparedRecord& record, const std::array<Samples, 3>& series,
                                std::size_t first, const Squares& floor) {
-  constexpr double block_s = 0.25;
-  const auto longest = std::max<std::size_t>(
-      1, static_cast<std::size_t>(std::lround(block_s * record.sampling_rate_hz)));
+  const std::size_t longest = record.block_length(),
+                    n = static_cast<std::size_t>(series.front().size());
   std::vector<Squares> blocks;
-  for (std::size_t start = first; start < record.n_evaluated; start += longest) {
-    const std::size_t length = std::min(longest, record.n_evaluated - start);
+  for (std::size_t start = first; start < n; start += longest) {
+    const std::size_t length = std::min(longest, n - start);
     Squares block = static_cast<double>(length) * floor;
     for (std::size_t part = 0; part < series.size(); ++part)
       block(static_cast<Eigen::Index>(part)) +=
@@ -252,17 +251,19 @@ HeldOutScore score_held_out(const Experiment& fitted_on, const Experiment& held_
   for (const PreparedRecord& record : held_out.records) {
     if (!record.excitation.base && !record.excitation.wind) continue;
     const Prediction prediction = simulate(chain, record);
-    const std::size_t first = halved ? record.n_evaluated / 2 : 0;
+    const std::size_t first = halved && !record.is_response() ? record.n_evaluated / 2 : 0;
     std::array<Samples, 3> series{
         samples_of_bins(record, difference(record.moment, simulate_mean(nominal, record))),
         samples_of_bins(record, difference(record.moment, prediction.mean)),
         samples_of_bins(record, record.moment)};
     Samples& after = series[Part::after];
-    if (fit.hypothesis.contains("hum")) take_hum_off(after, record.sampling_rate_hz, fit);
-    if (fit.hypothesis.contains("sensor_drift")) ramp |= take_drift_off(after);
+    if (fit.hypothesis.contains("hum") && first > 0)
+      take_hum_off(after, record.sampling_rate_hz, fit);
+    if (fit.hypothesis.contains("sensor_drift") && first > 0) ramp |= take_drift_off(after);
     // An offset carries no information.
-    for (Samples& x : series)
-      x.array() -= x.tail(x.size() - static_cast<Eigen::Index>(first)).mean();
+    if (!record.is_response())
+      for (Samples& x : series)
+        x.array() -= x.tail(x.size() - static_cast<Eigen::Index>(first)).mean();
     Squares floor = floor_of(record, prediction, chain, levels);
     if (out.not_predictable.empty()) floor(Part::own_noise) = 0.;
     const std::vector<Squares> blocks = blocks_of(record, series, first, floor);

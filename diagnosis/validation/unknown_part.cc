@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "diagnosis/validation/held_out.h"
 
@@ -27,6 +28,11 @@ std::optional<UnknownCause> left_by(const HypothesisFit& fit, const Experiment& 
 
 std::optional<UnknownCause> unknown_part(const SearchResult& result, const Experiment& experiment,
                                          const Experiment& scored, const std::size_t n_threads) {
+  // Terms are integrated in time.
+  const auto is_in_time = std::not_fn(&PreparedRecord::is_response);
+  if (!std::ranges::all_of(experiment.records, is_in_time) ||
+      !std::ranges::all_of(scored.records, is_in_time))
+    return std::nullopt;
   const Candidate& best = result.candidates.front();
   const HypothesisFit& answer = result.fits[best.fit];
   const HypothesisFit& none = *std::ranges::find_if(

@@ -15,7 +15,8 @@ std::vector<UntestedEffect> untested_effects(const Experiment& experiment) {
                                      "",
                                      "the simulation has no mode",
                                      "the records with motion are too short",
-                                     "the base does not move at its frequencies"};
+                                     "the base does not move at its frequencies",
+                                     "responses to a sine do not show it; records in time do"};
   std::vector<UntestedEffect> out;
   for (const Effect& effect : effect_catalogue()) {
     const std::vector<Lack> lack = lacks(experiment, effect);

@@ -186,6 +186,12 @@ std::string unit_of(const ResponseQuantity quantity) {
   return "";
 }
 
+std::string to_string(const ResponseQuantity quantity) {
+  for (const auto& [name, one] : quantities)
+    if (one == quantity) return name;
+  return "";
+}
+
 bool is_response(const json& entry, const std::string& where) {
   return word_of(entry, "kind", where, {"record", "response"}) == "response";
 }

@@ -15,6 +15,8 @@ namespace vibrissa::signals {
 enum class ResponseQuantity { moment, rotation, deflection, velocity, acceleration };
 /// SI unit of the quantity: "N m", "rad", "m", "m/s", "m/s2".
 std::string unit_of(ResponseQuantity quantity);
+/// moment, rotation, ...
+std::string to_string(ResponseQuantity quantity);
 
 /// Direction of a stepped or swept sine.
 enum class SweepDirection { up, down };

@@ -8,8 +8,8 @@
 #include "diagnosis/model/hypothesis.h"
 #include "diagnosis/planning/planned_records.h"
 #include "diagnosis/prediction/chain_simulation.h"
-#include "diagnosis/prediction/linear_response.h"
 #include "diagnosis/records/spectrum.h"
+#include "diagnosis/response/linear_response.h"
 #include "diagnosis/search/effect_size.h"
 
 namespace vibrissa::benchmarks {

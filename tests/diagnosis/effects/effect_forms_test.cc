@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "diagnosis/model/effect.h"
-#include "diagnosis/prediction/linear_response.h"
+#include "diagnosis/response/linear_response.h"
 #include "diagnosis/search/search.h"
 #include "tests/diagnosis/one_mode_rig.h"
 

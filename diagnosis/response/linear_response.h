@@ -41,8 +41,8 @@ class LinearResponse {
   const Chain& chain_;
   std::optional<JointModel> joint_;
   Complex per_static_response_ = 1.;
-  /// Cache by length, sampling rate, readout and magnet.
-  using Kind = std::tuple<std::size_t, double, signals::Readout, bool>;
+  /// Cache by length, sampling rate, readout and magnet; a response by its number, too.
+  using Kind = std::tuple<std::size_t, double, signals::Readout, bool, std::size_t>;
   std::map<Kind, std::vector<LinearPart>> lines_;
 };
 

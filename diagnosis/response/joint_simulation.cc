@@ -1,12 +1,12 @@
-#include "diagnosis/prediction/joint_simulation.h"
+#include "diagnosis/response/joint_simulation.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/prediction/difference_integrator.h"
 #include "diagnosis/records/spectrum.h"
+#include "diagnosis/response/difference_integrator.h"
 #include "signals/model/base_velocity.h"
 
 namespace vibrissa::diagnosis {

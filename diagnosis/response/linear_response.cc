@@ -1,4 +1,4 @@
-#include "diagnosis/prediction/linear_response.h"
+#include "diagnosis/response/linear_response.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -64,7 +64,8 @@ LinearPart LinearResponse::at(const Complex s, const signals::Readout readout,
 
 const std::vector<LinearPart>& LinearResponse::lines(const PreparedRecord& record) {
   std::vector<LinearPart>& lines =
-      lines_[{record.n_samples, record.sampling_rate_hz, record.readout, record.magnet}];
+      lines_[{record.n_samples, record.sampling_rate_hz, record.readout, record.magnet,
+              record.is_response() ? record.number + 1 : 0}];
   if (!lines.empty()) return lines;
   const std::size_t n = record.n_samples / 2 + 1;
   lines.reserve(n);
