@@ -61,8 +61,7 @@ LawChoice best_choice(const Bvrm& start, std::span<const Segment> segments, doub
       !NonlinearProblem(all, segments, rate_hz, options.fit).admissible(all))
     return fewer;
   LawChoice choice = choose_law(start, segments, rate_hz, options);
-  return !fewer.model.law.empty() && fewer.unseen_rms_n_m <= choice.unseen_rms_n_m ? fewer
-                                                                                     : choice;
+  return !fewer.model.law.empty() && fewer.unseen_rms_n_m <= choice.unseen_rms_n_m ? fewer : choice;
 }
 
 std::string describe(const NonlinearIdentification& found) {
@@ -112,16 +111,17 @@ NonlinearIdentification identify_nonlinear(const Record& record,
   found.linear = identify_bvrm(fit_record, scoring, options);
   const Record quiet = quietest_part(fit_record);
   const double rate = record.sampling_rate_hz();
-  const Identification low =
-      quiet.n_samples() < fit_record.n_samples() ? identify_bvrm(quiet, scoring, options)
-                                                 : found.linear;
+  const Identification low = quiet.n_samples() < fit_record.n_samples()
+                                 ? identify_bvrm(quiet, scoring, options)
+                                 : found.linear;
   LawChoiceOptions choice{.fit = {.hold = low.hold,
                                   .direct_term = low.direct_term,
                                   .viscous_term = low.viscous_term,
                                   .nuisance = options.nuisance}};
   const Segment fitted = segment_of(fit_record);
   found.choice = best_choice(low.fit.model, std::span(&fitted, 1), rate, choice);
-  found.scored = refine_nonlinear(found.choice.model, std::span(&fitted, 1), rate, choice.fit).model;
+  found.scored =
+      refine_nonlinear(found.choice.model, std::span(&fitted, 1), rate, choice.fit).model;
   std::vector<Segment> all{segment_of(record)};
   if (held_out) all.push_back(segment_of(*held_out));
   found.fit = refine_nonlinear(found.scored, all, rate, choice.fit);
@@ -133,10 +133,9 @@ NonlinearIdentification identify_nonlinear(const Record& record,
 nlohmann::json nonlinear_report(const NonlinearIdentification& found) {
   const NonlinearBvrm& model = found.fit.model;
   const Eigen::Index n = n_parameters(model.linear.modes.size(), true);
-  nlohmann::json document =
-      fitted_json(make_fitted(to_parameters(model.linear, true),
-                              found.fit.covariance.topLeftCorner(n, n), true,
-                              model.linear.delay_s));
+  nlohmann::json document = fitted_json(make_fitted(to_parameters(model.linear, true),
+                                                    found.fit.covariance.topLeftCorner(n, n), true,
+                                                    model.linear.delay_s));
   document["end"] = to_string(found.fit.end);
   document["law"] = nlohmann::json::array();
   for (std::size_t k = 0; k < model.law.size(); ++k)

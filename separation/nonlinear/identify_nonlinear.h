@@ -26,8 +26,8 @@ struct NonlinearIdentification {
 /// Identifies the nonlinear base vibration response model: the linear model from the quietest part
 /// (where one third of the fit record has less than half of the level of another, else from the
 /// whole fit record) gives order, hold and unknowns; choose_law() the law, for the model with all
-/// modes and for its strongest mode alone; then the model is fitted to the fit record, scored by the
-/// held-out record, and fitted to both. Without held_out the last part of the record scores
+/// modes and for its strongest mode alone; then the model is fitted to the fit record, scored by
+/// the held-out record, and fitted to both. Without held_out the last part of the record scores
 /// (hold_out_part()). Throws UserError as identify_bvrm() for records that are too short or not
 /// excited, and for options.method other than output_error. Proven by
 /// tests/separation/nonlinear/identify_nonlinear_test.cc.

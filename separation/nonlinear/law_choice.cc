@@ -25,8 +25,8 @@ std::vector<LawTerm> named_laws(double largest_speed_m_s) {
 
 std::vector<LawTerm> monomials() {
   std::vector<LawTerm> terms;
-  for (const auto& [i, j] : std::vector<std::pair<int, int>>{
-           {1, 1}, {0, 2}, {2, 1}, {1, 2}, {0, 3}, {4, 0}, {5, 0}})
+  for (const auto& [i, j] :
+       std::vector<std::pair<int, int>>{{1, 1}, {0, 2}, {2, 1}, {1, 2}, {0, 3}, {4, 0}, {5, 0}})
     terms.push_back({.kind = LawKind::monomial, .deflection_power = i, .velocity_power = j});
   return terms;
 }
@@ -37,16 +37,16 @@ double rms(const std::vector<double>& squares) {
   return std::sqrt(sum);
 }
 
-// Logarithms of the error in 40 parts of equal length: a ratio of errors counts alike in loud and in
-// quiet parts.
+// Logarithms of the error in 40 parts of equal length: a ratio of errors counts alike in loud and
+// in quiet parts.
 std::vector<double> part_levels(const std::vector<double>& squares) {
   constexpr std::size_t n_parts = 40;
   const std::size_t length = squares.size() / n_parts;
   std::vector<double> levels;
   for (std::size_t k = 0; k < n_parts; ++k)
-    levels.push_back(std::log(std::accumulate(
-        squares.begin() + static_cast<std::ptrdiff_t>(k * length),
-        squares.begin() + static_cast<std::ptrdiff_t>((k + 1) * length), 1e-300)));
+    levels.push_back(std::log(
+        std::accumulate(squares.begin() + static_cast<std::ptrdiff_t>(k * length),
+                        squares.begin() + static_cast<std::ptrdiff_t>((k + 1) * length), 1e-300)));
   return levels;
 }
 
@@ -116,13 +116,12 @@ class Growth {
     const double left = rms(after.unseen) / rms(before.unseen);
     return after.fit.end == FitEnd::converged &&
            std::ranges::none_of(after.fit.model.law, is_unphysical) &&
-           deviations > options_.significant &&
-           left * left < 1. - options_.least_gain;
+           deviations > options_.significant && left * left < 1. - options_.least_gain;
   }
 
   // The accepted candidate with the smallest error on unseen data.
   std::optional<Evaluated> best_of(const Evaluated& before, const std::vector<LawTerm>& candidates,
-                                LawChoice& choice) const {
+                                   LawChoice& choice) const {
     const NonlinearBvrm& model = before.fit.model;
     std::vector<LawReadout> readouts{model.readout};
     if (model.law.empty()) readouts = {LawReadout::moment, LawReadout::deflection};
@@ -135,7 +134,8 @@ class Growth {
         trial.law.push_back(term);
         trial.readout = readout;
         Evaluated evaluated = evaluate(trial, before.fit.unknowns);
-        const double deviations = mean_difference_significance(part_levels(before.unseen), part_levels(evaluated.unseen));
+        const double deviations =
+            mean_difference_significance(part_levels(before.unseen), part_levels(evaluated.unseen));
         choice.trials.push_back({.term = term.name(),
                                  .readout = to_string(readout),
                                  .unseen_rms_n_m = rms(evaluated.unseen),
@@ -160,8 +160,7 @@ double power_of(const ModalTerm& mode, std::span<const Segment> segments, double
                 Hold hold) {
   double power = 0.;
   for (const Segment& segment : segments)
-    for (const double m :
-         simulate(Bvrm{.modes = {mode}}, segment.base_acceleration, rate_hz, hold))
+    for (const double m : simulate(Bvrm{.modes = {mode}}, segment.base_acceleration, rate_hz, hold))
       power += m * m;
   return power;
 }

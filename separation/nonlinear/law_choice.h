@@ -37,8 +37,8 @@ struct LawChoiceOptions {
 /// refine_nonlinear() to the first part of each segment; the one with the smallest error in the
 /// rest, which no fit has seen, is accepted when it gains significantly. First the laws that have a
 /// name (quadratic and cubic stiffness, quadratic damping, friction), with both readouts for the
-/// first term, damping only where it takes energy (a term that another one turns around is dropped);
-/// where none of them gains, monomials of deflection and speed. `start` should be a
+/// first term, damping only where it takes energy (a term that another one turns around is
+/// dropped); where none of them gains, monomials of deflection and speed. `start` should be a
 /// linear model of a low level. Source of the procedure: forward selection on validation data
 /// (Ljung, System Identification, 2nd ed., sections 16.4 and 16.5). Proven by
 /// tests/separation/nonlinear/law_choice_test.cc.

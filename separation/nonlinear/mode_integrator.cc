@@ -110,7 +110,8 @@ double ModeIntegrator::rate(double x, double v, double input, const Sensitivitie
   dk = -stiffness * dx - damping * dv;
   dk[0] -= v;
   dk[1] -= x;
-  for (std::size_t k = 0; k < law_.size(); ++k) dk[2 + static_cast<Eigen::Index>(k)] -= functions[k];
+  for (std::size_t k = 0; k < law_.size(); ++k)
+    dk[2 + static_cast<Eigen::Index>(k)] -= functions[k];
   return input - mode_.a0 * x - mode_.a1 * v - sum;
 }
 
@@ -120,8 +121,7 @@ void ModeIntegrator::step_with_sensitivities(double input_start, double input_mi
   const double k1 = rate(x_, v_, input_start, dx_, dv_, dk1);
   const double v2 = v_ + 0.5 * h * k1;
   const Sensitivities dv2 = dv_ + 0.5 * h * dk1;
-  const double k2 =
-      rate(x_ + 0.5 * h * v_, v2, input_middle, dx_ + 0.5 * h * dv_, dv2, dk2);
+  const double k2 = rate(x_ + 0.5 * h * v_, v2, input_middle, dx_ + 0.5 * h * dv_, dv2, dk2);
   const double v3 = v_ + 0.5 * h * k2;
   const Sensitivities dv3 = dv_ + 0.5 * h * dk2;
   const double k3 = rate(x_ + 0.5 * h * v2, v3, input_middle, dx_ + 0.5 * h * dv2, dv3, dk3);

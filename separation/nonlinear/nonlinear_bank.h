@@ -10,8 +10,8 @@
 
 namespace vibrissa::separation {
 
-/// Simulates the nonlinear model as a stream, sample by sample, without allocation, in the manner of
-/// the ModalBank: output n is the moment at the time (n - fraction) / rate; the caller applies
+/// Simulates the nonlinear model as a stream, sample by sample, without allocation, in the manner
+/// of the ModalBank: output n is the moment at the time (n - fraction) / rate; the caller applies
 /// shift(). At rest at the first sample. A state that diverges starts again at rest (see
 /// diverged_in_largest_deflections). Proven by tests/separation/nonlinear/nonlinear_bank_test.cc.
 class NonlinearBank {

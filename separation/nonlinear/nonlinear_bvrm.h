@@ -45,8 +45,8 @@ struct NonlinearBvrm {
 /// and starts again at rest, for a law that softens can run away.
 inline constexpr double diverged_in_largest_deflections = 1e3;
 
-/// Throws UserError as check(Bvrm) and check(law) do, and for a mode that the model does not have or
-/// a largest deflection or speed that is not positive. Proven by
+/// Throws UserError as check(Bvrm) and check(law) do, and for a mode that the model does not have
+/// or a largest deflection or speed that is not positive. Proven by
 /// tests/separation/nonlinear/nonlinear_bvrm_test.cc.
 void check(const NonlinearBvrm& model);
 

@@ -151,8 +151,7 @@ std::string term_in_c(const LawTerm& term, const Units& unit, const std::string&
     case LawKind::quadratic_damping:
       return powers(0, 2) + " * (v < 0.0f ? -1.0f : 1.0f)";
     case LawKind::friction:
-      return scaled(1.) + " * " + name + "_tanh(" + c_number(unit.speed / term.speed_m_s) +
-             " * v)";
+      return scaled(1.) + " * " + name + "_tanh(" + c_number(unit.speed / term.speed_m_s) + " * v)";
     case LawKind::monomial:
       return powers(term.deflection_power, term.velocity_power);
   }
@@ -162,8 +161,8 @@ std::string term_in_c(const LawTerm& term, const Units& unit, const std::string&
 std::string law_in_c(const NonlinearBvrm& model, const std::string& name) {
   std::string text;
   for (const LawTerm& term : model.law)
-    text += (text.empty() ? "" : " +\n         ") +
-            term_in_c(term, units_of(model, model.mode), name);
+    text +=
+        (text.empty() ? "" : " +\n         ") + term_in_c(term, units_of(model, model.mode), name);
   return text.empty() ? "0.0f" : text;
 }
 
@@ -171,8 +170,8 @@ std::string sum_of_inputs(const InputPath::Knots& weights) {
   std::string text;
   for (std::size_t i = 0; i < weights.size(); ++i)
     if (weights[i] != 0.)
-      text += (text.empty() ? "" : " + ") +
-              (weights[i] == 1. ? "" : c_number(weights[i]) + " * ") + "u" + std::to_string(i);
+      text += (text.empty() ? "" : " + ") + (weights[i] == 1. ? "" : c_number(weights[i]) + " * ") +
+              "u" + std::to_string(i);
   return text;
 }
 
@@ -190,8 +189,8 @@ std::string pieces_in_c(const NonlinearBvrm& model, const CHeaderOptions& option
   std::string text;
   for (std::size_t p = 0; p < path.pieces.size(); ++p)
     for (std::size_t k = 0; k < model.linear.modes.size(); ++k) {
-      const auto piece = ModeIntegrator::steps_of(model.linear.modes[k], options.sampling_rate_hz,
-                                                  path)[p];
+      const auto piece =
+          ModeIntegrator::steps_of(model.linear.modes[k], options.sampling_rate_hz, path)[p];
       text += "    if (k == " + std::to_string(k) + ")\n      @NAME_advance(state, k, " +
               std::to_string(piece.n_steps) + ", " + c_number(piece.step_s) + ", " +
               sum_of_inputs(piece.start) + ", " + sum_of_inputs(piece.end) + ");\n";
@@ -202,8 +201,7 @@ std::string pieces_in_c(const NonlinearBvrm& model, const CHeaderOptions& option
 std::string readout_in_c(const NonlinearBvrm& model) {
   const std::string k = std::to_string(model.mode);
   if (model.readout == LawReadout::deflection || model.law.empty()) return "";
-  return "  moment += " +
-         c_number(model.law_gain_kg_m() * units_of(model, model.mode).speed) +
+  return "  moment += " + c_number(model.law_gain_kg_m() * units_of(model, model.mode).speed) +
          " * @NAME_law(state->x[" + k + "], state->v[" + k + "]);\n";
 }
 

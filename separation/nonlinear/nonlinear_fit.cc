@@ -25,13 +25,12 @@ LevenbergResult minimise_errors(NonlinearProblem& problem, const Eigen::VectorXd
     throw UserError(
         "nonlinear fit: the initial model is unstable, above half the sampling rate, or its "
         "simulation diverges");
-  return minimise(start,
-                  [&](const Eigen::VectorXd& at, NormalEquations& made) {
-                    return problem.linearise(at, made);
-                  },
-                  {.max_iterations = options.max_iterations,
-                   .n_residuals = problem.n_samples(),
-                   .negligible_cost = 1e-26 * problem.total()});
+  return minimise(
+      start,
+      [&](const Eigen::VectorXd& at, NormalEquations& made) { return problem.linearise(at, made); },
+      {.max_iterations = options.max_iterations,
+       .n_residuals = problem.n_samples(),
+       .negligible_cost = 1e-26 * problem.total()});
 }
 
 }  // namespace

@@ -22,12 +22,12 @@ struct FittedNonlinearBvrm {
 };
 
 /// Output-error fit of a nonlinear model in the time domain (maximum likelihood for white noise on
-/// the moment), M[n] = simulated moment + offset + e[n], minimum sum e^2 by Levenberg-Marquardt from
-/// `start`, whose kinds of law, readout and delay are kept (Schoukens & Ljung 2019, IEEE Control
-/// Systems 39(6), on simulation errors). unknowns: where to start the nuisances of an earlier fit of
-/// the same segments, or empty. Throws UserError as refine_output_error(). Proven by
-/// tests/separation/nonlinear/nonlinear_fit_test.cc: parameters of an oscillator that another method
-/// integrates.
+/// the moment), M[n] = simulated moment + offset + e[n], minimum sum e^2 by Levenberg-Marquardt
+/// from `start`, whose kinds of law, readout and delay are kept (Schoukens & Ljung 2019, IEEE
+/// Control Systems 39(6), on simulation errors). unknowns: where to start the nuisances of an
+/// earlier fit of the same segments, or empty. Throws UserError as refine_output_error(). Proven by
+/// tests/separation/nonlinear/nonlinear_fit_test.cc: parameters of an oscillator that another
+/// method integrates.
 FittedNonlinearBvrm refine_nonlinear(const NonlinearBvrm& start, std::span<const Segment> segments,
                                      double sampling_rate_hz, const OutputErrorOptions& options,
                                      const Eigen::VectorXd& unknowns = {});

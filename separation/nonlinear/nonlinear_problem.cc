@@ -62,8 +62,7 @@ Eigen::VectorXd NonlinearProblem::start_of(const NonlinearBvrm& model) const {
 
 NonlinearBvrm NonlinearProblem::model_of(const Eigen::VectorXd& unknowns) const {
   NonlinearBvrm model = structure_;
-  model.linear =
-      with_parameters(unknowns.head(n_model_ - n_law_), true, structure_.linear.delay_s);
+  model.linear = with_parameters(unknowns.head(n_model_ - n_law_), true, structure_.linear.delay_s);
   for (Eigen::Index k = 0; k < n_law_; ++k)
     model.law[static_cast<std::size_t>(k)].coefficient = unknowns[n_model_ - n_law_ + k];
   return model;
@@ -87,9 +86,8 @@ std::vector<ModeIntegrator> NonlinearProblem::integrators(const NonlinearBvrm& m
                                                           bool sensitivities) const {
   std::vector<ModeIntegrator> modes;
   for (std::size_t k = 0; k < model.linear.modes.size(); ++k)
-    modes.emplace_back(model.linear.modes[k],
-                       k == model.mode ? model.law : std::vector<LawTerm>(), sampling_rate_hz_,
-                       path_, sensitivities);
+    modes.emplace_back(model.linear.modes[k], k == model.mode ? model.law : std::vector<LawTerm>(),
+                       sampling_rate_hz_, path_, sensitivities);
   return modes;
 }
 
@@ -132,8 +130,7 @@ void NonlinearProblem::simulate(const Eigen::VectorXd& unknowns, bool sensitivit
       if (n > 0)
         for (ModeIntegrator& mode : modes) mode.advance(knots(segment, n));
       const double error = segment.output[n] - offset -
-                           model.linear.direct_term_kg_m * segment.direct[n] -
-                           moment(model, modes);
+                           model.linear.direct_term_kg_m * segment.direct[n] - moment(model, modes);
       if (!take(s, n, modes, error)) return;
     }
   }
@@ -182,27 +179,27 @@ bool NonlinearProblem::linearise(const Eigen::VectorXd& unknowns, NormalEquation
   Eigen::Index row = 0;
   bool bounded = true;
   gram_.clear();
-  simulate(unknowns, true,
-           [&](std::size_t s, std::size_t n, const std::vector<ModeIntegrator>& modes,
-               double error) {
-             const AlignedSegment& segment = segments_[s];
-             bounded = std::isfinite(error);
-             if (!bounded) return false;
-             if (n >= segment.first) {
-               fill_row(model, modes, segment.direct[n], row);
-               gram_.column(n_model_)[row++] = error;
-             }
-             const bool last = n + 1 == segment.output.size();
-             if (row == GramMatrix::block || (last && row > 0)) {
-               gram_.add(row, n_columns);
-               row = 0;
-             }
-             if (last) {
-               scatter(n_model_ + static_cast<Eigen::Index>(s) * n_nuisance_, equations);
-               gram_.clear();
-             }
-             return true;
-           });
+  simulate(
+      unknowns, true,
+      [&](std::size_t s, std::size_t n, const std::vector<ModeIntegrator>& modes, double error) {
+        const AlignedSegment& segment = segments_[s];
+        bounded = std::isfinite(error);
+        if (!bounded) return false;
+        if (n >= segment.first) {
+          fill_row(model, modes, segment.direct[n], row);
+          gram_.column(n_model_)[row++] = error;
+        }
+        const bool last = n + 1 == segment.output.size();
+        if (row == GramMatrix::block || (last && row > 0)) {
+          gram_.add(row, n_columns);
+          row = 0;
+        }
+        if (last) {
+          scatter(n_model_ + static_cast<Eigen::Index>(s) * n_nuisance_, equations);
+          gram_.clear();
+        }
+        return true;
+      });
   fix(equations);
   return bounded && equations.matrix.allFinite();
 }

@@ -14,10 +14,10 @@
 
 namespace vibrissa::separation {
 
-/// Output error of a nonlinear model and its exact sensitivities on a set of segments. Unknowns: (b1,
-/// b0, a1, a0) of each mode, D, the coefficients of the law, then for each segment the state of each
-/// mode at its first sample, (x, x') mode by mode, and the offset; those that the options leave out
-/// are fixed. Proven by tests/separation/nonlinear/nonlinear_fit_test.cc.
+/// Output error of a nonlinear model and its exact sensitivities on a set of segments. Unknowns:
+/// (b1, b0, a1, a0) of each mode, D, the coefficients of the law, then for each segment the state
+/// of each mode at its first sample, (x, x') mode by mode, and the offset; those that the options
+/// leave out are fixed. Proven by tests/separation/nonlinear/nonlinear_fit_test.cc.
 class NonlinearProblem {
  public:
   /// The structure (modes, kinds of law, readout, delay) is that of `model`.

@@ -62,9 +62,9 @@ TEST(IdentifyNonlinear, PredictsTheSilverbox) {
 
   const auto output = arrow.channel(signals::channel::base_moment);
   const Segment segment{arrow.channel(signals::channel::base_acceleration), output};
-  const Signal error = nonlinear_errors(found.fit.model, std::span(&segment, 1),
-                                        arrow.sampling_rate_hz(),
-                                        {.hold = found.fit.model.hold_or({})})[0];
+  const Signal error =
+      nonlinear_errors(found.fit.model, std::span(&segment, 1), arrow.sampling_rate_hz(),
+                       {.hold = found.fit.model.hold_or({})})[0];
   const double seen = largest_of(multisine.channel(signals::channel::base_moment));
   std::size_t first_beyond = 0;
   while (std::abs(output[first_beyond]) <= seen) ++first_beyond;
@@ -78,7 +78,8 @@ TEST(IdentifyNonlinear, PredictsTheSilverbox) {
 
 TEST(IdentifyNonlinear, StartsFromAQuietPartAndScoresUnseenData) {
   const auto hard = [](double x, double) { return 4e9 * x * x * x; };
-  Shaken shaken(test::shaken_mode(), hard, true, 6000, [](double t) { return 0.1 * t; }, 12);
+  Shaken shaken(
+      test::shaken_mode(), hard, true, 6000, [](double t) { return 0.1 * t; }, 12);
   shaken.add_noise(0.003, 14);
   const NonlinearIdentification found =
       identify_nonlinear(shaken_record(shaken.acceleration, shaken.moment));
@@ -94,7 +95,8 @@ TEST(IdentifyNonlinear, StartsFromAQuietPartAndScoresUnseenData) {
 }
 
 TEST(IdentifyNonlinear, RefusesWhatTellsNothing) {
-  const Shaken shaken(test::shaken_mode(), [](double, double) { return 0.; }, true, 300, 1., 15);
+  const Shaken shaken(
+      test::shaken_mode(), [](double, double) { return 0.; }, true, 300, 1., 15);
   const Record record = shaken_record(shaken.acceleration, shaken.moment);
   EXPECT_THAT([&] { identify_nonlinear(record.slice(0, 30)); },
               ThrowsMessage<UserError>(HasSubstr("too few")));

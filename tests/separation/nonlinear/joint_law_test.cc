@@ -30,8 +30,7 @@ TEST(JointLaw, HasTheSlopesOfItsFunction) {
         };
         EXPECT_NEAR(at.by_deflection, (value(h, 0.) - value(-h, 0.)) / (2. * h), 1e-8)
             << term.name();
-        EXPECT_NEAR(at.by_velocity, (value(0., h) - value(0., -h)) / (2. * h), 1e-8)
-            << term.name();
+        EXPECT_NEAR(at.by_velocity, (value(0., h) - value(0., -h)) / (2. * h), 1e-8) << term.name();
       }
 }
 

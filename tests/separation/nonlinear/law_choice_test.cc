@@ -29,8 +29,8 @@ std::vector<std::string> law_names(const LawChoice& choice) {
 TEST(LawChoice, TakesNoneForALinearSensor) {
   int n_none = 0;
   for (std::uint64_t draw = 0; draw < 20; ++draw) {
-    Shaken shaken(test::shaken_mode(), [](double, double) { return 0.; }, true, 1500, 1.,
-                  100 + draw);
+    Shaken shaken(
+        test::shaken_mode(), [](double, double) { return 0.; }, true, 1500, 1., 100 + draw);
     shaken.add_noise(0.05, 200 + draw);
     if (choose_for(shaken).model.law.empty()) ++n_none;
   }
@@ -48,7 +48,8 @@ TEST(LawChoice, FindsTheLawAndWhatTheChannelShows) {
        {LawCase{"cubic_stiffness", [](double x, double) { return 4e9 * x * x * x; }},
         LawCase{"cubic_stiffness", [](double x, double) { return -5e8 * x * x * x; }, false},
         LawCase{"quadratic_stiffness", [](double x, double) { return 1e6 * x * x; }},
-        LawCase{"quadratic_damping", [](double, double v) { return 100. * v * std::abs(v); }, false},
+        LawCase{"quadratic_damping", [](double, double v) { return 100. * v * std::abs(v); },
+                false},
         LawCase{"friction", [](double, double v) { return 0.5 * std::tanh(v / 1e-3); }, false}}) {
     Shaken shaken(test::shaken_mode(), truth.force, truth.moment, 4000, 1., 7);
     shaken.add_noise(0.005, 8);

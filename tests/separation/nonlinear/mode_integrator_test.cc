@@ -30,8 +30,8 @@ TEST(ModeIntegrator, FollowsTheClosedFormOfTheDuffingOscillator) {
     const double exact = amplitude * boost::math::jacobi_cn(k, w * n / rate_hz);
     largest = std::max(largest, std::abs(integrator.position_m() - exact));
   }
-  // 46 rad of the hardened motion, each with a phase error of (1.22 * step_rad)^4 / 120, and as much
-  // of its third harmonic.
+  // 46 rad of the hardened motion, each with a phase error of (1.22 * step_rad)^4 / 120, and as
+  // much of its third harmonic.
   EXPECT_LT(largest, 2e-4 * amplitude);
 }
 

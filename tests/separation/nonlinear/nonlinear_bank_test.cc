@@ -42,10 +42,9 @@ TEST(NonlinearBank, GivesTheSameInOneGoAndSampleBySample) {
   const Signal a = test::white_noise(1500, 3., 4), m = test::white_noise(1500, 1e-5, 5);
   for (const Hold hold : all_holds)
     for (const double delay_s : {0., 0.0113, -0.0033}) {
-      NonlinearBvrm model = with_law({{.kind = LawKind::cubic_stiffness, .coefficient = 1e11},
-                                      {.kind = LawKind::friction,
-                                       .coefficient = 0.5,
-                                       .speed_m_s = 5e-3}});
+      NonlinearBvrm model =
+          with_law({{.kind = LawKind::cubic_stiffness, .coefficient = 1e11},
+                    {.kind = LawKind::friction, .coefficient = 0.5, .speed_m_s = 5e-3}});
       model.linear.delay_s = delay_s;
       NonlinearSeparator separator(model, rate_hz, hold);
       Signal whole(a.size()), single(a.size());
@@ -61,17 +60,15 @@ TEST(NonlinearBank, GivesTheSameInOneGoAndSampleBySample) {
 TEST(NonlinearBank, DiffersFromTheLinearModelByItsLaw) {
   const Signal a = test::white_noise(3000, 3., 6);
   const Signal linear = simulate(with_law({}), a, rate_hz, Hold::first_order);
-  const Signal hard =
-      simulate(with_law({{.kind = LawKind::cubic_stiffness, .coefficient = 1e11}}), a, rate_hz,
-               Hold::first_order);
+  const Signal hard = simulate(with_law({{.kind = LawKind::cubic_stiffness, .coefficient = 1e11}}),
+                               a, rate_hz, Hold::first_order);
   EXPECT_GT(test::rms(test::minus(linear, hard)), 0.1 * test::rms(linear));
 }
 
 TEST(NonlinearBank, StartsAgainAtRestWhereASofteningLawRunsAway) {
   const Signal a = test::white_noise(5000, 30., 7);
-  const Signal soft =
-      simulate(with_law({{.kind = LawKind::cubic_stiffness, .coefficient = -1e11}}), a, rate_hz,
-               Hold::first_order);
+  const Signal soft = simulate(with_law({{.kind = LawKind::cubic_stiffness, .coefficient = -1e11}}),
+                               a, rate_hz, Hold::first_order);
   for (const double m : soft) ASSERT_TRUE(std::isfinite(m));
 }
 

@@ -19,17 +19,16 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 NonlinearBvrm joint_of_three_terms() {
-  NonlinearBvrm model{
-      .linear = test::sensor(2, -2e-7),
-      .mode = 1,
-      .law = {{.kind = LawKind::cubic_stiffness, .coefficient = 1.25e10},
-              {.kind = LawKind::friction, .coefficient = 0.3, .speed_m_s = 1e-3},
-              {.kind = LawKind::monomial,
-               .coefficient = -2.,
-               .deflection_power = 2,
-               .velocity_power = 1}},
-      .readout = LawReadout::deflection,
-      .hold = Hold::zero_order};
+  NonlinearBvrm model{.linear = test::sensor(2, -2e-7),
+                      .mode = 1,
+                      .law = {{.kind = LawKind::cubic_stiffness, .coefficient = 1.25e10},
+                              {.kind = LawKind::friction, .coefficient = 0.3, .speed_m_s = 1e-3},
+                              {.kind = LawKind::monomial,
+                               .coefficient = -2.,
+                               .deflection_power = 2,
+                               .velocity_power = 1}},
+                      .readout = LawReadout::deflection,
+                      .hold = Hold::zero_order};
   model.largest_deflection_m = 1e-4;
   model.largest_speed_m_s = 2e-2;
   return model;

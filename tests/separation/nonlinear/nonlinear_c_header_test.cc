@@ -18,17 +18,16 @@ using testing::ThrowsMessage;
 // Two modes; the first moves by some 3e-4 m under 3 m/s^2 rms, where each term bears some tenths of
 // the linear force.
 NonlinearBvrm joint_of_all_terms() {
-  NonlinearBvrm model{
-      .linear = test::sensor(2, -2e-7),
-      .mode = 0,
-      .law = {{.kind = LawKind::cubic_stiffness, .coefficient = 2e10},
-              {.kind = LawKind::quadratic_stiffness, .coefficient = -1e6},
-              {.kind = LawKind::quadratic_damping, .coefficient = 50.},
-              {.kind = LawKind::friction, .coefficient = 0.5, .speed_m_s = 0.01},
-              {.kind = LawKind::monomial,
-               .coefficient = 1e8,
-               .deflection_power = 2,
-               .velocity_power = 1}}};
+  NonlinearBvrm model{.linear = test::sensor(2, -2e-7),
+                      .mode = 0,
+                      .law = {{.kind = LawKind::cubic_stiffness, .coefficient = 2e10},
+                              {.kind = LawKind::quadratic_stiffness, .coefficient = -1e6},
+                              {.kind = LawKind::quadratic_damping, .coefficient = 50.},
+                              {.kind = LawKind::friction, .coefficient = 0.5, .speed_m_s = 0.01},
+                              {.kind = LawKind::monomial,
+                               .coefficient = 1e8,
+                               .deflection_power = 2,
+                               .velocity_power = 1}}};
   model.largest_deflection_m = 1e-3;
   model.largest_speed_m_s = 0.2;
   return model;
@@ -64,9 +63,7 @@ TEST(NonlinearCHeader, StartsAgainAtRestWhereTheLawRunsAway) {
 TEST(NonlinearCHeader, RefusesWhatAMicrocontrollerCannotDo) {
   NonlinearBvrm tried = joint_of_all_terms();
   EXPECT_THAT(
-      [&] {
-        nonlinear_c_header(tried, {.sampling_rate_hz = 500., .hold = Hold::band_limited});
-      },
+      [&] { nonlinear_c_header(tried, {.sampling_rate_hz = 500., .hold = Hold::band_limited}); },
       ThrowsMessage<UserError>(HasSubstr("needs future samples")));
   tried.linear.delay_s = -0.01;
   EXPECT_THAT([&] { nonlinear_c_header(tried, {.sampling_rate_hz = 500.}); },

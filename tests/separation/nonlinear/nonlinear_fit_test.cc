@@ -18,11 +18,11 @@ double hard_and_dragged(double x, double v) {
 }
 
 NonlinearBvrm guess(LawReadout readout) {
-  NonlinearBvrm model{.linear = {},
-                      .mode = 0,
-                      .law = {{.kind = LawKind::cubic_stiffness},
-                              {.kind = LawKind::quadratic_damping}},
-                      .readout = readout};
+  NonlinearBvrm model{
+      .linear = {},
+      .mode = 0,
+      .law = {{.kind = LawKind::cubic_stiffness}, {.kind = LawKind::quadratic_damping}},
+      .readout = readout};
   model.linear.modes = {make_modal_term(32., 0.035, -8e-6)};
   return model;
 }
@@ -35,9 +35,8 @@ TEST(NonlinearFit, FindsTheParametersOfADuffingOscillatorWithinThreeDeviations) 
     Shaken shaken(test::shaken_mode(), hard_and_dragged, moment, 4000, 1., moment ? 1 : 2);
     shaken.add_noise(0.01, 3);
     const Segment segment = shaken.segment();
-    const auto fit =
-        refine_nonlinear(guess(moment ? LawReadout::moment : LawReadout::deflection),
-                         std::span(&segment, 1), rate_hz, elastic_fit);
+    const auto fit = refine_nonlinear(guess(moment ? LawReadout::moment : LawReadout::deflection),
+                                      std::span(&segment, 1), rate_hz, elastic_fit);
     ASSERT_EQ(fit.end, FitEnd::converged);
     const ModalTerm truth = test::shaken_mode(), &found = fit.model.linear.modes[0];
     const auto expect = [&](double value, double true_value, Eigen::Index i) {

@@ -30,8 +30,8 @@ struct Shaken {
     const auto rate = [&](const State& s, State& r, double t) {
       r = {s[1], u(t) - mode.a1 * s[1] - mode.a0 * s[0] - force(s[0], s[1])};
     };
-    const auto stepper = odeint::make_controlled(
-        1e-15, 1e-10, odeint::runge_kutta_fehlberg78<State>());
+    const auto stepper =
+        odeint::make_controlled(1e-15, 1e-10, odeint::runge_kutta_fehlberg78<State>());
     constexpr std::size_t settling = 500;
     State state{};
     for (std::size_t i = 0; i < settling + n; ++i) {
@@ -47,7 +47,8 @@ struct Shaken {
 
   Shaken(const ModalTerm& mode, const Force& force, bool moment_readout, std::size_t n,
          double level, std::uint64_t seed)
-      : Shaken(mode, force, moment_readout, n, [=](double) { return level; }, seed) {}
+      : Shaken(
+            mode, force, moment_readout, n, [=](double) { return level; }, seed) {}
 
   void add_noise(double share, std::uint64_t seed) {
     moment = plus_noise(moment, share * rms(moment), seed);
