@@ -270,7 +270,7 @@ TEST(Identify, NonlinearGivesAModelThatSeparateTakesAlsoAsStream) {
 TEST(Identify, NonlinearRefusesWhatItCannotUse) {
   const Folder folder;
   const std::string record = quoted(folder.file("r.csv"));
-  signals::write_record(folder.file("r.csv"), measured(60));
+  signals::write_record(folder.file("r.csv"), measured(70));
   const auto short_record = vibrissa("identify " + record + " --nonlinear --order 6");
   EXPECT_EQ(short_record.status, 2);
   EXPECT_THAT(short_record.errors, HasSubstr("too few"));
