@@ -76,7 +76,7 @@ TEST(IdentifyNonlinear, PredictsTheSilverbox) {
   RecordProperty("all_mV", std::to_string(1e3 * test::rms(error)));
 }
 
-TEST(IdentifyNonlinear, StartsFromAQuietPartAndScoresUnseenData) {
+TEST(IdentifyNonlinear, FollowsARisingLevelAndScoresUnseenData) {
   const auto hard = [](double x, double) { return 4e9 * x * x * x; };
   Shaken shaken(
       test::shaken_mode(), hard, true, 6000, [](double t) { return 0.1 * t; }, 12);
