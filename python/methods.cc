@@ -4,7 +4,9 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/model/updated_model.h"
@@ -13,6 +15,8 @@
 #include "separation/filters/bvrm_separator.h"
 #include "separation/identification/identify.h"
 #include "separation/model/sampled_bvrm.h"
+#include "separation/nonlinear/identify_nonlinear.h"
+#include "separation/nonlinear/nonlinear_separator.h"
 #include "separation/stream_methods.h"
 #include "separation/verdict/identification_json.h"
 #include "signals/base/decimal_point.h"
@@ -24,11 +28,40 @@ namespace {
 constexpr std::size_t whole_verdict = 1000;  // lines
 
 namespace py = pybind11;
+using separation::NonlinearBvrm;
 using separation::SampledBvrm;
 using signals::Record;
 
 py::array_t<double> to_array(const std::vector<double>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+separation::IdentifyOptions identify_options(const std::optional<std::size_t> order,
+                                             const std::size_t max_order,
+                                             const std::size_t period_samples,
+                                             const std::string& method,
+                                             const std::optional<std::string>& hold,
+                                             const bool direct_term) {
+  separation::IdentifyOptions options;
+  options.method = separation::parse_identify_method(method);
+  options.order = order;
+  options.max_order = max_order;
+  options.period_samples = period_samples;
+  if (hold) options.hold = separation::parse_hold(*hold);
+  options.direct_term = direct_term;
+  return options;
+}
+
+// Model and report of `vibrissa identify --nonlinear --json`.
+std::pair<NonlinearBvrm, std::string> identify_nonlinear(
+    const Record& record, const std::optional<Record>& held_out,
+    const std::optional<std::size_t> order, const std::size_t max_order,
+    const std::size_t period_samples, const std::string& method,
+    const std::optional<std::string>& hold, const bool direct_term) {
+  const auto found = separation::identify_nonlinear(
+      record, held_out,
+      identify_options(order, max_order, period_samples, method, hold, direct_term));
+  return {found.fit.model, separation::nonlinear_report(found).dump()};
 }
 
 // Model and report of `vibrissa identify --json`.
@@ -37,13 +70,8 @@ std::pair<SampledBvrm, std::string> identify(
     const std::optional<std::size_t> order, const std::size_t max_order,
     const std::size_t period_samples, const std::string& method,
     const std::optional<std::string>& hold, const bool direct_term) {
-  separation::IdentifyOptions options;
-  options.method = separation::parse_identify_method(method);
-  options.order = order;
-  options.max_order = max_order;
-  options.period_samples = period_samples;
-  if (hold) options.hold = separation::parse_hold(*hold);
-  options.direct_term = direct_term;
+  const separation::IdentifyOptions options =
+      identify_options(order, max_order, period_samples, method, hold, direct_term);
   const auto [fit, scored] =
       held_out ? separation::SplitRecord{record, *held_out} : separation::hold_out_part(record);
   const auto found = held_out ? separation::identify_bvrm(fit, scored, options)
@@ -53,8 +81,19 @@ std::pair<SampledBvrm, std::string> identify(
   return {{found.fit.model, found.hold}, report.dump()};
 }
 
+using AnyBvrm = std::variant<SampledBvrm, NonlinearBvrm>;
+
+std::unique_ptr<separation::Separator> separator_of(const AnyBvrm& model, const double rate_hz,
+                                                    const std::optional<separation::Hold>& told) {
+  if (const auto* nonlinear = std::get_if<NonlinearBvrm>(&model))
+    return std::make_unique<separation::NonlinearSeparator>(*nonlinear, rate_hz,
+                                                            nonlinear->hold_or(told));
+  const auto& bvrm = std::get<SampledBvrm>(model);
+  return std::make_unique<separation::BvrmSeparator>(bvrm.model, rate_hz, bvrm.hold_or(told));
+}
+
 std::map<std::string, py::array_t<double>> separate(const Record& record,
-                                                    const std::optional<SampledBvrm>& model,
+                                                    const std::optional<AnyBvrm>& model,
                                                     const std::vector<std::string>& methods,
                                                     const std::size_t block, const std::size_t taps,
                                                     const std::optional<double> step,
@@ -65,8 +104,8 @@ std::map<std::string, py::array_t<double>> separate(const Record& record,
     if (model) {
       std::optional<separation::Hold> told;
       if (hold) told = separation::parse_hold(*hold);
-      separation::BvrmSeparator bvrm(model->model, record.sampling_rate_hz(), model->hold_or(told));
-      found["bvrm"] = separation::separate_record(bvrm, record);
+      const auto bvrm = separator_of(*model, record.sampling_rate_hz(), told);
+      found["bvrm"] = separation::separate_record(*bvrm, record);
     }
     separation::FdafOptions options = {block, taps, {}, {}, 0.};
     if (step) options.step.step = *step;
@@ -137,6 +176,17 @@ void add_models(py::module_& module) {
           "t).")
       .def_property_readonly(
           "json", [](const SampledBvrm& model) { return separation::to_json(model).dump(); });
+  py::class_<NonlinearBvrm>(module, "NonlinearBvrm",
+                            "Base vibration response model with the law of the joint.")
+      .def_static("read", &separation::read_nonlinear_bvrm, py::arg("file"))
+      .def(
+          "write",
+          [](const NonlinearBvrm& model, const std::filesystem::path& file) {
+            separation::write_nonlinear_bvrm(file, model);
+          },
+          py::arg("file"))
+      .def_property_readonly(
+          "json", [](const NonlinearBvrm& model) { return separation::to_json(model).dump(); });
   py::class_<diagnosis::UpdatedModel>(
       module, "Model", "Simulation of the sensor: a nominal model with known effects.")
       .def_static("read", &read_model, py::arg("file"), "Reads model.json or updated_model.json.")
@@ -167,6 +217,9 @@ void add_methods(py::module_& module) {
   module.def("identify", &identify, without_lock, py::arg("record"), py::arg("held_out"),
              py::arg("order"), py::arg("max_order"), py::arg("period_samples"), py::arg("method"),
              py::arg("hold"), py::arg("direct_term"));
+  module.def("identify_nonlinear", &identify_nonlinear, without_lock, py::arg("record"),
+             py::arg("held_out"), py::arg("order"), py::arg("max_order"), py::arg("period_samples"),
+             py::arg("method"), py::arg("hold"), py::arg("direct_term"));
   module.def("separate", &separate, plain, py::arg("record"), py::arg("model"), py::arg("methods"),
              py::arg("block"), py::arg("taps"), py::arg("step"), py::arg("hold"));
   py::class_<Answer>(module, "Answer")

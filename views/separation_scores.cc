@@ -46,12 +46,12 @@ const std::string paper_ratio_note =
     "Paper's ratio: power of the wind estimate divided by that of the vibration estimate; it is "
     "infinite for a method that removes nothing. ";
 
-std::string four_digits(const double value) {
+std::string score_text(const double value) {
   return report::Cell(value).rounded(4);
 }
 
 std::string settling_note(const double settling_s) {
-  return "The first " + four_digits(settling_s) + " s are left out of all scores.";
+  return "The first " + score_text(settling_s) + " s are left out of all scores.";
 }
 
 double root_mean_square(const std::span<const double> x) {
@@ -181,10 +181,10 @@ report::Table warping_table(const std::vector<SeparatedSignal>& signals,
 std::string metric_notes(const double settling_s) {
   return "SDR: signal-to-distortion ratio against the true wind moment. Wind band power: power of "
          "the estimate divided by that of the true wind moment, from " +
-         four_digits(wind_band.low_hz) + " to " + four_digits(wind_band.high_hz) +
+         score_text(wind_band.low_hz) + " to " + score_text(wind_band.high_hz) +
          " Hz. DTW: dynamic time warping with unit steps, mean absolute cost per pair of the path, "
          "window ±" +
-         four_digits(1e3 * dtw_window_s) + " ms. " + paper_ratio_note + settling_note(settling_s);
+         score_text(1e3 * dtw_window_s) + " ms. " + paper_ratio_note + settling_note(settling_s);
 }
 
 }  // namespace vibrissa::views

@@ -14,9 +14,12 @@
 #include "separation/identification/output_only.h"
 #include "separation/model/c_header.h"
 #include "separation/model/sampled_bvrm.h"
+#include "separation/nonlinear/identify_nonlinear.h"
+#include "separation/nonlinear/nonlinear_c_header.h"
 #include "signals/base/error.h"
 #include "signals/files/response_file.h"
 #include "views/identification_report.h"
+#include "views/nonlinear_report.h"
 
 namespace vibrissa::apps {
 
@@ -35,6 +38,7 @@ struct IdentifyCommandOptions {
   std::optional<std::string> hold;
   std::string method = "output-error";
   bool no_direct_term = false, cross_validation = false, output_only = false;
+  bool nonlinear = false;
   std::optional<std::size_t> max_lags;
   bool frequency_response = false;
   std::string response_as;
@@ -43,7 +47,8 @@ struct IdentifyCommandOptions {
 /// Those that only a record of acceleration and moment has a use for.
 const std::vector<std::string>& options_of_records() {
   static const std::vector<std::string> names = {"--held-out",         "--c-header", "--hold",
-                                                 "--cross-validation", "--period",   "--method"};
+                                                 "--cross-validation", "--period",   "--method",
+                                                 "--nonlinear"};
   return names;
 }
 
@@ -151,15 +156,48 @@ void offer_output_only(const signals::Record& record, const std::string& file) {
                            " --output-only' gives resonances and damping from the moment alone");
 }
 
-void identify(const IdentifyCommandOptions& options) {
-  const signals::Record all = options.record.read(options.record_file);
-  offer_output_only(all, options.record_file);
-  warn_of_faults(options.record_file, all);
+signals::Record read_checked(const IdentifyCommandOptions& options) {
+  signals::Record record = options.record.read(options.record_file);
+  offer_output_only(record, options.record_file);
+  warn_of_faults(options.record_file, record);
+  return record;
+}
+
+separation::IdentifyOptions identify_options(const IdentifyCommandOptions& options) {
   separation::IdentifyOptions identify = options.identify;
   identify.method = separation::parse_identify_method(options.method);
   if (options.hold) identify.hold = separation::parse_hold(*options.hold);
   identify.direct_term = !options.no_direct_term;
   if (options.cross_validation) identify.order_rule = separation::OrderRule::cross_validation;
+  return identify;
+}
+
+void identify_with_law(const IdentifyCommandOptions& options) {
+  refuse_given(*options.command, {"--method"}, "is not used by --nonlinear, an output-error fit");
+  const signals::Record record = read_checked(options);
+  std::optional<signals::Record> held_out;
+  if (options.held_out_file) held_out = options.record.read(*options.held_out_file);
+  const auto found = separation::identify_nonlinear(record, held_out, identify_options(options));
+  const separation::NonlinearBvrm& model = found.fit.model;
+  // The header comes first: it may be refused, and then nothing has been written.
+  if (options.c_header_file)
+    separation::write_nonlinear_c_header(*options.c_header_file, model,
+                                         {record.sampling_rate_hz(), model.hold_or({})});
+  const std::optional<std::string> model_file = model_file_of(options);
+  if (model_file && found.has_law()) separation::write_nonlinear_bvrm(*model_file, model);
+  if (model_file && !found.has_law())
+    separation::write_bvrm(*model_file, {model.linear, model.hold});
+  if (options.common.json) {
+    print_json(separation::nonlinear_report(found));
+    return;
+  }
+  std::cout << views::nonlinear_text(found);
+  say_written(options, model_file);
+}
+
+void identify(const IdentifyCommandOptions& options) {
+  const signals::Record all = read_checked(options);
+  const separation::IdentifyOptions identify = identify_options(options);
   // Without a second file the last third scores the model, then the model is fitted to all.
   const auto [fit, held_out] =
       options.held_out_file
@@ -212,6 +250,8 @@ void identify_what_is_given(IdentifyCommandOptions options) {
     identify_from_output(options);
   else if (options.frequency_response)
     identify_from_response(options);
+  else if (options.nonlinear)
+    identify_with_law(options);
   else
     identify(options);
 }
@@ -254,6 +294,10 @@ void add_identify_command(CLI::App& app) {
                    "output-error; srivc, refined instrumental variables; or frequency, the fit of "
                    "the frequency response (of whole periods with --period, else Welch's)")
       ->capture_default_str();
+  command->add_flag("--nonlinear", options->nonlinear,
+                    "Also fits the law of the joint that the record asks for: cubic or quadratic "
+                    "stiffness, quadratic damping, friction, else a polynomial in deflection and "
+                    "velocity; each term must lower the error on data that no fit has seen");
   add_other_inputs(*command, *options);
   command->add_option(
       "-o,--output,--out", options->model_file,
@@ -270,6 +314,7 @@ void add_identify_command(CLI::App& app) {
       "  vibrissa identify bench.csv --method srivc --hold first_order --c-header bvrm.h\n"
       "  vibrissa identify modal_test.uff --frequency-response --response-as '2[mN mm/g]'\n      "
       "(the second response of the file, in mN mm/g)\n"
+      "  vibrissa identify loud.csv --nonlinear -o nonlinear.json\n"
       "  vibrissa identify ring_down.csv --output-only");
   command->callback([options] { identify_what_is_given(*options); });
 }

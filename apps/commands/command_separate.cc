@@ -17,6 +17,7 @@
 #include "separation/filters/fdaf.h"
 #include "separation/metrics/wind_speed.h"
 #include "separation/model/sampled_bvrm.h"
+#include "separation/nonlinear/nonlinear_separator.h"
 #include "separation/stream_methods.h"
 #include "signals/base/error.h"
 #include "signals/files/file_format.h"
@@ -45,16 +46,28 @@ struct SeparateOptions {
 };
 
 /// The base acceleration between its samples as told, else as the model's fit took it.
-std::unique_ptr<separation::BvrmSeparator> bvrm_separator(const SeparateOptions& options,
-                                                          const double sampling_rate_hz) {
-  const separation::SampledBvrm bvrm = separation::read_bvrm(*options.model_file);
+template <typename Model>
+separation::Hold hold_of(const SeparateOptions& options, const Model& model) {
   std::optional<separation::Hold> told;
   if (options.hold) told = separation::parse_hold(*options.hold);
-  const separation::Hold hold = bvrm.hold_or(told);
-  if (bvrm.hold && hold != *bvrm.hold && !options.common.quiet)
-    std::cerr << "vibrissa: " << *options.model_file << " was fitted to a " << to_string(*bvrm.hold)
-              << " base acceleration, but --hold says " << to_string(hold) << "\n";
-  return std::make_unique<separation::BvrmSeparator>(bvrm.model, sampling_rate_hz, hold);
+  const separation::Hold hold = model.hold_or(told);
+  if (model.hold && hold != *model.hold && !options.common.quiet)
+    std::cerr << "vibrissa: " << *options.model_file << " was fitted to a "
+              << to_string(*model.hold) << " base acceleration, but --hold says " << to_string(hold)
+              << "\n";
+  return hold;
+}
+
+std::unique_ptr<separation::Separator> bvrm_separator(const SeparateOptions& options,
+                                                      const double sampling_rate_hz) {
+  if (separation::is_nonlinear_bvrm(*options.model_file)) {
+    const auto model = separation::read_nonlinear_bvrm(*options.model_file);
+    return std::make_unique<separation::NonlinearSeparator>(model, sampling_rate_hz,
+                                                            hold_of(options, model));
+  }
+  const separation::SampledBvrm bvrm = separation::read_bvrm(*options.model_file);
+  return std::make_unique<separation::BvrmSeparator>(bvrm.model, sampling_rate_hz,
+                                                     hold_of(options, bvrm));
 }
 
 /// aligned: the record for filters that only know the past.
@@ -257,9 +270,11 @@ void add_separate_command(CLI::App& app) {
           "record", options->record_file,
           "Record with base moment, and base acceleration for all methods but line_canceller")
       ->required();
-  command->add_option("--model", options->model_file,
-                      "BVRM (JSON, from 'vibrissa identify') or updated_model.json of a diagnosis "
-                      "(without it: adaptive filter only)");
+  command->add_option(
+      "--model", options->model_file,
+      "BVRM (JSON, from 'vibrissa identify', linear or nonlinear) or updated_model.json of a "
+      "diagnosis "
+      "(without it: adaptive filter only)");
   command->add_option("--hold", options->hold,
                       "Base acceleration between samples: first_order, zero_order or band_limited "
                       "(default: as the model was fitted, else first_order)");

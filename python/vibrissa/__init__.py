@@ -16,6 +16,7 @@ from ._core import (
     Bvrm,
     Dataset,
     Model,
+    NonlinearBvrm,
     Record,
     TooLittleData,
     ResourceError,
@@ -30,6 +31,7 @@ __all__ = [
     "Diagnosis",
     "Identification",
     "Model",
+    "NonlinearBvrm",
     "Record",
     "TooLittleData",
     "ResourceError",
@@ -181,15 +183,17 @@ def check(source, **options):
 
 
 def identify(record, *, held_out=None, order=None, max_order=20, period_samples=0,
-             method="output-error", hold=None, direct_term=True):
+             method="output-error", hold=None, direct_term=True, nonlinear=False):
     """Identifies the model from base_acceleration_m_s2 to base_moment_N_m.
 
     Without `held_out`, the first two thirds of the record are fitted and the last third scores the
     model. `order` is the number of poles, two for each mode; by default an information criterion
-    selects it.
+    selects it. `nonlinear` also fits the law of the joint that the record asks for; the model is
+    then a NonlinearBvrm.
     """
-    model, report = _core.identify(record, held_out, order, max_order, period_samples, method, hold,
-                                   direct_term)
+    identify_by = _core.identify_nonlinear if nonlinear else _core.identify
+    model, report = identify_by(record, held_out, order, max_order, period_samples, method, hold,
+                                direct_term)
     return Identification(model, _json.loads(report))
 
 
@@ -197,7 +201,7 @@ def separate(record, *, model=None, methods=("fdaf",), block=64, taps=512, step=
              hold=None):
     """Returns the part of the base moment that the wind causes [N m], one array for each method.
 
-    `model` (a Bvrm or an Identification) adds the method "bvrm". `hold` is the assumed course of
+    `model` (a Bvrm, a NonlinearBvrm or an Identification) adds the method "bvrm". `hold` is the assumed course of
     the base acceleration between its samples; the default is the hold of the fit, else
     "first_order".
     `methods` is one name, or several names, of the methods that `vibrissa separate --help` lists.

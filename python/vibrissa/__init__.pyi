@@ -44,6 +44,13 @@ class Bvrm:
     @property
     def json(self) -> str: ...
 
+class NonlinearBvrm:
+    @staticmethod
+    def read(file: _Path) -> NonlinearBvrm: ...
+    def write(self, file: _Path) -> None: ...
+    @property
+    def json(self) -> str: ...
+
 class Model:
     @staticmethod
     def read(file: _Path) -> Model: ...
@@ -53,7 +60,7 @@ class Model:
     def simulate(self, inputs: Record, *, periodic: bool = ...) -> _Array: ...
 
 class Identification:
-    model: Bvrm
+    model: Union[Bvrm, NonlinearBvrm]
     report: dict[str, Any]
 
 class Check:
@@ -121,11 +128,12 @@ def identify(
     method: str = ...,
     hold: Optional[str] = ...,
     direct_term: bool = ...,
+    nonlinear: bool = ...,
 ) -> Identification: ...
 def separate(
     record: Record,
     *,
-    model: Union[Bvrm, Identification, None] = ...,
+    model: Union[Bvrm, NonlinearBvrm, Identification, None] = ...,
     methods: Iterable[str] = ...,
     block: int = ...,
     taps: int = ...,

@@ -4,10 +4,10 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 #include <vector>
 
+#include "separation/model/c_text.h"
 #include "separation/model/mode_step.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
@@ -95,41 +95,11 @@ SampledModel sample(const Bvrm& bvrm, double rate_hz, Hold hold) {
   return model;
 }
 
-void check_options(const Bvrm& model, const CHeaderOptions& options) {
-  check(model);
-  if (!(options.sampling_rate_hz > 0.) || !std::isfinite(options.sampling_rate_hz))
-    throw UserError("C header: the sampling rate " + signals::to_text(options.sampling_rate_hz) +
-                    " Hz is not positive and finite");
-  if (options.hold == Hold::band_limited)
-    throw UserError(
-        "C header: the hold band_limited needs future samples; take first_order or zero_order");
-  if (sampled_delay(model.delay_s, options.sampling_rate_hz).shift < 0)
-    throw UserError("C header: the moment leads the acceleration by " +
-                    signals::to_text(-model.delay_s) +
-                    " s, but a filter in real time cannot look ahead; delay the moment instead");
-  if (model.modes.empty()) throw UserError("C header: the model has no mode");
-  const auto is_word = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-  if (options.name.empty() || std::isdigit(static_cast<unsigned char>(options.name[0])) ||
-      !std::ranges::all_of(options.name, is_word))
-    throw UserError("C header: the name \"" + options.name + "\" is not a C identifier");
-}
-
-std::string number(double value) {
-  std::array<char, 40> text;
-  std::snprintf(text.data(), text.size(), "%.9ef", value);
-  return text.data();
-}
-
 template <std::size_t n>
 std::string list(const std::array<double, n>& values) {
   std::string text = "{";
-  for (std::size_t i = 0; i < n; ++i) text += (i ? ", " : "") + number(values[i]);
+  for (std::size_t i = 0; i < n; ++i) text += (i ? ", " : "") + c_number(values[i]);
   return text + "}";
-}
-
-void replace_all(std::string& text, const std::string& word, const std::string& by) {
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at))
-    text.replace(at, word.size(), by), at += by.size();
 }
 
 // @X stands for what differs from model to model.
@@ -217,8 +187,27 @@ std::string table(const std::vector<Section>& sections, const Part& part) {
 
 }  // namespace
 
+void check(const Bvrm& model, const CHeaderOptions& options) {
+  check(model);
+  if (!(options.sampling_rate_hz > 0.) || !std::isfinite(options.sampling_rate_hz))
+    throw UserError("C header: the sampling rate " + signals::to_text(options.sampling_rate_hz) +
+                    " Hz is not positive and finite");
+  if (options.hold == Hold::band_limited)
+    throw UserError(
+        "C header: the hold band_limited needs future samples; take first_order or zero_order");
+  if (sampled_delay(model.delay_s, options.sampling_rate_hz).shift < 0)
+    throw UserError("C header: the moment leads the acceleration by " +
+                    signals::to_text(-model.delay_s) +
+                    " s, but a filter in real time cannot look ahead; delay the moment instead");
+  if (model.modes.empty()) throw UserError("C header: the model has no mode");
+  const auto is_word = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+  if (options.name.empty() || std::isdigit(static_cast<unsigned char>(options.name[0])) ||
+      !std::ranges::all_of(options.name, is_word))
+    throw UserError("C header: the name \"" + options.name + "\" is not a C identifier");
+}
+
 std::string c_header(const Bvrm& model, const CHeaderOptions& options) {
-  check_options(model, options);
+  check(model, options);
   const SampledModel sampled = sample(model, options.sampling_rate_hz, options.hold);
   const auto& sections = sampled.sections;
   std::string text = body;
@@ -228,9 +217,9 @@ std::string c_header(const Bvrm& model, const CHeaderOptions& options) {
   replace_all(text, "@A", table(sections, change));
   replace_all(text, "@C", table(sections, [](const Section& s) { return s.c; }));
   replace_all(text, "@SECOND", table(sections, [](const Section& s) { return s.second; }));
-  replace_all(text, "@DIRECT", number(model.direct_term_kg_m));
-  replace_all(text, "@NOW", number(sampled.now));
-  replace_all(text, "@LAST", number(sampled.last));
+  replace_all(text, "@DIRECT", c_number(model.direct_term_kg_m));
+  replace_all(text, "@NOW", c_number(sampled.now));
+  replace_all(text, "@LAST", c_number(sampled.last));
   replace_all(text, "@DRIVE", sampled.between ? "state->last" : "newest");
   replace_all(text, "@NAME", options.name);
   return describe(model, options) + text;

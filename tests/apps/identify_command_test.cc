@@ -7,6 +7,7 @@
 #include <random>
 
 #include "separation/model/simulation.h"
+#include "separation/nonlinear/nonlinear_bank.h"
 #include "signals/files/record_io.h"
 #include "tests/apps/program.h"
 #include "tests/signals/rate.h"
@@ -219,6 +220,66 @@ TEST(Identify, RefusesWithoutAnInputWhatNeedsOne) {
     EXPECT_EQ(result.status, 2) << option;
     EXPECT_THAT(result.errors, HasSubstr("needs the base acceleration"));
   }
+}
+
+/// A moment of a mode with a cubic spring.
+signals::Record measured_on_a_hard_joint(const std::size_t n) {
+  separation::NonlinearBvrm model{
+      .linear = {},
+      .mode = 0,
+      .law = {{.kind = separation::LawKind::cubic_stiffness, .coefficient = 3e10}}};
+  model.linear.modes = {separation::make_modal_term(31.47, 0.027, -9e-6)};
+  model.largest_deflection_m = model.largest_speed_m_s = 1.;
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  std::vector<double> a(n);
+  for (double& x : a) x = 3. * normal(random);
+  auto moment = separation::simulate(model, a, rate_hz, separation::Hold::first_order);
+  for (double& m : moment) m += 1e-8 * normal(random);
+  signals::Record record(rate_hz, n);
+  record.set_channel(signals::channel::base_acceleration, std::move(a));
+  record.set_channel(signals::channel::base_moment, std::move(moment));
+  return record;
+}
+
+TEST(Identify, NonlinearGivesAModelThatSeparateTakesAlsoAsStream) {
+  const Folder folder;
+  const std::string record = quoted(folder.file("r.csv")), model = quoted(folder.file("m.json"));
+  signals::write_record(folder.file("r.csv"), measured_on_a_hard_joint(6000));
+  const auto result =
+      vibrissa("identify " + record + " --nonlinear --hold first_order --c-header " +
+               quoted(folder.file("m.h")) + " -o " + model + " --json");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const json found = result.json();
+  ASSERT_EQ(found["law"].size(), 1u) << found.dump(1);
+  EXPECT_EQ(found["law"][0]["term"], "cubic_stiffness");
+  EXPECT_NEAR(found["law"][0]["coefficient"].get<double>(), 3e10,
+              3. * found["law"][0]["coefficient_sd"].get<double>());
+  EXPECT_THAT(content(folder.file("m.h")), HasSubstr("law of mode 1: cubic_stiffness"));
+  const auto text = vibrissa("identify " + record + " --nonlinear --hold first_order -o " + model);
+  EXPECT_THAT(text.output, HasSubstr("the record asks for cubic_stiffness"));
+  for (const std::string stream : {"", " --stream"}) {
+    const std::string output = folder.file("s" + std::to_string(stream.size()) + ".csv");
+    const auto separated = vibrissa("separate " + record + " --model " + model + stream +
+                                    " --quiet -o " + quoted(output));
+    ASSERT_EQ(separated.status, 0) << separated.errors;
+  }
+  EXPECT_EQ(content(folder.file("s0.csv")), content(folder.file("s9.csv")));
+}
+
+TEST(Identify, NonlinearRefusesWhatItCannotUse) {
+  const Folder folder;
+  const std::string record = quoted(folder.file("r.csv"));
+  signals::write_record(folder.file("r.csv"), measured(70));
+  const auto short_record = vibrissa("identify " + record + " --nonlinear --order 6");
+  EXPECT_EQ(short_record.status, 2);
+  EXPECT_THAT(short_record.errors, HasSubstr("too few"));
+  const auto method = vibrissa("identify " + record + " --nonlinear --method srivc");
+  EXPECT_EQ(method.status, 2);
+  EXPECT_THAT(method.errors, HasSubstr("--method is not used by --nonlinear"));
+  const auto output_only = vibrissa("identify " + record + " --nonlinear --output-only");
+  EXPECT_EQ(output_only.status, 2);
+  EXPECT_THAT(output_only.errors, HasSubstr("--nonlinear"));
 }
 
 }  // namespace

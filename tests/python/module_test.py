@@ -138,6 +138,24 @@ class Module(unittest.TestCase):
                                               methods=["fdaf", "kalman"]).items():
             np.testing.assert_array_equal(values, written[f"wind_moment_{name}_N_m"])
 
+    def test_identifies_and_separates_the_same_with_a_law_of_the_joint(self):
+        file = str(self.path / "nonlinear.json")
+        printed = json.loads(program("identify", str(self.path / "r.csv"), "--nonlinear", "--order",
+                                     "2", "-o", file, "--json"))
+        found = vibrissa.identify(self.record, order=2, nonlinear=True)
+        self.assertEqual(found.report, printed)
+        document = json.loads(found.model.json)
+        document["law"] = [{"kind": "cubic_stiffness", "coefficient": 1e9}]
+        pathlib.Path(file).write_text(json.dumps(document))
+        program("separate", str(self.path / "r.csv"), "--model", file, "-o",
+                str(self.path / "n.csv"), "--quiet")
+        model = vibrissa.NonlinearBvrm.read(file)
+        model.write(file)
+        self.assertEqual(json.loads(model.json)["law"][0]["coefficient"], 1e9)
+        separated = vibrissa.separate(self.record, model=model)
+        np.testing.assert_array_equal(
+            separated["bvrm"], vibrissa.read_record(self.path / "n.csv")["wind_moment_bvrm_N_m"])
+
     def test_reads_and_writes_alike_under_decimal_commas(self):
         script = """if True:
             import locale, sys

@@ -1,14 +1,10 @@
 #include "separation/model/c_header.h"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
 #include "separation/model/simulation.h"
 #include "signals/base/error.h"
+#include "tests/separation/header_in_c.h"
 #include "tests/separation/test_signals.h"
 
 namespace vibrissa::separation {
@@ -19,50 +15,11 @@ using test::Signal;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr const char* program = R"(
-#include "model.h"
-#include <stdio.h>
-int main(int argc, char **argv) {
-  sensor_state state;
-  double x;
-  FILE *in = fopen(argv[1], "r"), *out = fopen(argv[2], "w");
-  (void)argc;
-  sensor_reset(&state);
-  while (fscanf(in, "%lf", &x) == 1) fprintf(out, "%.9g\n", sensor_step(&state, (float)x));
-  return fclose(out);
-}
-)";
-
-// What the header gives for this input, compiled by the C compiler with all warnings as errors.
 Signal run_in_c(const Bvrm& model, const CHeaderOptions& options, const Signal& input) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("vibrissa_c_header_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  write_c_header(folder / "model.h", model, options);
-  std::ofstream(folder / "main.c") << program;
-  std::ofstream samples(folder / "in");
-  samples.precision(17);
-  for (const double x : input) samples << x << '\n';
-  samples.close();
-  const std::string in = "'" + folder.string() + "/";
-  const std::string build = std::string(VIBRISSA_C_COMPILER) +
-                            " -std=c99 -Wall -Wextra -Werror -pedantic -O1 -o " + in + "run' " +
-                            in + "main.c'";
-  EXPECT_EQ(std::system(build.c_str()), 0);
-  EXPECT_EQ(std::system((in + "run' " + in + "in' " + in + "out'").c_str()), 0);
-  Signal output;
-  std::ifstream results(folder / "out");
-  for (double y = 0.; results >> y;) output.push_back(y);
-  std::filesystem::remove_all(folder);
-  return output;
+  return test::run_in_c(c_header(model, options), input);
 }
 
-double largest_relative_error(const Signal& output, const Signal& expected) {
-  double largest = 0.;
-  for (std::size_t i = 0; i < expected.size(); ++i)
-    largest = std::max(largest, std::abs(output[i] - expected[i]));
-  return largest / test::rms(expected);
-}
+using test::largest_relative_error;
 
 // A state of single precision is rounded by up to 6e-8 of itself at every sample, and a mode
 // remembers 1 / (zeta w) seconds of such errors, which add up as their root.
