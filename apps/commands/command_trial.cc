@@ -32,7 +32,7 @@ struct TrialCommand {
   trial::TrialRunOptions run;
   std::optional<fs::path> key, out;
   std::size_t n_benches = 25;
-  bool as_built = false, finite_strain = false, life = false;
+  bool finite_strain = false, life = false;
   std::array<double, 4> asked{2., 9., 2., 1.};
 };
 
@@ -131,7 +131,6 @@ void observe(const TrialCommand& options) {
   std::vector<std::string> words{"--benches", std::to_string(options.n_benches), "--seed",
                                  std::to_string(options.seed), "--asked"};
   for (const double share : options.asked) words.push_back(signals::to_text(share));
-  if (options.as_built) words.push_back("--as-built");
   if (options.life) words.push_back("--life");
   if (options.run.further) words.push_back("--further");
   if (options.common.json) words.push_back("--json");
@@ -221,19 +220,13 @@ void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) 
       ->check(positive_number())
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of all random draws")->capture_default_str();
-  auto* as_built = command->add_flag(
-      "--as-built", options->as_built,
-      "Every sensor deviates by a few percent in modulus, damping, gain and drag");
-  auto* further = command->add_flag(
-      "--further", options->run.further,
-      "Where several answers remain, adds each further experiment; not with --as-built");
-  further->excludes(as_built);
+  auto* further = command->add_flag("--further", options->run.further,
+                                    "Where several answers remain, adds each further experiment");
   command
       ->add_flag("--life", options->life,
                  "Bounds for 'trial make --life', for each set of records and each distance (21 "
-                 "benches have all pairs of both); not with the other two. A form error of the "
+                 "benches have all pairs of both); not with --further. A form error of the "
                  "simulation is not bounded: the observer knows the sensor as designed")
-      ->excludes(as_built)
       ->excludes(further);
   command
       ->add_option("--asked", options->asked,
@@ -241,7 +234,7 @@ void add_observe(CLI::App& trial, const std::shared_ptr<TrialCommand>& options) 
       ->check(CLI::Range(0., 1e6))
       ->capture_default_str();
   add_common_options(*command, options->common);
-  command->footer("Example:\n  vibrissa trial observe --benches 5 --as-built");
+  command->footer("Example:\n  vibrissa trial observe --benches 5 --further");
   command->callback([options] { observe(*options); });
 }
 
@@ -260,7 +253,7 @@ void add_trial_command(CLI::App& app) {
   command->footer(
       "Example:\n  vibrissa trial make --cases 40 --seed 5 --out trial5\n"
       "  mpirun -np 2 vibrissa trial run trial5 --threads 1\n  vibrissa trial score trial5\n"
-      "  vibrissa trial observe --as-built");
+      "  vibrissa trial observe --life");
 }
 
 }  // namespace vibrissa::apps

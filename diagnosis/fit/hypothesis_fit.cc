@@ -234,25 +234,36 @@ class Attempts {
   void from(const std::vector<Eigen::VectorXd>& starts, const std::vector<FitParameter>& held) {
     const std::vector<FitParameter> first = with_usual_discrepancy(held);
     FitPosterior of_first(experiment_, first, hypothesis_);
-    // Held parameters keep the posterior low, which does not make the basin hopeless.
+    // Held parameters keep the posterior low, which does not make the basin hopeless. Only the
+    // basin matters here, not its optimum.
     FitOptions patient = options_;
     patient.to_beat = -std::numeric_limits<double>::infinity();
+    patient.tolerance = 1.;
     OptimiserState state = best_start(of_first, first, starts, patient);
     optimise(of_first, first, state, n_held_iterations, patient);
     state.ended = false;
     state.derivatives.reset();
+    go_on(std::move(state));
+  }
+  void from(const std::vector<Eigen::VectorXd>& starts) { from(starts, fit_parameters_); }
+
+  /// With all parameters free at once, from near the optimum.
+  void from_near(const Eigen::VectorXd& x) {
+    go_on(best_start(posterior_, fit_parameters_, {x}, options_));
+  }
+
+  FitPosterior& posterior() { return posterior_; }
+  OptimiserState& best() { return *best_; }
+
+ private:
+  void go_on(OptimiserState state) {
     // A start that stays hopelessly below a previous one is given up.
     FitOptions of_all = options_;
     if (best_) of_all.to_beat = std::max(of_all.to_beat, best_->log_posterior);
     optimise(posterior_, fit_parameters_, state, options_.max_iterations, of_all);
     if (!best_ || state.log_posterior > best_->log_posterior) best_ = std::move(state);
   }
-  void from(const std::vector<Eigen::VectorXd>& starts) { from(starts, fit_parameters_); }
 
-  FitPosterior& posterior() { return posterior_; }
-  OptimiserState& best() { return *best_; }
-
- private:
   const Experiment& experiment_;
   const Hypothesis& hypothesis_;
   const std::vector<FitParameter>& fit_parameters_;
@@ -260,6 +271,21 @@ class Attempts {
   FitPosterior posterior_;
   std::optional<OptimiserState> best_;
 };
+
+/// The optimum of a fit of the same hypothesis, with the parameters held that are held now; nothing
+/// where this costs more than a few nats by the quadratic approximation: then the optimum may be
+/// far.
+std::optional<Eigen::VectorXd> near_start(const Hypothesis& hypothesis,
+                                          const std::vector<FitParameter>& fit_parameters,
+                                          const HypothesisFit* start, const FitOptions& options) {
+  constexpr double few_nats = 5.;
+  if (start == nullptr || options.nominal.empty() || start->hypothesis.name() != hypothesis.name())
+    return std::nullopt;
+  Eigen::VectorXd x = start->x;
+  clamp(fit_parameters, x);
+  const Eigen::VectorXd way = x - start->x;
+  return 0.5 * way.dot(start->information * way) < few_nats ? std::optional(x) : std::nullopt;
+}
 
 }  // namespace
 
@@ -312,7 +338,9 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   Attempts attempts(experiment, hypothesis, fit.fit_parameters, options);
   const std::vector<Eigen::VectorXd> nominal =
       start_vectors(experiment, fit.fit_parameters, hypothesis, start, /*nominal_nuisances=*/true);
-  if (start != nullptr)
+  if (const auto x = near_start(hypothesis, fit.fit_parameters, start, options))
+    attempts.from_near(*x);
+  else if (start != nullptr)
     attempts.from(start_vectors(experiment, fit.fit_parameters, hypothesis, start, false));
   else
     attempts.from(with_shifted_resonances(experiment, fit.fit_parameters, hypothesis, nominal));

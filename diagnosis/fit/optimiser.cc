@@ -72,6 +72,15 @@ std::optional<Step> take_step(const FitPosterior& posterior,
   return std::nullopt;
 }
 
+/// Does a state lie so near another one that both lead to the same optimum: within half a nat of
+/// the quadratic approximation of the log posterior?
+bool leads_to_the_same(const OptimiserState& state, const OptimiserState& other,
+                       const Eigen::MatrixXd& information) {
+  constexpr double nats = 0.5;
+  const Eigen::VectorXd way = other.x - state.x;
+  return 0.5 * way.dot(information * way) < nats;
+}
+
 OptimiserState begin_optimiser(FitPosterior& posterior, const Eigen::VectorXd& x) {
   OptimiserState state{.x = x, .predictions = posterior.predict(x)};
   posterior.update_slow_variance(x, state.predictions);
@@ -79,18 +88,10 @@ OptimiserState begin_optimiser(FitPosterior& posterior, const Eigen::VectorXd& x
   return state;
 }
 
-}  // namespace
-
-void clamp(const std::vector<FitParameter>& fit_parameters, Eigen::VectorXd& x) {
-  for (std::size_t i = 0; i < fit_parameters.size(); ++i) {
-    const Prior& prior = fit_parameters[i].description.prior;
-    double& value = x(static_cast<Eigen::Index>(i));
-    value = std::clamp(value, prior.low, prior.high);
-  }
-}
-
-void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
-              OptimiserState& state, const int n_iterations, const FitOptions& options) {
+/// optimise(); ends, too, where it only repeats the way of an earlier run, if there is one.
+void run(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
+         OptimiserState& state, const int n_iterations, const FitOptions& options,
+         const OptimiserState* const earlier) {
   // Stops when this many further gains like the last one would not be enough.
   constexpr double n_hopeful_gains = 15.;
   constexpr double most_astray = 0.2;
@@ -117,6 +118,10 @@ void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_para
       ++state.n_iterations;
     }
     posterior.linearise(state.x, state.predictions, *state.derivatives, gradient, information);
+    if (earlier != nullptr && leads_to_the_same(state, *earlier, information)) {
+      state.ended = true;
+      return;
+    }
     const double damping = state.damping;
     const auto step =
         take_step(posterior, fit_parameters, state, gradient, information, is_new ? 5 : 1);
@@ -133,6 +138,21 @@ void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_para
   }
 }
 
+}  // namespace
+
+void clamp(const std::vector<FitParameter>& fit_parameters, Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < fit_parameters.size(); ++i) {
+    const Prior& prior = fit_parameters[i].description.prior;
+    double& value = x(static_cast<Eigen::Index>(i));
+    value = std::clamp(value, prior.low, prior.high);
+  }
+}
+
+void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
+              OptimiserState& state, const int n_iterations, const FitOptions& options) {
+  run(posterior, fit_parameters, state, n_iterations, options, nullptr);
+}
+
 OptimiserState best_start(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
                           const std::vector<Eigen::VectorXd>& starts, const FitOptions& options) {
   constexpr int n_first_iterations = 3;
@@ -144,7 +164,8 @@ OptimiserState best_start(FitPosterior& posterior, const std::vector<FitParamete
   std::sort(optimiser_runs.begin(), optimiser_runs.end(), better);
   optimiser_runs.resize(std::min(optimiser_runs.size(), options.n_promising));
   for (OptimiserState& state : optimiser_runs)
-    optimise(posterior, fit_parameters, state, n_first_iterations, options);
+    run(posterior, fit_parameters, state, n_first_iterations, options,
+        &state == &optimiser_runs.front() ? nullptr : &optimiser_runs.front());
   std::sort(optimiser_runs.begin(), optimiser_runs.end(), better);
   return std::move(optimiser_runs.front());
 }

@@ -184,8 +184,10 @@ class Searcher {
       if (posterior_of(i) > best_posterior() - still_hopeful_nats) hopeful.push_back(i);
     for_each_parallel(hopeful.size(), options_.n_threads, [&](std::size_t nth) {
       HypothesisFit& fit = fits_[hopeful[nth]];
-      HypothesisFit settled = fit_hypothesis(experiment_, fit.hypothesis, &fit,
-                                             {.nominal = needless_calibrations(fit)});
+      const std::vector<std::string> needless = needless_calibrations(fit);
+      if (needless.empty()) return;
+      HypothesisFit settled =
+          fit_hypothesis(experiment_, fit.hypothesis, &fit, {.nominal = needless});
       if (settled.log_evidence > fit.log_evidence) fit = std::move(settled);
       const std::lock_guard lock(mutex_);
       if (options_.on_fit) options_.on_fit();

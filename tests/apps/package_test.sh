@@ -25,7 +25,7 @@ dpkg-deb --extract "$program" "$folder/root"
   --no-convergence --json --quiet | grep -q frequency_hz
 "$folder/root/usr/bin/vibrissa" trial make --cases 1 --seed 3 --quiet --out "$folder/trial" > /dev/null
 test -s "$folder/trial/trial.json"
-"$folder/root/usr/bin/vibrissa" trial observe --help | grep -q as-built
+"$folder/root/usr/bin/vibrissa" trial observe --help | grep -q further
 PYTHONPATH="$folder/root/usr/lib/python3/dist-packages" /usr/bin/python3 -c \
   "import vibrissa; print(vibrissa.read_record('$folder/r.csv'))"
 test -s "$folder/root/usr/share/man/man1/vibrissa.1"

@@ -140,6 +140,28 @@ TEST_F(WrittenTrial, CountsWhatWasRight) {
   EXPECT_NEAR(score.figures.at("parameter error over its deviation, median"), 1., 1e-6);
 }
 
+TEST_F(WrittenTrial, EffectsThatCloseLittleAreRightWithAndWithoutTheirNames) {
+  const auto effect = [](const char* id, double share) {
+    return json{{"id", id}, {"size", 1e-3}, {"limit", 1e-4}, {"gap_share", share}};
+  };
+  const json little = {effect("delay", 0.04)}, enough = {effect("delay", 0.06)},
+             both = {effect("delay", 0.04), effect("hum", 0.5)};
+  for (const char* verdict : {"none", "delay", "hum"}) add("single", little, answer(verdict, 0.9));
+  for (const char* verdict : {"none", "delay"}) add("single", enough, answer(verdict, 0.9));
+  for (const char* verdict : {"hum", "delay+hum", "delay"}) add("pair", both, answer(verdict, 0.9));
+  for (const char* verdict : {"none", "outside_catalogue", "hum"})
+    add("nameless", {effect("x", 0.04)}, answer(verdict, 0.9));
+  const trial::TrialScore score = trial::score_trial(trial_, labels_);
+  const auto share = [&](const std::string& name) {
+    const trial::Share& found = score.shares.at(name);
+    return std::pair(found.hits, found.of);
+  };
+  EXPECT_EQ(share("notes alone, nothing else named"), Pair(4, 6));
+  EXPECT_EQ(share("single at 3 limits, right"), Pair(1, 2));
+  EXPECT_EQ(share("pair, exact"), Pair(2, 3));
+  EXPECT_EQ(score.shares.count("nameless, outside_catalogue"), 0u);
+}
+
 Pair hits_and_number(const trial::Scores& scores, const std::string& name) {
   const trial::Share& found = scores.shares.at(name);
   return {found.hits, found.of};

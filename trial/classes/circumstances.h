@@ -63,6 +63,10 @@ nlohmann::json to_json(const Circumstances& circumstances);
 /// tests/trial/classes/circumstances_test.cc.
 Circumstances circumstances_from(const nlohmann::json& document);
 
+/// Least share of the reducible gap that an effect closes whose name belongs to the verdict; an
+/// effect that closes less belongs to a note, so it is right with or without it.
+inline constexpr double least_gap_share = 0.05;
+
 /// Can unknown calibrations imitate this effect exactly? On sensors at a distance such effects have
 /// no meaning of their own.
 bool is_a_calibration(const std::string& id);

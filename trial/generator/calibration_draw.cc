@@ -46,8 +46,7 @@ std::map<std::string, double> calibrations_of(const World& world) {
 }
 
 std::map<std::string, double> calibration_deviations(const Distance distance) {
-  if (distance == Distance::exact) return {};
-  if (distance == Distance::as_built)
+  if (distance != Distance::as_paper)
     return {{"stiffness", built_modulus},
             {"damping", built_damping},
             {"sensor_gain", built_gain},

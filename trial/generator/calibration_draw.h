@@ -27,7 +27,9 @@ void draw_calibrations(World& world, Distance distance, std::mt19937_64& random)
 /// sensor_gain, reference_gain, drag_error.
 std::map<std::string, double> calibrations_of(const World& world);
 
-/// Standard deviation of each of these ratios at a distance about its mean; empty for exact.
+/// Standard deviation of each of these ratios, about its mean at a distance, that whoever judges a
+/// sensor must allow for: nobody knows that a sensor is exactly as designed, so exact has the
+/// building tolerances, too.
 std::map<std::string, double> calibration_deviations(Distance distance);
 
 }  // namespace vibrissa::trial

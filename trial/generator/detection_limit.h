@@ -10,8 +10,11 @@ namespace vibrissa::trial {
 
 /// Likelihood-ratio test that knows the form of a world's change relative to the plain world: its
 /// unexplained change relative to the noise of both channels, in the fit takes. The noise is
-/// assumed white. The test allows for the calibrations of a distance and for a simulation of that
-/// accuracy (unknown_changes()): otherwise it would raise an alarm on every sensor.
+/// assumed white. The test allows for the calibrations of a distance, building tolerances at least,
+/// and for a simulation of that accuracy (unknown_changes()): otherwise it would raise an alarm on
+/// every sensor. Calibrations count in proportion alone: with little noise the test still sees that
+/// the shift of a resonance is not proportional to the stiffness, so limits of stiffness and mass
+/// stay below the building tolerance.
 class LikelihoodRatio {
  public:
   LikelihoodRatio(const World& plain, const Session& session, Distance distance = Distance::exact,

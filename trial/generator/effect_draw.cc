@@ -29,7 +29,7 @@ bool EffectDraw::try_to_add(const Unknown& unknown, const Sizes& sizes) {
                           ? unknown.largest
                           : *least * sizes.low * std::pow(largest / sizes.low, place);
   unknown.apply(case_.world, sign * size, shape);
-  case_.effects.push_back({unknown.id, sign * size, *least});
+  case_.effects.push_back({unknown.id, sign * size, *least, shape});
   return true;
 }
 

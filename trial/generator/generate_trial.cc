@@ -18,6 +18,7 @@
 #include "signals/system/sealed_file.h"
 #include "trial/generator/calibration_draw.h"
 #include "trial/generator/circumstance_draw.h"
+#include "trial/generator/gap_share.h"
 #include "trial/generator/record_set.h"
 #include "trial/generator/trial_case.h"
 
@@ -54,8 +55,12 @@ std::string case_name(std::size_t number) {
 
 json label_of(const trial::TrialCase& trial_case) {
   json effects = json::array();
-  for (const trial::CaseEffect& effect : trial_case.effects)
+  const std::vector<std::optional<double>> shares = trial::gap_shares(trial_case);
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const trial::CaseEffect& effect = trial_case.effects[i];
     effects.push_back({{"id", effect.id}, {"size", effect.size}, {"limit", effect.limit}});
+    if (shares[i]) effects.back()["gap_share"] = *shares[i];
+  }
   return {{"class", to_string(trial_case.kind)}, {"effects", effects}, {"seed", trial_case.seed}};
 }
 
@@ -137,7 +142,7 @@ WrittenCase write_case(const Options& options, const fs::path& making, const std
                    : trial::Circumstances{};
   const trial::TrialCase trial_case =
       trial::draw_case(options.seed, number, options.physics, circumstances,
-                       options.life ? stated_accuracy(circumstances.form_error) : 0.);
+                       stated_accuracy(circumstances.form_error));
   const std::string name = case_name(number);
   WrittenCase out{.entry = {{"name", name}, {"left_out", trial_case.left_out}},
                   .label = label_of(trial_case)};

@@ -25,9 +25,10 @@ LineChange change_of(const UnexplainedChange& change, const World& world, bool r
 Eigen::VectorXd signature_of(const LineChange& change, const std::vector<double>& noise);
 
 /// What may differ between a sensor and its simulation without being an effect: one change for each
-/// normally distributed number of unit variance. The calibrations of a distance in proportion; a
-/// relative error of the moment of this size (rms), smooth over frequency, of any phase, for base
-/// motion and wind each; and the spectrum of a wind that nobody measures. About the plain world.
+/// normally distributed number of unit variance. The calibrations of a distance in proportion,
+/// those of building tolerances at distance exact; a relative error of the moment of this size
+/// (rms), smooth over frequency, of any phase, for base motion and wind each; and the spectrum of a
+/// wind that nobody measures. About the plain world.
 std::vector<LineChange> unknown_changes(const UnexplainedChange& change, Distance distance,
                                         double accuracy);
 

@@ -23,6 +23,7 @@ struct CaseEffect {
   std::string id;
   double size = 0.;   // signed, in the unit of Unknown::unit
   double limit = 0.;  // detection limit, positive
+  double shape = 0.;  // Unknown::apply
 };
 
 /// One sensor to be diagnosed, with its true causes.
@@ -30,7 +31,8 @@ struct TrialCase {
   CaseClass kind = CaseClass::none;
   Physics physics = Physics::modes;
   Circumstances circumstances;
-  double accuracy = 0.;  // of the simulation, for the detection limits
+  double accuracy =
+      stated_accuracy(FormError::zero);  // of the simulation, for the detection limits
   std::vector<CaseEffect> effects;
   std::vector<std::string> left_out;  // effects that are removed from the catalogue; public
   std::uint64_t seed = 0;
@@ -47,13 +49,14 @@ CaseClass class_of(std::size_t number);
 
 /// The case with this number in the trial of a seed. Its class and the removed effect follow a
 /// fixed cycle; everything else is random. Sizes are log-uniform from 1 to 30 detection limits in
-/// the records of its set, at its distance and for a simulation of this accuracy (0: exact), within
+/// the records of its set, at its distance and for a simulation of this accuracy, within
 /// the usual range. Finite-strain cases contain only effects that
 /// the solid can simulate; their detection limits are those of the modes. On a sensor at a distance
 /// no effect is drawn that calibrations can imitate. Proven by
 /// tests/trial/generator/detection_limit_test.cc and record_set_test.cc.
 TrialCase draw_case(std::uint64_t seed, std::size_t number, Physics physics = Physics::modes,
-                    const Circumstances& circumstances = {}, double accuracy = 0.);
+                    const Circumstances& circumstances = {},
+                    double accuracy = stated_accuracy(FormError::zero));
 
 /// The records of a case, with the metadata of the bench's log, which may be wrong.
 signals::Dataset records_of(const TrialCase& trial_case);

@@ -12,6 +12,7 @@
 
 #include "trial/classes/circumstances.h"
 #include "trial/generator/detection_limit.h"
+#include "trial/generator/gap_share.h"
 #include "trial/observer/box_integral.h"
 
 namespace vibrissa::trial {
@@ -37,19 +38,23 @@ struct LadderOnBench {
     return (1. - t) * std::pow(size / sizes[i], power()) * signatures[i] +
            t * std::pow(size / sizes[i + 1], power()) * signatures[i + 1];
   }
-  /// Detection limit of the test that uses the first lines; nothing when the largest size stays
-  /// below it. Below the ladder a signature is extrapolated by a power law.
-  std::optional<double> limit(const ObservedBench& bench, const std::size_t n_lines) const {
-    const auto noncentrality = [&](const Eigen::VectorXd& signature) {
-      const Eigen::Index n = signature.size() / 3, first = static_cast<Eigen::Index>(n_lines);
-      return signature.head(first).squaredNorm() + signature.segment(n, first).squaredNorm() +
-             signature.segment(2 * n, first).squaredNorm();
-    };
-    if (noncentrality(signatures.back()) < half_power_at_one_percent) return std::nullopt;
+  /// Root of the moment's power at a size; 0 where the effect changes variances alone.
+  double amplitude(const double size) const {
+    if (ladder->unknown->random) return 0.;
+    const std::vector<double>& sizes = ladder->sizes;
+    const auto above = std::lower_bound(sizes.begin(), sizes.end() - 1, size);
+    return std::sqrt(
+               power_of(ladder->changes[static_cast<std::size_t>(above - sizes.begin())].moment)) *
+           size / *above;
+  }
+  /// Detection limit; nothing when the largest size stays below it. Below the ladder a signature is
+  /// extrapolated by a power law.
+  std::optional<double> limit(const ObservedBench& bench) const {
+    if (signatures.back().squaredNorm() < half_power_at_one_percent) return std::nullopt;
     double low = 1e-3 * ladder->sizes.front(), high = ladder->sizes.back();
     while (high > low * (1. + 1e-4)) {
       const double middle = std::sqrt(low * high);
-      (noncentrality(at(middle)) < half_power_at_one_percent ? low : high) = middle;
+      (at(middle).squaredNorm() < half_power_at_one_percent ? low : high) = middle;
     }
     World plain;
     plain.acceleration_noise = bench.acceleration_noise;
@@ -136,12 +141,17 @@ IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
                              const std::vector<double>& noise, const ObservedBench& bench,
                              const std::vector<LineChange>& unknown,
                              std::vector<std::size_t> block_ends)
-    : bench_(bench), widened_(unknown, noise), block_ends_(std::move(block_ends)) {
+    : bench_(bench), block_ends_(std::move(block_ends)) {
   if (block_ends_.empty()) block_ends_ = {noise.size()};
-  assert(unknown.empty() || block_ends_.size() == 1);
-  for (const EffectLadder& ladder : ladders) add_ladder(ladder, noise);
+  // Detection limits are those of the usual session alone.
+  std::vector<double> of_usual = noise;
+  std::fill(of_usual.begin() + static_cast<std::ptrdiff_t>(block_ends_.front()), of_usual.end(),
+            std::numeric_limits<double>::infinity());
+  const WidenedNoise widened(unknown, of_usual);
+  for (const EffectLadder& ladder : ladders) add_ladder(ladder, noise, of_usual, widened);
   assert(!signatures_.empty() && "no ladder reaches its detection limit");
   spread_priors();
+  for (const LineChange& change : unknown) signatures_.push_back(signature_of(change, noise));
   const auto n = static_cast<Eigen::Index>(signatures_.size());
   const auto n_lines = static_cast<Eigen::Index>(noise.size());
   Eigen::MatrixXd all(signatures_.front().size(), n);
@@ -162,14 +172,16 @@ IdealObserver::IdealObserver(const std::vector<EffectLadder>& ladders,
   }
 }
 
-void IdealObserver::add_ladder(const EffectLadder& ladder, const std::vector<double>& noise) {
+void IdealObserver::add_ladder(const EffectLadder& ladder, const std::vector<double>& noise,
+                               const std::vector<double>& noise_of_usual,
+                               const WidenedNoise& widened) {
   if (!bench_.asks_calibrations && is_a_calibration(ladder.unknown->id)) return;
-  const LadderOnBench here = on_bench(ladder, noise, widened_);
-  const std::optional<double> limit = here.limit(bench_, block_ends_.front());
+  const std::optional<double> limit = on_bench(ladder, noise_of_usual, widened).limit(bench_);
   if (!limit) return;
   const Unknown& unknown = *ladder.unknown;
   const double largest = std::min(largest_in_limits, unknown.largest / *limit);
   if (!unknown.fixed_size && largest <= 1.01 * smallest_in_limits) return;
+  const LadderOnBench here = on_bench(ladder, noise, {});
   const double range = std::log(largest / smallest_in_limits);
   const auto n =
       static_cast<std::size_t>(unknown.fixed_size ? 1. : std::ceil(range / std::log(widest_step)));
@@ -178,7 +190,9 @@ void IdealObserver::add_ladder(const EffectLadder& ladder, const std::vector<dou
   for (std::size_t i = 0; i <= n; ++i) {
     const double along = static_cast<double>(i) / static_cast<double>(n);
     in_limits.push_back(unknown.fixed_size ? 1. : smallest_in_limits * std::exp(range * along));
-    signatures_.push_back(here.at(unknown.fixed_size ? unknown.largest : in_limits[i] * *limit));
+    const double size = unknown.fixed_size ? unknown.largest : in_limits[i] * *limit;
+    signatures_.push_back(here.at(size));
+    amplitudes_.push_back(here.amplitude(size));
   }
   const bool either = unknown.either_sign && !unknown.random;
   for (const double sign : either ? std::vector{1., -1.} : std::vector{1.}) {
@@ -207,9 +221,18 @@ void IdealObserver::spread_priors() {
   }
 }
 
-IdealObserver::View IdealObserver::view_of(const Eigen::MatrixXd& inner) const {
+IdealObserver::View IdealObserver::view_of(const Eigen::MatrixXd& all) const {
   const auto n = static_cast<Eigen::Index>(steps_.size());
-  Eigen::MatrixXd start = Eigen::MatrixXd::Zero(inner.rows(), n), edge = start;
+  const auto n_known = static_cast<Eigen::Index>(amplitudes_.size());
+  const Eigen::Index n_unknown = all.rows() - n_known;
+  const Eigen::MatrixXd wider =
+      Eigen::MatrixXd::Identity(n_unknown, n_unknown) + all.bottomRightCorner(n_unknown, n_unknown);
+  Eigen::MatrixXd correction(n_known, n_unknown);
+  if (n_unknown > 0)
+    correction = wider.llt().solve(all.bottomLeftCorner(n_unknown, n_known)).transpose();
+  const Eigen::MatrixXd inner =
+      all.topLeftCorner(n_known, n_known) - correction * all.bottomLeftCorner(n_unknown, n_known);
+  Eigen::MatrixXd start = Eigen::MatrixXd::Zero(n_known, n), edge = start;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Step& step = steps_[static_cast<std::size_t>(i)];
     start(static_cast<Eigen::Index>(step.first), i) = step.sign;
@@ -219,7 +242,8 @@ IdealObserver::View IdealObserver::view_of(const Eigen::MatrixXd& inner) const {
   const Eigen::MatrixXd from_start = inner * start, from_edge = inner * edge;
   return {.starts = start.transpose() * from_start,
           .starts_edges = start.transpose() * from_edge,
-          .edges = edge.transpose() * from_edge};
+          .edges = edge.transpose() * from_edge,
+          .correction = correction};
 }
 
 ObservedSensor IdealObserver::draw(const std::size_t n_effects, std::mt19937_64& random) const {
@@ -231,6 +255,7 @@ ObservedSensor IdealObserver::draw(const std::size_t n_effects, std::mt19937_64&
   std::sort(unknowns.begin(), unknowns.end());
   ObservedSensor out{.unknowns = unknowns};
   Eigen::VectorXd share = Eigen::VectorXd::Zero(inner_.front().rows());
+  std::vector<double> powers;
   for (const std::size_t unknown : unknowns) {
     std::vector<Path> paths;
     std::copy_if(paths_.begin(), paths_.end(), std::back_inserter(paths),
@@ -241,7 +266,14 @@ ObservedSensor IdealObserver::draw(const std::size_t n_effects, std::mt19937_64&
     share[static_cast<Eigen::Index>(step.first)] += step.sign * (1. - t);
     share[static_cast<Eigen::Index>(step.second)] += step.sign * t;
     out.in_limits.push_back(step.low + t * (step.high - step.low));
+    powers.push_back(
+        std::pow((1. - t) * amplitudes_[step.first] + t * amplitudes_[step.second], 2));
   }
+  const double gap = std::accumulate(powers.begin(), powers.end(), bench_.calibration_power);
+  for (const double power : powers)
+    if (power > 0.) out.least_gap_share = std::min(out.least_gap_share, power / gap);
+  for (Eigen::Index i = static_cast<Eigen::Index>(amplitudes_.size()); i < share.size(); ++i)
+    share[i] = normal(random);
   for (std::size_t b = 0; b < inner_.size(); ++b) {
     const Eigen::VectorXd noise =
         Eigen::VectorXd::NullaryExpr(share.size(), [&] { return normal(random); });
@@ -306,6 +338,8 @@ ObserverAnswer IdealObserver::answer(const ObservedSensor& sensor,
                                      const std::size_t further) const {
   Eigen::VectorXd along = sensor.seen.front();
   if (further > 0) along += sensor.seen.at(further);
+  const Eigen::MatrixXd& correction = views_.at(further).correction;
+  along.head(correction.rows()) -= correction * along.tail(correction.cols());
   const auto n = static_cast<Eigen::Index>(steps_.size());
   Seen seen{.view = views_.at(further), .start = Eigen::VectorXd(n), .edge = Eigen::VectorXd(n)};
   for (Eigen::Index i = 0; i < n; ++i) {

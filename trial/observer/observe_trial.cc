@@ -12,7 +12,9 @@
 #include "fem/linalg/solver_session.h"
 #include "signals/system/kept_memory.h"
 #include "signals/system/progress.h"
+#include "trial/generator/calibration_draw.h"
 #include "trial/generator/circumstance_draw.h"
+#include "trial/generator/gap_share.h"
 #include "trial/generator/record_set.h"
 #include "trial/generator/trial_case.h"
 #include "trial/observer/ideal_observer.h"
@@ -70,7 +72,7 @@ struct FurtherTally {
 struct Options {
   std::size_t n_benches = 25;
   std::uint64_t seed = 1;
-  bool as_built = false, life = false, further = false, json = false, quiet = false;
+  bool life = false, further = false, json = false, quiet = false;
   std::array<double, 4> asked = trial::ObservedBench{}.asked;
   bool is_talkative() const { return !json && !quiet; }
 };
@@ -113,6 +115,7 @@ void ask(const IdealObserver& observer, const Options& options, const Takes& tak
     if (options.asked[n_effects] == 0.) continue;
     for (std::size_t i = 0; i < sensors_of_a_bench[n_effects]; ++i) {
       const ObservedSensor sensor = observer.draw(n_effects, random);
+      if (sensor.least_gap_share < trial::least_gap_share) continue;
       const ObserverAnswer answer = observer.answer(sensor);
       for (Tallies* tally : tallies) {
         (*tally)[names[n_effects]].add(answer);
@@ -143,7 +146,7 @@ Result observe(const Options& options) {
   signals::Progress progress("benches", options.n_benches, options.is_talkative());
   std::mt19937_64 random(options.seed);
   const std::vector<trial::LineChange> unknown = trial::unknown_changes(
-      change, options.as_built ? trial::Distance::as_built : trial::Distance::exact, 0.);
+      change, trial::Distance::exact, trial::stated_accuracy(trial::FormError::zero));
   Result out;
   for (std::size_t i = 0; i < options.n_benches; ++i, progress.advance()) {
     const trial::World bench = trial::plain_world(random);
@@ -173,11 +176,14 @@ Result observe_life(const Options& options) {
       const trial::Distance distance = trial::distances()[i % trial::distances().size()];
       const trial::FormError error =
           trial::form_errors()[i / trial::distances().size() % trial::form_errors().size()];
+      trial::World at_distance = plain_design();
+      trial::draw_calibrations(at_distance, distance, random);
       const IdealObserver observer(
           ladders,
           change.noise(bench.moment_noise * trial::noise_factor(sets[s]), bench.acceleration_noise),
           {.acceleration_noise = bench.acceleration_noise,
            .asks_calibrations = distance == trial::Distance::exact,
+           .calibration_power = trial::power_of(change.of(at_distance, true)),
            .asked = options.asked},
           trial::unknown_changes(change, distance, stated_accuracy(error)));
       ask(observer, options, {},
@@ -222,7 +228,6 @@ void print(const Result& result) {
 void print_json(const Result& result, const Options& options) {
   nlohmann::json out{{"schema", "vibrissa-ideal-observer-1"},
                      {"seed", options.seed},
-                     {"as_built", options.as_built},
                      {"life", options.life},
                      {"asked", options.asked}};
   for (const auto& [name, tally] : result.tallies) out["answers"][name] = tally.to_json();
@@ -249,18 +254,12 @@ int main(int argc, char** argv) try {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of the random sensors")->capture_default_str();
-  auto* as_built = app.add_flag(
-      "--as-built", options.as_built,
-      "Every sensor deviates by building tolerances in modulus, damping, gain and drag");
-  auto* further = app.add_flag(
-      "--further", options.further,
-      "When more than one answer remains, add each further experiment; not with --as-built");
-  further->excludes(as_built);
+  auto* further = app.add_flag("--further", options.further,
+                               "When more than one answer remains, add each further experiment");
   app.add_flag(
          "--life", options.life,
          "Benches of \"trial make --life\": each with a set of records and a distance from the "
          "simulation and a form error in turn (63 benches have all combinations)")
-      ->excludes(as_built)
       ->excludes(further);
   app.add_option("--asked", options.asked,
                  "Relative frequencies of 0, 1, 2, 3 true effects; 0: never")

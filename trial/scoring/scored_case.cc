@@ -17,17 +17,24 @@ using diagnosis::effect_ids;
 using diagnosis::joined_name;
 using nlohmann::json;
 
-std::string truth_of(const CaseClass kind, const json& effects) {
-  if (kind == CaseClass::nameless || kind == CaseClass::left_out)
-    return diagnosis::outside_catalogue;
+/// Sets the true verdict and the notes.
+void set_truth(ScoredCase& out, const json& effects) {
+  const bool is_outside = out.kind == CaseClass::nameless || out.kind == CaseClass::left_out;
   std::vector<std::string> ids;
-  for (const json& effect : effects) ids.push_back(effect.at("id"));
-  return ids.empty() ? "none" : joined_name(ids);
+  for (const json& effect : effects) {
+    const std::string id =
+        is_outside ? diagnosis::outside_catalogue : effect.at("id").get<std::string>();
+    (effect.value("gap_share", 1.) < least_gap_share ? out.notes : ids).push_back(id);
+  }
+  out.truth = is_outside && out.notes.empty() ? diagnosis::outside_catalogue : joined_name(ids);
 }
 
 /// The verdict as it is compared with the truth.
 std::string compared(const ScoredCase& c, const std::string& verdict) {
-  return c.is_off_in_calibrations() ? without_calibrations(verdict) : verdict;
+  std::vector<std::string> ids =
+      effect_ids(c.is_off_in_calibrations() ? without_calibrations(verdict) : verdict);
+  std::erase_if(ids, [&](const std::string& id) { return std::ranges::count(c.notes, id) > 0; });
+  return joined_name(std::move(ids));
 }
 
 bool is_right(const ScoredCase& c, const std::string& verdict) {
@@ -189,7 +196,7 @@ ScoredCase score_case(const std::string& name, const json& label, const json& an
   ScoredCase out{
       .name = name, .kind = parse_case_class(label.at("class")), .truth = {}, .verdict = {}};
   const json& effects = label.at("effects");
-  out.truth = truth_of(out.kind, effects);
+  set_truth(out, effects);
   if (label.contains("circumstances"))
     out.circumstances = circumstances_from(label.at("circumstances"));
   if (label.contains("simulation")) out.hold = label.at("simulation").at("hold");

@@ -19,6 +19,7 @@ struct ScoredCase {
   std::string hold{};                            // of the simulation's input, as the label says
   std::string truth, verdict;                    // truth: the correct verdict
   std::string effects{};                         // names of the generator
+  std::vector<std::string> notes{};              // answers that are right or wrong with or without
   double size_in_limits = 0.;                    // of the smallest effect; 0 without one
   int exit_status = 0;
   double probability = 0., seconds = 0.;
@@ -35,6 +36,8 @@ struct ScoredCase {
   std::optional<bool> resolved_as_recommended{}, resolved_by_chance{};
   std::vector<bool> calibrations_covered{};  // does the interval of each hold its true value?
 
+  /// Is there an effect, and does each belong to a note (least_gap_share)?
+  bool has_notes_alone() const { return !notes.empty() && truth == "none"; }
   /// Verdicts on sensors that are off in their calibrations are compared without calibrations.
   bool is_off_in_calibrations() const;
 };
@@ -43,7 +46,8 @@ struct ScoredCase {
 /// nothing remains.
 std::string without_calibrations(const std::string& name);
 
-/// Compares an answer with its label. Proven by tests/apps/trial_test.cc.
+/// Compares an answer with its label: effects below least_gap_share do not count. Proven by
+/// tests/apps/trial_test.cc.
 ScoredCase score_case(const std::string& name, const nlohmann::json& label,
                       const nlohmann::json& answer);
 

@@ -19,6 +19,10 @@ constexpr double well_above = 3.;
 constexpr double sure = 0.8;
 
 void count(std::map<std::string, Share>& shares, const ScoredCase& c) {
+  if (c.has_notes_alone() && c.kind != CaseClass::below_limit) {
+    shares["notes alone, nothing else named"].add(c.right);
+    return;
+  }
   const bool named =
       c.kind == CaseClass::single || c.kind == CaseClass::pair || c.kind == CaseClass::triple;
   const bool in_catalogue =
@@ -97,7 +101,7 @@ std::map<std::string, double> figures_of(const std::vector<const ScoredCase*>& c
     set_sizes.push_back(static_cast<double>(c.confidence_set_size));
     const bool is_outside = c.kind == CaseClass::nameless || c.kind == CaseClass::left_out;
     if (!counts_for_odds(c)) continue;
-    (is_outside ? outside : known).push_back(c.probability_of_outside);
+    if (!c.has_notes_alone()) (is_outside ? outside : known).push_back(c.probability_of_outside);
     answers.emplace_back(c.probability, c.right);
   }
   const std::vector<ReliabilityBin> bins = reliability(answers);

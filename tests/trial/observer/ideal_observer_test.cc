@@ -127,6 +127,23 @@ TEST(IdealObserver, WhereSensorsAreALittleOffTheirSpreadIsNoEffect) {
   EXPECT_GT(with.right, without.right + 0.1);
 }
 
+TEST(IdealObserver, AllowsForTheSpreadInAFurtherExperimentToo) {
+  // The usual session shows the sum of effect and spread, 2.8 standard deviations of which are the
+  // effect, a further experiment the spread alone: one sensor has one spread.
+  const IdealObserver observer({straight("sample_repeat", {6.f}, {1.})}, unit_noise, {},
+                               {along({1.f, 0.f, 0.f, 0.f, 5.f}, 2.)}, {4, 6});
+  std::mt19937_64 random(7);
+  int right = 0, right_after = 0;
+  constexpr int n = 500;
+  for (int i = 0; i < n; ++i) {
+    const ObservedSensor sensor = observer.draw(i % 2 == 0 ? 0 : 1, random);
+    right += observer.answer(sensor).right ? 1 : 0;
+    right_after += observer.answer(sensor, 1).right ? 1 : 0;
+  }
+  EXPECT_LT(right, 0.95 * n);
+  EXPECT_GT(right_after, 0.98 * n);
+}
+
 /// Fit takes of the usual session, those of a set first.
 struct OrderedTakes {
   std::vector<Take> all;
