@@ -8,6 +8,7 @@
 #include "diagnosis/fit/fit_posterior.h"
 #include "diagnosis/fit/measured_start.h"
 #include "diagnosis/fit/optimiser.h"
+#include "diagnosis/fit/pattern_search.h"
 #include "diagnosis/prediction/record_nuisances.h"
 #include "diagnosis/records/spectrum.h"
 
@@ -246,6 +247,35 @@ class Attempts {
     go_on(std::move(state));
   }
   void from(const std::vector<Eigen::VectorXd>& starts) { from(starts, fit_parameters_); }
+  /// From the best of the starts after a pattern search over the joint's share and the first
+  /// parameters of the hypothesis's effects, of the damping and of the stiffness. A joint with all
+  /// the compliance is tried, too: with less its laws saturate.
+  void from_searched(std::vector<Eigen::VectorXd> starts) {
+    constexpr auto share = static_cast<Eigen::Index>(index_of_joint_share);
+    std::vector<Eigen::Index> coordinates;
+    if (!fit_parameters_[index_of_joint_share].description.prior.is_fixed()) {
+      coordinates.push_back(share);
+      for (std::size_t i = 0, n = starts.size(); i < n; ++i) {
+        starts.push_back(starts[i]);
+        starts.back()(share) = 1.;
+        clamp(fit_parameters_, starts.back());
+      }
+    }
+    for (std::size_t i = 0; i < fit_parameters_.size(); ++i) {
+      const FitParameter& parameter = fit_parameters_[i];
+      if (parameter.effect == nullptr || parameter.description.prior.is_fixed()) continue;
+      const std::string& id = parameter.effect->id;
+      if (parameter.parameter == 0 &&
+          (hypothesis_.contains(id) || id == "damping" || id == "stiffness"))
+        coordinates.push_back(static_cast<Eigen::Index>(i));
+    }
+    const std::vector<FitParameter> held = with_usual_discrepancy(fit_parameters_);
+    FitPosterior of_held(experiment_, held, hypothesis_);
+    FitOptions none = options_;
+    none.n_promising = 1;
+    const OptimiserState best = best_start(of_held, held, starts, none);
+    from({pattern_search(of_held, held, coordinates, best.x)});
+  }
 
   /// With all parameters free at once, from near the optimum.
   void from_near(const Eigen::VectorXd& x) {
@@ -350,7 +380,7 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
             at_measured_modes(experiment, fit.fit_parameters,
                               hypothesis.contains("mass") ? "mass" : "stiffness", nominal);
         !measured.empty())
-      attempts.from(measured);
+      attempts.from_searched(measured);
   // Calibration parameters may absorb an effect: the other basins of attraction are reached with
   // them held.
   const bool is_refit = start != nullptr && start->hypothesis.name() == hypothesis.name();

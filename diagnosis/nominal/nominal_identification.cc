@@ -156,9 +156,13 @@ std::optional<StructuralMode> mode_of_peaks(
   std::map<double, Peak> by_level;
   for (const signals::DatasetResponse* response : responses) {
     const Peak peak = peak_of(*response);
+    const bool is_inside = peak.frequency_hz > response->frequency_hz.front() &&
+                           peak.frequency_hz < response->frequency_hz.back();
+    if (!is_inside) continue;
     Peak& highest = by_level[std::ranges::max(response->level_m_s2)];
     if (peak.amplitude > highest.amplitude) highest = peak;
   }
+  if (by_level.empty()) return std::nullopt;
   const auto n = static_cast<Eigen::Index>(by_level.size());
   Eigen::MatrixX2d line(n, 2);
   Eigen::VectorXd square(n);

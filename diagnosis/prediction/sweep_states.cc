@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <span>
 
 #include "diagnosis/response/linear_response.h"
@@ -51,14 +53,19 @@ HarmonicDrive drive_of(const PreparedRecord& record) {
 }
 
 /// The curve goes on beyond the last line, because a branch to which a sweep jumps may turn back
-/// there.
+/// there. Higher harmonics of a hundredth hardly change the fundamental.
 ResponseCurve curve_of(const Chain& chain, const PreparedRecord& record) {
-  constexpr double further = 1.5;
+  constexpr double further = 1.25, most_neglected = 1e-2;
+  constexpr std::size_t highest_order = 9;
   const double lowest = 2. * std::numbers::pi * record.sines.frequency_hz.front(),
                highest = 2. * std::numbers::pi * record.sines.frequency_hz.back();
   const bool up = record.sines.direction == signals::SweepDirection::up;
-  return {chain, drive_of(record), up ? lowest : highest,
-          up ? further * highest : lowest / further};
+  return {chain,
+          drive_of(record),
+          up ? lowest : highest,
+          up ? further * highest : lowest / further,
+          most_neglected,
+          highest_order};
 }
 
 std::vector<Complex> readings_at(const HarmonicBalance& balance,
@@ -108,14 +115,42 @@ std::vector<PeriodicMotion> stable(const std::vector<PeriodicMotion>& states) {
   return out;
 }
 
+/// Lines in the order of the sweep.
+std::vector<std::size_t> sweep_order(const PreparedRecord& record) {
+  std::vector<std::size_t> order(record.n_bins());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (record.sines.direction == signals::SweepDirection::down) std::ranges::reverse(order);
+  return order;
+}
+
+/// Adds to the lines behind the end of a branch its last state, as the first choice.
+void hold_ended_branches(const PreparedRecord& record,
+                         std::vector<std::vector<PeriodicMotion>>& states) {
+  const std::vector<double>& hz = record.sines.frequency_hz;
+  const std::vector<std::size_t> order = sweep_order(record);
+  const std::vector<std::vector<PeriodicMotion>> own = states;
+  std::optional<std::size_t> last;  // line at which a branch ended
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const std::size_t here = order[i], before = order[i - 1];
+    if (own[here].size() > 1)
+      last.reset();
+    else if (own[before].size() > 1)
+      last = before;
+    if (last && std::abs(std::log(hz[here] / hz[*last])) < SweepStates::late_jump)
+      states[here].insert(states[here].begin(), own[*last].front());
+  }
+}
+
 /// The states of the sweep by line, or nothing where a line has none.
 std::vector<PeriodicMotion> swept(const ResponseCurve& curve, const PreparedRecord& record) {
-  const std::vector<double> w = angular_frequencies(record);
-  std::vector<std::vector<PeriodicMotion>> states = curve.at(w);
+  std::vector<std::vector<PeriodicMotion>> states = curve.at(angular_frequencies(record));
+  for (std::vector<PeriodicMotion>& at_line : states) {
+    if (at_line.empty()) return {};
+    at_line = stable(at_line);
+  }
+  hold_ended_branches(record, states);
   Costs costs;
-  for (std::size_t b = 0; b < states.size(); ++b) {
-    if (states[b].empty()) return {};
-    states[b] = stable(states[b]);
+  for (const std::size_t b : sweep_order(record)) {
     std::vector<double>& cost = costs.emplace_back(states[b].size(), 0.);
     if (cost.size() == 1) continue;
     const std::vector<Complex> readings = readings_at(curve.balance(), states[b]);
@@ -123,12 +158,10 @@ std::vector<PeriodicMotion> swept(const ResponseCurve& curve, const PreparedReco
       cost[j] = std::pow(
           record.sines.per_amplitude * std::abs(readings[j]) - std::abs(record.moment[b]), 2);
   }
-  const bool up = record.sines.direction == signals::SweepDirection::up;
-  if (!up) std::ranges::reverse(costs);
-  std::vector<std::size_t> choice = cheapest_rising(costs);
-  if (!up) std::ranges::reverse(choice);
-  std::vector<PeriodicMotion> out;
-  for (std::size_t b = 0; b < states.size(); ++b) out.push_back(states[b][choice[b]]);
+  const std::vector<std::size_t> choice = cheapest_rising(costs);
+  std::vector<PeriodicMotion> out(states.size());
+  const std::vector<std::size_t> order = sweep_order(record);
+  for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = states[order[i]][choice[i]];
   return out;
 }
 
@@ -166,9 +199,10 @@ const std::vector<SweepStates::Linearisation>& SweepStates::linearised(
     const PreparedRecord& record) const {
   std::call_once(is_linearised_, [&] {
     const HarmonicBalance balance(chain_, drive_of(record), highest_order_);
-    for (const PeriodicMotion& motion : motions_) {
-      const HarmonicBalance::Linearised at = balance.linearised(motion);
-      linearised_.push_back({at.error, at.by_coordinates.inverse()});
+    for (std::size_t b = 0; b < motions_.size(); ++b) {
+      const HarmonicBalance::Linearised at = balance.linearised(motions_[b]);
+      const bool is_held = motions_[b].w_rad_s != record.line_s(b + 1).imag();
+      linearised_.push_back({at.error, at.by_coordinates.inverse() * (is_held ? 0. : 1.)});
     }
   });
   return linearised_;

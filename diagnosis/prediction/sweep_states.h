@@ -14,11 +14,15 @@ namespace vibrissa::diagnosis {
 bool is_nonlinear_sweep(const Chain& chain, const PreparedRecord& record);
 
 /// The steady states of a response under one chain, one for each of its lines. Where several are
-/// stable, a real sweep may leave its branch before the branch ends, but does not return: the line
-/// at which it jumps is the one that fits the measured magnitudes best. Proven by
+/// stable, a real sweep may leave its branch before the branch ends, but does not return; and a
+/// simulated branch may end up to late_jump (relative) too early, where its last state is held. The
+/// line at which it jumps is the one that fits the measured magnitudes best. Proven by
 /// tests/diagnosis/prediction/sweep_states_test.cc.
 class SweepStates {
  public:
+  /// Twice the usual accuracy of a simulation.
+  static constexpr double late_jump = 0.02;
+
   SweepStates(const Chain& chain, const PreparedRecord& record);
 
   /// The reading [N m] at each line.

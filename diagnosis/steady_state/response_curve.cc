@@ -189,8 +189,9 @@ class Segment {
 
 ResponseCurve::ResponseCurve(const Chain& chain, const HarmonicDrive& drive,
                              const double first_rad_s, const double last_rad_s,
-                             const double most_neglected) {
+                             const double most_neglected, const std::size_t highest_order) {
   for (const std::size_t highest : {3U, 5U, 9U, 15U, 27U}) {
+    if (highest > highest_order) return;
     balance_.emplace(chain, drive, highest);
     points_.clear();
     follow(first_rad_s, last_rad_s);

@@ -23,9 +23,9 @@ class ResponseCurve {
   /// Follows the curve from the first to the last frequency by its arc length (Seydel 2010,
   /// Practical Bifurcation and Stability Analysis, ch. 4), beginning at the state that grows from
   /// rest with the drive. The number of harmonics rises until those neglected are below this part
-  /// of the motion.
+  /// of the motion, or to the highest order.
   ResponseCurve(const Chain& chain, const HarmonicDrive& drive, double first_rad_s,
-                double last_rad_s, double most_neglected = 1e-3);
+                double last_rad_s, double most_neglected = 1e-3, std::size_t highest_order = 27);
 
   const HarmonicBalance& balance() const { return *balance_; }
   const std::vector<Point>& points() const { return points_; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/fit/pattern_search.h"
 #include "diagnosis/model/hypothesis.h"
 #include "diagnosis/records/experiment.h"
 #include "tests/diagnosis/one_mode_rig.h"
@@ -57,6 +58,20 @@ TEST(OptimiserState, TakesNoStepThatIsNoNumber) {
   ASSERT_TRUE(misled.x.allFinite());
   EXPECT_GT(plain.log_posterior, fit.begin.log_posterior + 10.);
   EXPECT_NEAR(misled.log_posterior, plain.log_posterior, 0.2);
+}
+
+TEST(PatternSearch, FindsTheOptimumWithoutDerivatives) {
+  Fit fit;
+  Eigen::Index stiffness = 0;
+  for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i)
+    if (fit.fit_parameters[i].effect != nullptr &&
+        fit.fit_parameters[i].effect->id == "stiffness" && fit.fit_parameters[i].parameter == 0)
+      stiffness = static_cast<Eigen::Index>(i);
+  const Eigen::VectorXd found =
+      pattern_search(fit.posterior, fit.fit_parameters, {stiffness}, fit.begin.x);
+  const double ratio =
+      fit.fit_parameters[static_cast<std::size_t>(stiffness)].description.value(found(stiffness));
+  EXPECT_NEAR(ratio, Fit::stiff_rig().stiffness, 0.006);
 }
 
 }  // namespace

@@ -68,6 +68,17 @@ TEST(SweepStates, FollowASweepThatJumpsBeforeItsBranchEnds) {
             0.01);
 }
 
+TEST(SweepStates, HoldABranchThatEndsTooEarly) {
+  // The chain is softer than the measured oscillator by 1 %, so that its branch ends a line or two
+  // earlier.
+  const auto up =
+      oscillator().response("sweep", test::evenly(34., 50., 121), 0.6, SweepDirection::up);
+  const PreparedRecord record = prepare_response(up, 0);
+  EXPECT_LT(error_of(SweepStates(hardening(0.97 * cubic_ratio), record).readings(), up.value),
+            0.05);
+  EXPECT_GT(error_of(SweepStates(hardening(0.7 * cubic_ratio), record).readings(), up.value), 0.2);
+}
+
 TEST(SweepStates, OfAChangedChainStayOnTheirBranches) {
   const auto up = measured(SweepDirection::up);
   const PreparedRecord record = prepare_response(up, 0);
