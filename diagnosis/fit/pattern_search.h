@@ -8,8 +8,8 @@
 
 namespace vibrissa::diagnosis {
 
-/// Pattern search (Hooke and Jeeves 1961, J. ACM 8, 212-229) for a higher posterior from x along the
-/// given coordinates: by a tenth of the values at first, down to a two-hundredth. It needs no
+/// Pattern search (Hooke and Jeeves 1961, J. ACM 8, 212-229) for a higher posterior from x along
+/// the given coordinates: by a tenth of the values at first, down to a two-hundredth. It needs no
 /// derivatives, which near the jump of a response lead nowhere. Proven by
 /// tests/diagnosis/fit/optimiser_test.cc.
 Eigen::VectorXd pattern_search(FitPosterior& posterior,
