@@ -233,6 +233,7 @@ class Attempts {
 
   /// First with the parameters held as in held (and the usual discrepancy), then with all free.
   void from(const std::vector<Eigen::VectorXd>& starts, const std::vector<FitParameter>& held) {
+    if (best_ && options_.is_late()) return;
     const std::vector<FitParameter> first = with_usual_discrepancy(held);
     FitPosterior of_first(experiment_, first, hypothesis_);
     // Held parameters keep the posterior low, which does not make the basin hopeless. Only the
@@ -274,7 +275,7 @@ class Attempts {
     FitOptions none = options_;
     none.n_promising = 1;
     const OptimiserState best = best_start(of_held, held, starts, none);
-    from({pattern_search(of_held, held, coordinates, best.x)});
+    from({pattern_search(of_held, held, coordinates, best.x, options_)});
   }
 
   /// With all parameters free at once, from near the optimum.

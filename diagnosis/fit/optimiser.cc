@@ -106,6 +106,7 @@ void run(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameter
   int n_steps = 0;
   for (int n_computed = 0; !state.ended;) {
     if (n_steps++ == most_times_longer * n_steps_per_iteration * n_iterations) return;
+    if (options.is_late()) return;
     posterior.update_slow_variance(state.x, state.predictions);
     state.log_posterior =
         posterior.log_likelihood(state.x, state.predictions) + posterior.log_prior(state.x);

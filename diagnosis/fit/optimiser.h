@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <chrono>
 #include <limits>
 #include <optional>
 #include <string>
@@ -21,6 +22,9 @@ struct FitOptions {
   std::size_t n_promising = 2;
   /// Calibration effects that stay nominal.
   std::vector<std::string> nominal{};
+  /// From then on no further iteration begins.
+  std::chrono::steady_clock::time_point ends_at = std::chrono::steady_clock::time_point::max();
+  bool is_late() const { return std::chrono::steady_clock::now() > ends_at; }
 };
 
 /// Sets coordinates outside the bounds of their priors to the bounds.

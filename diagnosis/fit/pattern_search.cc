@@ -1,7 +1,5 @@
 #include "diagnosis/fit/pattern_search.h"
 
-#include "diagnosis/fit/optimiser.h"
-
 namespace vibrissa::diagnosis {
 namespace {
 
@@ -15,10 +13,11 @@ double log_posterior(FitPosterior& posterior, const Eigen::VectorXd& x) {
 
 Eigen::VectorXd pattern_search(FitPosterior& posterior,
                                const std::vector<FitParameter>& fit_parameters,
-                               const std::vector<Eigen::Index>& coordinates, Eigen::VectorXd x) {
+                               const std::vector<Eigen::Index>& coordinates, Eigen::VectorXd x,
+                               const FitOptions& options) {
   constexpr double first_step = 0.1, last_step = 0.005;
   double best = log_posterior(posterior, x);
-  for (double step = first_step; step >= last_step;) {
+  for (double step = first_step; step >= last_step && !options.is_late();) {
     bool is_better = false;
     for (const Eigen::Index i : coordinates)
       for (const double factor : {1. + step, 1. / (1. + step)}) {

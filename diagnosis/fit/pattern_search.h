@@ -5,6 +5,7 @@
 
 #include "diagnosis/fit/fit_parameters.h"
 #include "diagnosis/fit/fit_posterior.h"
+#include "diagnosis/fit/optimiser.h"
 
 namespace vibrissa::diagnosis {
 
@@ -14,6 +15,7 @@ namespace vibrissa::diagnosis {
 /// tests/diagnosis/fit/optimiser_test.cc.
 Eigen::VectorXd pattern_search(FitPosterior& posterior,
                                const std::vector<FitParameter>& fit_parameters,
-                               const std::vector<Eigen::Index>& coordinates, Eigen::VectorXd x);
+                               const std::vector<Eigen::Index>& coordinates, Eigen::VectorXd x,
+                               const FitOptions& options = {});
 
 }  // namespace vibrissa::diagnosis

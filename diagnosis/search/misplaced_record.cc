@@ -101,7 +101,8 @@ std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
   bool is_explained = true;
   std::vector<std::size_t> suspects;
   for (std::size_t r = 0; r < experiment.records.size(); ++r) {
-    if (experiment.records[r].is_still()) continue;
+    // What a level alone contradicts is more often its law than its file.
+    if (experiment.records[r].is_still() || experiment.records[r].is_response()) continue;
     ++n_moving;
     const bool is_left = left_of(experiment.records[r], fit.records[r]) > usual;
     is_explained = is_explained && !is_left;

@@ -123,16 +123,19 @@ class Searcher {
     return order;
   }
 
-  bool is_late() const {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin_;
-    return spent.count() > options_.time_limit_s;
+  std::chrono::steady_clock::time_point end() const {
+    constexpr double longest_s = 1e8;
+    const std::chrono::duration<double> limit(std::min(options_.time_limit_s, longest_s));
+    return begin_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(limit);
   }
+  bool is_late() const { return std::chrono::steady_clock::now() > end(); }
 
   void fit_all(const std::vector<Task>& tasks) {
     const std::size_t first = fits_.size();
     fits_.resize(first + tasks.size());
     // Set before any fit runs, so that the result does not depend on the order of the threads.
-    const double to_beat = best_log_posterior_;
+    FitOptions options{.to_beat = best_log_posterior_};
+    if (!fits_.front().records.empty()) options.ends_at = end();
     const std::vector<std::size_t> order = longest_first(tasks);
     for_each_parallel(tasks.size(), options_.n_threads, [&](std::size_t nth) {
       const std::size_t i = order[nth];
@@ -144,8 +147,7 @@ class Searcher {
       const HypothesisFit* start = task.start ? &fits_[*task.start] : nullptr;
       std::optional<FurtherStart> also;
       if (!task.values.empty()) also = {start, task.effect, task.values};
-      fits_[first + i] =
-          fit_hypothesis(experiment_, task.hypothesis, start, {.to_beat = to_beat}, also);
+      fits_[first + i] = fit_hypothesis(experiment_, task.hypothesis, start, options, also);
       const std::lock_guard lock(mutex_);
       if (options_.on_fit) options_.on_fit();
     });
