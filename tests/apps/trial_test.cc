@@ -144,13 +144,14 @@ TEST_F(WrittenTrial, EffectsThatCloseLittleAreRightWithAndWithoutTheirNames) {
   const auto effect = [](const char* id, double share) {
     return json{{"id", id}, {"size", 1e-3}, {"limit", 1e-4}, {"gap_share", share}};
   };
-  const json little = {effect("delay", 0.04)}, enough = {effect("delay", 0.06)},
-             both = {effect("delay", 0.04), effect("hum", 0.5)};
+  const json little = json::array({effect("delay", 0.04)}),
+             enough = json::array({effect("delay", 0.06)}),
+             both = json::array({effect("delay", 0.04), effect("hum", 0.5)});
   for (const char* verdict : {"none", "delay", "hum"}) add("single", little, answer(verdict, 0.9));
   for (const char* verdict : {"none", "delay"}) add("single", enough, answer(verdict, 0.9));
   for (const char* verdict : {"hum", "delay+hum", "delay"}) add("pair", both, answer(verdict, 0.9));
   for (const char* verdict : {"none", "outside_catalogue", "hum"})
-    add("nameless", {effect("x", 0.04)}, answer(verdict, 0.9));
+    add("nameless", json::array({effect("x", 0.04)}), answer(verdict, 0.9));
   const trial::TrialScore score = trial::score_trial(trial_, labels_);
   const auto share = [&](const std::string& name) {
     const trial::Share& found = score.shares.at(name);
