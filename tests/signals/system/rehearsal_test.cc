@@ -25,8 +25,8 @@ TEST(Rehearsal, OfACrashIsAnErrorThatNamesTheFile) {
 
 /// Memory that is held, not only asked for.
 void hold(const std::size_t n_mb) {
-  std::vector<char> held;
-  for (std::size_t i = 0; i < n_mb; ++i) held.insert(held.end(), std::size_t{1} << 20, char(i));
+  std::vector<std::vector<char>> held;
+  for (std::size_t i = 0; i < n_mb; ++i) held.emplace_back(std::size_t{1} << 20, char(i));
 }
 
 TEST(Rehearsal, OfWhatHoldsFarMoreMemoryThanTheFileIsAnErrorThatSaysSo) {
