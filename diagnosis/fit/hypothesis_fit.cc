@@ -158,6 +158,11 @@ std::vector<FitParameter> with_nominal_calibrations(const std::vector<FitParamet
   return with_nominal(all, [](const std::string&) { return true; });
 }
 
+/// The effect by which starts move the resonance.
+std::string effect_on_resonance(const Hypothesis& hypothesis) {
+  return hypothesis.contains("mass") ? "mass" : "stiffness";
+}
+
 /// The starts with the resonances of the records; empty where those are not known.
 std::vector<Eigen::VectorXd> at_measured_modes(const Experiment& experiment,
                                                const std::vector<FitParameter>& fit_parameters,
@@ -183,7 +188,7 @@ bool moves_in_responses(const Experiment& experiment, const Hypothesis& hypothes
 std::vector<Eigen::VectorXd> with_shifted_resonances(
     const Experiment& experiment, const std::vector<FitParameter>& fit_parameters,
     const Hypothesis& hypothesis, const std::vector<Eigen::VectorXd>& starts) {
-  const std::string shifted = hypothesis.contains("mass") ? "mass" : "stiffness";
+  const std::string shifted = effect_on_resonance(hypothesis);
   std::vector<Eigen::VectorXd> out = starts;
   for (std::size_t i = 0; i < fit_parameters.size(); ++i) {
     const FitParameter& parameter = fit_parameters[i];
@@ -377,9 +382,8 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
     attempts.from(with_shifted_resonances(experiment, fit.fit_parameters, hypothesis, nominal));
   // A narrow resonance far from where it is measured tells a fit little.
   if (moves_in_responses(experiment, hypothesis))
-    if (const auto measured =
-            at_measured_modes(experiment, fit.fit_parameters,
-                              hypothesis.contains("mass") ? "mass" : "stiffness", nominal);
+    if (const auto measured = at_measured_modes(experiment, fit.fit_parameters,
+                                                effect_on_resonance(hypothesis), nominal);
         !measured.empty())
       attempts.from_searched(measured);
   // Calibration parameters may absorb an effect: the other basins of attraction are reached with

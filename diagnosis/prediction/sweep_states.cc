@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -124,10 +123,8 @@ std::vector<std::size_t> sweep_order(const PreparedRecord& record) {
 }
 
 /// Adds to the lines behind the end of a branch its last state, as the first choice.
-void hold_ended_branches(const PreparedRecord& record,
+void hold_ended_branches(const std::vector<double>& hz, const std::vector<std::size_t>& order,
                          std::vector<std::vector<PeriodicMotion>>& states) {
-  const std::vector<double>& hz = record.sines.frequency_hz;
-  const std::vector<std::size_t> order = sweep_order(record);
   const std::vector<std::vector<PeriodicMotion>> own = states;
   std::optional<std::size_t> last;  // line at which a branch ended
   for (std::size_t i = 1; i < order.size(); ++i) {
@@ -148,9 +145,10 @@ std::vector<PeriodicMotion> swept(const ResponseCurve& curve, const PreparedReco
     if (at_line.empty()) return {};
     at_line = stable(at_line);
   }
-  hold_ended_branches(record, states);
+  const std::vector<std::size_t> order = sweep_order(record);
+  hold_ended_branches(record.sines.frequency_hz, order, states);
   Costs costs;
-  for (const std::size_t b : sweep_order(record)) {
+  for (const std::size_t b : order) {
     std::vector<double>& cost = costs.emplace_back(states[b].size(), 0.);
     if (cost.size() == 1) continue;
     const std::vector<Complex> readings = readings_at(curve.balance(), states[b]);
@@ -160,7 +158,6 @@ std::vector<PeriodicMotion> swept(const ResponseCurve& curve, const PreparedReco
   }
   const std::vector<std::size_t> choice = cheapest_rising(costs);
   std::vector<PeriodicMotion> out(states.size());
-  const std::vector<std::size_t> order = sweep_order(record);
   for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = states[order[i]][choice[i]];
   return out;
 }

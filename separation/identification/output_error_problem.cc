@@ -123,7 +123,7 @@ bool OutputErrorProblem::linearise(const Eigen::VectorXd& unknowns, NormalEquati
   Eigen::Index first_nuisance = n_model_;
   for (const AlignedSegment& segment : segments_) {
     add_segment(segment, first_nuisance, unknowns);
-    scatter(first_nuisance, equations);
+    equations.add_segment(gram_.matrix(), n_model_, first_nuisance);
     first_nuisance += n_nuisance_;
   }
   fix_viscous_terms(equations);
@@ -255,18 +255,6 @@ void OutputErrorProblem::finish_impulse(Mode& mode, Eigen::Index n) {
   keep_history(mode.g, n);
   const double now = std::abs(mode.g[2]) + std::abs(mode.g[1]);
   if (now < 1e-17 * mode.largest_g) mode.free_active = false;
-}
-
-void OutputErrorProblem::scatter(Eigen::Index first_nuisance, NormalEquations& equations) const {
-  const Eigen::MatrixXd gram = gram_.matrix();
-  const Eigen::Index m = n_model_, q = n_nuisance_, tail = n_model_ + 1;
-  equations.cost += gram(m, m);
-  equations.matrix.topLeftCorner(m, m) += gram.topLeftCorner(m, m);
-  equations.gradient.head(m) += gram.col(m).head(m);
-  equations.matrix.block(0, first_nuisance, m, q) = gram.block(0, tail, m, q);
-  equations.matrix.block(first_nuisance, 0, q, m) = gram.block(tail, 0, q, m);
-  equations.matrix.block(first_nuisance, first_nuisance, q, q) = gram.block(tail, tail, q, q);
-  equations.gradient.segment(first_nuisance, q) = gram.col(m).segment(tail, q);
 }
 
 OutputErrorProblem::~OutputErrorProblem() = default;

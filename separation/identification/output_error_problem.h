@@ -51,7 +51,6 @@ class OutputErrorProblem {
   void fill_free_columns(std::size_t k, const double* free, Eigen::Index n);
   static void run_impulse(Mode& mode, Eigen::Index start, Eigen::Index n);
   static void finish_impulse(Mode& mode, Eigen::Index n);
-  void scatter(Eigen::Index first_nuisance, NormalEquations& equations) const;
 
   std::size_t n_modes_;
   double sampling_rate_hz_;

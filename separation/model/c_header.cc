@@ -157,19 +157,6 @@ static inline float @NAME_step(@NAME_state *state, float acceleration) {
 #endif
 )";
 
-std::string describe(const Bvrm& model, const CHeaderOptions& options) {
-  std::ostringstream text;
-  text << "/* Base vibration response model of an airflow sensor at "
-       << signals::to_text(options.sampling_rate_hz) << " Hz, " << to_string(options.hold)
-       << " hold, delay " << signals::to_text(model.delay_s) << " s.\n";
-  for (const ModalTerm& mode : model.modes)
-    text << "   mode: " << signals::to_text(mode.frequency_hz()) << " Hz, damping ratio "
-         << signals::to_text(mode.damping_ratio()) << ", static gain "
-         << signals::to_text(mode.static_gain_kg_m()) << " kg m\n";
-  text << "   direct term: " << signals::to_text(model.direct_term_kg_m) << " kg m */\n";
-  return text.str();
-}
-
 // A - 1: what a state changes by from sample to sample, which single precision represents much
 // better than a factor near one.
 std::array<double, 4> change(const Section& section) {
@@ -186,6 +173,19 @@ std::string table(const std::vector<Section>& sections, const Part& part) {
 }
 
 }  // namespace
+
+std::string begin_of_comment(const std::string& what, const Bvrm& model,
+                             const CHeaderOptions& options) {
+  std::ostringstream text;
+  text << "/* " << what << " of an airflow sensor at " << signals::to_text(options.sampling_rate_hz)
+       << " Hz, " << to_string(options.hold) << " hold, delay " << signals::to_text(model.delay_s)
+       << " s.\n";
+  for (const ModalTerm& mode : model.modes)
+    text << "   mode: " << signals::to_text(mode.frequency_hz()) << " Hz, damping ratio "
+         << signals::to_text(mode.damping_ratio()) << ", static gain "
+         << signals::to_text(mode.static_gain_kg_m()) << " kg m\n";
+  return text.str();
+}
 
 void check(const Bvrm& model, const CHeaderOptions& options) {
   check(model);
@@ -222,7 +222,8 @@ std::string c_header(const Bvrm& model, const CHeaderOptions& options) {
   replace_all(text, "@LAST", c_number(sampled.last));
   replace_all(text, "@DRIVE", sampled.between ? "state->last" : "newest");
   replace_all(text, "@NAME", options.name);
-  return describe(model, options) + text;
+  return begin_of_comment("Base vibration response model", model, options) +
+         "   direct term: " + signals::to_text(model.direct_term_kg_m) + " kg m */\n" + text;
 }
 
 void write_c_header(const std::filesystem::path& file, const Bvrm& model,

@@ -17,6 +17,10 @@ struct CHeaderOptions {
 /// Throws UserError for what c_header() refuses.
 void check(const Bvrm& model, const CHeaderOptions& options);
 
+/// The begin of a header's comment, open: what it holds, rate, hold, delay and modes.
+std::string begin_of_comment(const std::string& what, const Bvrm& model,
+                             const CHeaderOptions& options);
+
 /// The sampled model as a header of standard C (C99) for a microcontroller: single precision, no
 /// library, no allocation; NAME_state, NAME_reset(), and NAME_step(), which takes one sample of the
 /// base acceleration and returns the moment of the vibration, as simulate() does from rest. There

@@ -207,13 +207,7 @@ std::string readout_in_c(const NonlinearBvrm& model) {
 
 std::string describe(const NonlinearBvrm& model, const CHeaderOptions& options) {
   std::ostringstream text;
-  text << "/* Nonlinear base vibration response model of an airflow sensor at "
-       << signals::to_text(options.sampling_rate_hz) << " Hz, " << to_string(options.hold)
-       << " hold, delay " << signals::to_text(model.linear.delay_s) << " s.\n";
-  for (const ModalTerm& mode : model.linear.modes)
-    text << "   mode: " << signals::to_text(mode.frequency_hz()) << " Hz, damping ratio "
-         << signals::to_text(mode.damping_ratio()) << ", static gain "
-         << signals::to_text(mode.static_gain_kg_m()) << " kg m\n";
+  text << begin_of_comment("Nonlinear base vibration response model", model.linear, options);
   for (const LawTerm& term : model.law)
     text << "   law of mode " << model.mode + 1 << ": " << term.name() << ", "
          << signals::to_text(term.coefficient) << " " << term.unit() << "\n";

@@ -195,25 +195,14 @@ bool NonlinearProblem::linearise(const Eigen::VectorXd& unknowns, NormalEquation
           row = 0;
         }
         if (last) {
-          scatter(n_model_ + static_cast<Eigen::Index>(s) * n_nuisance_, equations);
+          equations.add_segment(gram_.matrix(), n_model_,
+                                n_model_ + static_cast<Eigen::Index>(s) * n_nuisance_);
           gram_.clear();
         }
         return true;
       });
   fix(equations);
   return bounded && equations.matrix.allFinite();
-}
-
-void NonlinearProblem::scatter(Eigen::Index first_nuisance, NormalEquations& equations) const {
-  const Eigen::MatrixXd gram = gram_.matrix();
-  const Eigen::Index m = n_model_, q = n_nuisance_, tail = n_model_ + 1;
-  equations.cost += gram(m, m);
-  equations.matrix.topLeftCorner(m, m) += gram.topLeftCorner(m, m);
-  equations.gradient.head(m) += gram.col(m).head(m);
-  equations.matrix.block(0, first_nuisance, m, q) = gram.block(0, tail, m, q);
-  equations.matrix.block(first_nuisance, 0, q, m) = gram.block(tail, 0, q, m);
-  equations.matrix.block(first_nuisance, first_nuisance, q, q) = gram.block(tail, tail, q, q);
-  equations.gradient.segment(first_nuisance, q) = gram.col(m).segment(tail, q);
 }
 
 // Equations of their own, whose solution is no step.

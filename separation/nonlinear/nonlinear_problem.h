@@ -62,7 +62,6 @@ class NonlinearProblem {
   double moment(const NonlinearBvrm& model, const std::vector<ModeIntegrator>& modes) const;
   void fill_row(const NonlinearBvrm& model, const std::vector<ModeIntegrator>& modes, double direct,
                 Eigen::Index row);
-  void scatter(Eigen::Index first_nuisance, NormalEquations& equations) const;
   void fix(NormalEquations& equations) const;
 
   NonlinearBvrm structure_;

@@ -109,6 +109,18 @@ class Descent {
 
 }  // namespace
 
+void NormalEquations::add_segment(const Eigen::MatrixXd& gram, const Eigen::Index n_model,
+                                  const Eigen::Index first_nuisance) {
+  const Eigen::Index m = n_model, tail = n_model + 1, q = gram.cols() - tail;
+  cost += gram(m, m);
+  matrix.topLeftCorner(m, m) += gram.topLeftCorner(m, m);
+  gradient.head(m) += gram.col(m).head(m);
+  matrix.block(0, first_nuisance, m, q) = gram.block(0, tail, m, q);
+  matrix.block(first_nuisance, 0, q, m) = gram.block(tail, 0, q, m);
+  matrix.block(first_nuisance, first_nuisance, q, q) = gram.block(tail, tail, q, q);
+  gradient.segment(first_nuisance, q) = gram.col(m).segment(tail, q);
+}
+
 std::string to_string(FitEnd end) {
   switch (end) {
     case FitEnd::converged:

@@ -20,6 +20,10 @@ struct NormalEquations {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd gradient;
   double cost = 0.;
+
+  /// Adds a segment of data with nuisances of its own. gram: inner products of its columns: n_model
+  /// model parameters, the error, the nuisances, which are the unknowns from first_nuisance on.
+  void add_segment(const Eigen::MatrixXd& gram, Eigen::Index n_model, Eigen::Index first_nuisance);
 };
 
 struct LevenbergOptions {
