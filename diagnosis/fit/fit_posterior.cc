@@ -59,7 +59,17 @@ FitPosterior::FitPosterior(const Experiment& experiment,
       fit_parameters_(fit_parameters),
       effects_(hypothesis.effects()),
       unknown_(hypothesis.is_discrepancy()),
-      discrepancy_(experiment) {}
+      discrepancy_(experiment) {
+  for (std::size_t i = 0; i < fit_parameters.size(); ++i) {
+    if (fit_parameters[i].description.prior.is_fixed()) continue;
+    const auto index = static_cast<Eigen::Index>(i);
+    if (fit_parameters[i].effect != nullptr || i == index_of_joint_share ||
+        i == index_of_joint_loss)
+      of_chain_.push_back(index);
+    else
+      levels_.push_back(index);
+  }
+}
 
 std::vector<Prediction> FitPosterior::predict(const Eigen::VectorXd& x) const {
   assert(x.allFinite());
@@ -208,10 +218,14 @@ FitPosterior::BinVariances FitPosterior::variances(const Eigen::VectorXd& x,
 }
 
 /// Of the variance, by a noise level or by the level of incoherent errors, of form errors or of the
-/// unknown cause.
-void FitPosterior::set_level_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                                    const BinVariances& s, const Eigen::Index index,
-                                    Derivatives& out) const {
+/// unknown cause; zero for the levels of the discrepancy.
+Eigen::VectorXd FitPosterior::level_column(const Eigen::VectorXd& x,
+                                           const std::vector<Prediction>& at, const BinVariances& s,
+                                           const Eigen::Index index) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(discrepancy_.n_rows());
+  if (index >= static_cast<Eigen::Index>(index_of_discrepancy) &&
+      index < static_cast<Eigen::Index>(index_of_incoherence))
+    return out;
   const double moment = std::exp(2. * x(index_of_moment_noise)),
                level = 2. * std::exp(2. * x(index));
   const auto slope = [&](const std::size_t r, const std::size_t b) {
@@ -232,24 +246,24 @@ void FitPosterior::set_level_column(const Eigen::VectorXd& x, const std::vector<
   };
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r)
-    for (std::size_t b = 0; b < s[r].size(); ++b, ++row)
-      out.variance(row, index) = slope(r, b) / s[r][b];
+    for (std::size_t b = 0; b < s[r].size(); ++b, ++row) out(row) = slope(r, b) / s[r][b];
+  return out;
 }
 
 void FitPosterior::set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                                   const BinVariances& s, const Chain& moved,
                                   const std::vector<Prediction>& there, const double h,
-                                  const Eigen::Index index, Derivatives& out) const {
+                                  const Eigen::Index column, Derivatives& out) const {
   const double a_moved = acceleration_variance(x, moved);
-  out.acceleration(index) = (a_moved - acceleration_variance(x)) / h;
+  out.acceleration(column) = (a_moved - acceleration_variance(x)) / h;
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < s.size(); ++r) {
     const std::vector<double> s_there = variance(x, there[r], r, a_moved);
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row) {
       const Complex d = (there[r].mean[b] - at[r].mean[b]) / h;
-      out.mean(2 * row, index) = d.real();
-      out.mean(2 * row + 1, index) = d.imag();
-      out.variance(row, index) = (s_there[b] - s[r][b]) / h;
+      out.mean(2 * row, column) = d.real();
+      out.mean(2 * row + 1, column) = d.imag();
+      out.variance(row, column) = (s_there[b] - s[r][b]) / h;
     }
   }
 }
@@ -259,54 +273,89 @@ Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
   // More chains at a time exceed the caches.
   constexpr std::size_t n_together = 4;
   const BinVariances s = variances(x, at, acceleration_variance(x));
-  Eigen::Index n_bins = 0;
-  for (const std::vector<double>& bins : s) n_bins += static_cast<Eigen::Index>(bins.size());
-  Derivatives out{.mean = Eigen::MatrixXd::Zero(2 * n_bins, x.size()),
-                  .variance = Eigen::MatrixXd::Zero(n_bins, x.size()),
-                  .acceleration = Eigen::VectorXd::Zero(x.size())};
+  const auto n_columns = static_cast<Eigen::Index>(of_chain_.size());
+  Derivatives out{.mean = Eigen::MatrixXd(2 * discrepancy_.n_rows(), n_columns),
+                  .variance = Eigen::MatrixXd(discrepancy_.n_rows(), n_columns),
+                  .acceleration = Eigen::VectorXd(n_columns)};
   const auto step = [&](const Eigen::Index index) {
     return fit_parameters_[static_cast<std::size_t>(index)].description.step_at(x(index));
   };
-  std::vector<Eigen::Index> indices;
-  for (std::size_t i = n_noise_parameters; i < fit_parameters_.size(); ++i) {
-    const FitParameter& fit_parameter = fit_parameters_[i];
-    const bool is_of_chain = fit_parameter.effect != nullptr || i < index_of_discrepancy;
-    if (is_of_chain && !fit_parameter.description.prior.is_fixed())
-      indices.push_back(static_cast<Eigen::Index>(i));
-  }
-  for (std::size_t first = 0; first < indices.size(); first += n_together) {
-    const std::size_t n = std::min(n_together, indices.size() - first);
+  for (std::size_t first = 0; first < of_chain_.size(); first += n_together) {
+    const std::size_t n = std::min(n_together, of_chain_.size() - first);
     std::vector<Chain> moved;
-    for (const Eigen::Index index : std::span(indices).subspan(first, n)) {
+    for (const Eigen::Index index : std::span(of_chain_).subspan(first, n)) {
       Eigen::VectorXd there = x;
       there(index) += step(index);
       moved.push_back(make_chain(experiment_, fit_parameters_, there));
     }
     const auto predictions = predict_together(moved, experiment_.records, at);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Eigen::Index index = indices[first + i];
-      set_derivative(x, at, s, moved[i], predictions[i], step(index), index, out);
-    }
+    for (std::size_t i = 0; i < n; ++i)
+      set_derivative(x, at, s, moved[i], predictions[i], step(of_chain_[first + i]),
+                     static_cast<Eigen::Index>(first + i), out);
   }
   return out;
 }
 
-Derivatives FitPosterior::whitened(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                                   const BinVariances& s, const Eigen::VectorXd& per_deviation,
-                                   const double acceleration_variance,
-                                   const Derivatives& derivatives) const {
-  // Real and imaginary parts in turn.
-  const Eigen::VectorXd of_parts = per_deviation.transpose().replicate<2, 1>().reshaped();
-  Derivatives out{.mean = of_parts.asDiagonal() * derivatives.mean,
-                  .variance = per_deviation.cwiseAbs2().asDiagonal() * derivatives.variance,
-                  .acceleration = derivatives.acceleration / acceleration_variance};
-  out.acceleration(index_of_acceleration_noise) =
-      2. * std::exp(2. * x(index_of_acceleration_noise)) / acceleration_variance;
-  for (std::size_t i = 0; i < fit_parameters_.size(); ++i)
-    if (i < n_noise_parameters ||
-        (fit_parameters_[i].effect == nullptr && i >= index_of_incoherence))
-      set_level_column(x, at, s, static_cast<Eigen::Index>(i), out);
+Eigen::MatrixXd FitPosterior::relative_variance(const Eigen::VectorXd& x,
+                                                const std::vector<Prediction>& at,
+                                                const BinVariances& s,
+                                                const Eigen::VectorXd& per_deviation,
+                                                const Derivatives& derivatives) const {
+  Eigen::MatrixXd out(derivatives.variance.rows(),
+                      derivatives.variance.cols() + static_cast<Eigen::Index>(levels_.size()));
+  Eigen::Index column = derivatives.variance.cols();
+  out.leftCols(column) = per_deviation.cwiseAbs2().asDiagonal() * derivatives.variance;
+  for (const Eigen::Index index : levels_) out.col(column++) = level_column(x, at, s, index);
   return out;
+}
+
+void FitPosterior::add_means(const std::vector<Prediction>& at, const BinVariances& s,
+                             const WhitenedErrors& errors, const ModelDiscrepancy::Solution& terms,
+                             const Derivatives& derivatives, Eigen::VectorXd& gradient,
+                             Eigen::MatrixXd& information) const {
+  // Real and imaginary parts in turn.
+  const Eigen::VectorXd of_parts = errors.per_deviation.transpose().replicate<2, 1>().reshaped();
+  Eigen::MatrixXd columns = of_parts.asDiagonal() * derivatives.mean;
+  const Eigen::Map<const Eigen::VectorXd> error(
+      reinterpret_cast<const double*>(errors.error.data()), columns.rows());
+  Eigen::VectorXd slope = 2. * columns.transpose() * error;
+  Eigen::MatrixXd curvature = 2. * columns.transpose() * columns;
+  remove_unknowns(at, s, columns, curvature);
+  terms.project(columns, slope, curvature);
+  gradient(of_chain_) += slope;
+  information(of_chain_, of_chain_) += curvature;
+}
+
+void FitPosterior::add_variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                                 const BinVariances& s, const WhitenedErrors& errors,
+                                 const ModelDiscrepancy::Solution& terms,
+                                 const Derivatives& derivatives, Eigen::VectorXd& gradient,
+                                 Eigen::MatrixXd& information) const {
+  const Eigen::MatrixXd columns = relative_variance(x, at, s, errors.per_deviation, derivatives);
+  const Eigen::VectorXd excess =
+      (errors.error - terms.mean()).cwiseAbs2().array() - 1. + terms.leverage().array();
+  std::vector<Eigen::Index> parameters = of_chain_;
+  parameters.insert(parameters.end(), levels_.begin(), levels_.end());
+  gradient(parameters) += columns.transpose() * excess;
+  information(parameters, parameters) += columns.transpose() * columns;
+}
+
+/// slope: of the accelerometer's variance.
+void FitPosterior::add_accelerometer(const double acceleration_variance,
+                                     const Eigen::VectorXd& slope, Eigen::VectorXd& gradient,
+                                     Eigen::MatrixXd& information) const {
+  double of_variance = 0., n_lines = 0.;
+  for (const PreparedRecord& record : experiment_.records) {
+    const double lines = static_cast<double>(record.n_acceleration_noise);
+    n_lines += lines;
+    if (lines > 0.)
+      of_variance += record.acceleration_noise_power /
+                         (static_cast<double>(record.n_samples) * acceleration_variance) -
+                     lines;
+  }
+  const Eigen::VectorXd relative = slope / acceleration_variance;
+  gradient += relative * of_variance;
+  information += n_lines * relative * relative.transpose();
 }
 
 void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
@@ -314,30 +363,16 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
                              Eigen::MatrixXd& information) const {
   const double a_variance = acceleration_variance(x);
   const BinVariances s = variances(x, at, a_variance);
-  const WhitenedErrors whitened_error = whitened_errors(at, s);
-  const Eigen::VectorXcd& whole = whitened_error.error;
-  const Derivatives d = whitened(x, at, s, whitened_error.per_deviation, a_variance, derivatives);
-  const ModelDiscrepancy::Solution terms = discrepancy(x, whitened_error);
-  const Eigen::Map<const Eigen::VectorXd> error(reinterpret_cast<const double*>(whole.data()),
-                                                d.mean.rows());
-  const Eigen::VectorXd excess =
-      (whole - terms.mean()).cwiseAbs2().array() - 1. + terms.leverage().array();
-  double a_gradient = 0., a_lines = 0.;
-  for (const PreparedRecord& record : experiment_.records) {
-    const double lines = static_cast<double>(record.n_acceleration_noise);
-    a_lines += lines;
-    if (lines > 0.)
-      a_gradient +=
-          record.acceleration_noise_power / (static_cast<double>(record.n_samples) * a_variance) -
-          lines;
-  }
-  gradient = 2. * d.mean.transpose() * error + d.variance.transpose() * excess +
-             d.acceleration * a_gradient;
-  information = 2. * d.mean.transpose() * d.mean + d.variance.transpose() * d.variance +
-                a_lines * d.acceleration * d.acceleration.transpose();
-  Eigen::MatrixXd columns = d.mean;
-  remove_unknowns(at, s, columns, information);
-  terms.project(columns, gradient, information);
+  const WhitenedErrors errors = whitened_errors(at, s);
+  const ModelDiscrepancy::Solution terms = discrepancy(x, errors);
+  gradient.setZero(x.size());
+  information.setZero(x.size(), x.size());
+  add_means(at, s, errors, terms, derivatives, gradient, information);
+  add_variances(x, at, s, errors, terms, derivatives, gradient, information);
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(x.size());
+  slope(of_chain_) = derivatives.acceleration;
+  slope(index_of_acceleration_noise) = 2. * std::exp(2. * x(index_of_acceleration_noise));
+  add_accelerometer(a_variance, slope, gradient, information);
   const auto add_level = [&](const Eigen::Index i, const std::size_t level) {
     gradient(i) += terms.gradient()[level];
     information(i, i) += terms.information()[level];

@@ -15,8 +15,9 @@ namespace vibrissa::diagnosis {
 /// Bins around one over which the power of a prediction is averaged.
 inline constexpr std::size_t power_reach = 10;
 
-/// Derivatives by the parameters: of the mean (real and imaginary parts in turn) [N m], of its
-/// variance [(N m)^2], and of the accelerometer's variance [(m/s^2)^2].
+/// Derivatives by the free parameters of the chain (FitPosterior::chain_parameters(), a column
+/// each): of the mean (real and imaginary parts in turn) [N m], of its variance [(N m)^2], and of
+/// the accelerometer's variance [(m/s^2)^2].
 struct Derivatives {
   Eigen::MatrixXd mean, variance;
   Eigen::VectorXd acceleration;
@@ -54,7 +55,8 @@ class FitPosterior {
   };
   WhitenedErrors whitened_errors(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
 
-  /// Derivatives by the free parameters; those by the noise parameters are left at zero.
+  /// Indices of the free parameters that change predictions.
+  const std::vector<Eigen::Index>& chain_parameters() const { return of_chain_; }
   Derivatives derivatives(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
   /// Gradient of the log posterior, and Fisher's information plus the prior's curvature.
   /// derivatives: at x, or at a place from which they have hardly changed.
@@ -79,14 +81,27 @@ class FitPosterior {
   /// Derivatives from the predictions of a chain after a step h of one parameter.
   void set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                       const BinVariances& s, const Chain& moved,
-                      const std::vector<Prediction>& there, double h, Eigen::Index index,
+                      const std::vector<Prediction>& there, double h, Eigen::Index column,
                       Derivatives& out) const;
-  /// Derivatives of the total variance divided by it; sets those by the noise parameters.
-  Derivatives whitened(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                       const BinVariances& s, const Eigen::VectorXd& per_deviation,
-                       double acceleration_variance, const Derivatives& derivatives) const;
-  void set_level_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                        const BinVariances& s, Eigen::Index index, Derivatives& out) const;
+  /// Derivatives of the total variance divided by it, by the parameters of the chain and then by
+  /// the levels.
+  Eigen::MatrixXd relative_variance(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                                    const BinVariances& s, const Eigen::VectorXd& per_deviation,
+                                    const Derivatives& derivatives) const;
+  Eigen::VectorXd level_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                               const BinVariances& s, Eigen::Index index) const;
+  /// Parts of linearise(): what the means tell about the parameters of the chain, and what the
+  /// variances tell about all free ones.
+  void add_means(const std::vector<Prediction>& at, const BinVariances& s,
+                 const WhitenedErrors& errors, const ModelDiscrepancy::Solution& terms,
+                 const Derivatives& derivatives, Eigen::VectorXd& gradient,
+                 Eigen::MatrixXd& information) const;
+  void add_variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
+                     const BinVariances& s, const WhitenedErrors& errors,
+                     const ModelDiscrepancy::Solution& terms, const Derivatives& derivatives,
+                     Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
+  void add_accelerometer(double acceleration_variance, const Eigen::VectorXd& slope,
+                         Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
   BinVariances variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                          double acceleration_variance) const;
   void remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
@@ -103,6 +118,7 @@ class FitPosterior {
   const std::vector<FitParameter>& fit_parameters_;
   std::vector<const Effect*> effects_;
   bool unknown_;
+  std::vector<Eigen::Index> of_chain_, levels_;  // free parameters of the chain, and levels
   BinVariances misfit_, power_, incoherent_, form_;
   ModelDiscrepancy discrepancy_;
 };

@@ -296,7 +296,8 @@ class Attempts {
     // A start that stays hopelessly below a previous one is given up.
     FitOptions of_all = options_;
     if (best_) of_all.to_beat = std::max(of_all.to_beat, best_->log_posterior);
-    optimise(posterior_, fit_parameters_, state, options_.max_iterations, of_all);
+    optimise(posterior_, fit_parameters_, state, options_.max_iterations, of_all,
+             best_ ? &*best_ : nullptr);
     if (!best_ || state.log_posterior > best_->log_posterior) best_ = std::move(state);
   }
 

@@ -88,10 +88,19 @@ OptimiserState begin_optimiser(FitPosterior& posterior, const Eigen::VectorXd& x
   return state;
 }
 
-/// optimise(); ends, too, where it only repeats the way of an earlier run, if there is one.
-void run(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
-         OptimiserState& state, const int n_iterations, const FitOptions& options,
-         const OptimiserState* const earlier) {
+}  // namespace
+
+void clamp(const std::vector<FitParameter>& fit_parameters, Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < fit_parameters.size(); ++i) {
+    const Prior& prior = fit_parameters[i].description.prior;
+    double& value = x(static_cast<Eigen::Index>(i));
+    value = std::clamp(value, prior.low, prior.high);
+  }
+}
+
+void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
+              OptimiserState& state, const int n_iterations, const FitOptions& options,
+              const OptimiserState* const earlier) {
   // Stops when this many further gains like the last one would not be enough.
   constexpr double n_hopeful_gains = 15.;
   constexpr double most_astray = 0.2;
@@ -139,21 +148,6 @@ void run(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameter
   }
 }
 
-}  // namespace
-
-void clamp(const std::vector<FitParameter>& fit_parameters, Eigen::VectorXd& x) {
-  for (std::size_t i = 0; i < fit_parameters.size(); ++i) {
-    const Prior& prior = fit_parameters[i].description.prior;
-    double& value = x(static_cast<Eigen::Index>(i));
-    value = std::clamp(value, prior.low, prior.high);
-  }
-}
-
-void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
-              OptimiserState& state, const int n_iterations, const FitOptions& options) {
-  run(posterior, fit_parameters, state, n_iterations, options, nullptr);
-}
-
 OptimiserState best_start(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
                           const std::vector<Eigen::VectorXd>& starts, const FitOptions& options) {
   constexpr int n_first_iterations = 3;
@@ -165,8 +159,8 @@ OptimiserState best_start(FitPosterior& posterior, const std::vector<FitParamete
   std::sort(optimiser_runs.begin(), optimiser_runs.end(), better);
   optimiser_runs.resize(std::min(optimiser_runs.size(), options.n_promising));
   for (OptimiserState& state : optimiser_runs)
-    run(posterior, fit_parameters, state, n_first_iterations, options,
-        &state == &optimiser_runs.front() ? nullptr : &optimiser_runs.front());
+    optimise(posterior, fit_parameters, state, n_first_iterations, options,
+             &state == &optimiser_runs.front() ? nullptr : &optimiser_runs.front());
   std::sort(optimiser_runs.begin(), optimiser_runs.end(), better);
   return std::move(optimiser_runs.front());
 }

@@ -43,9 +43,12 @@ struct OptimiserState {
 
 /// Fisher scoring with Levenberg-Marquardt damping from the given state. Derivatives, which cost
 /// one simulation per parameter, are reused as long as they predict the gains; n_iterations counts
-/// their computations. Proven by tests/diagnosis/fit/optimiser_test.cc and search_test.cc.
+/// their computations. Ends, too, where it would only come to the optimum of an earlier run of the
+/// same posterior, if there is one. Proven by tests/diagnosis/fit/optimiser_test.cc and
+/// search_test.cc.
 void optimise(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,
-              OptimiserState& state, int n_iterations, const FitOptions& options);
+              OptimiserState& state, int n_iterations, const FitOptions& options,
+              const OptimiserState* earlier = nullptr);
 
 /// Runs a few iterations from the most promising starts and returns the best state.
 OptimiserState best_start(FitPosterior& posterior, const std::vector<FitParameter>& fit_parameters,

@@ -38,15 +38,19 @@ struct Others {
   double log_evidence = 0.;
 };
 
-/// Recalibrated, or the best answer of all records.
-Others answer_of_others(const Experiment& others, const SearchResult& result) {
+/// Recalibrated, or the best answer of all records. Fits that stay below to_beat end early: a log
+/// posterior lies above its log evidence.
+Others answer_of_others(const Experiment& others, const SearchResult& result,
+                        const double to_beat) {
   const Candidate& best = result.candidates.front();
   const HypothesisFit& of_all = result.fits[best.fit];
-  Others out{.fit = fit_hypothesis(others, Hypothesis{})};
+  Others out{.fit = fit_hypothesis(others, Hypothesis{}, nullptr, {.to_beat = to_beat})};
   out.log_evidence = out.fit.log_evidence;
   if (of_all.hypothesis.effects().empty()) return out;
-  Others same{.fit = fit_hypothesis(others, of_all.hypothesis, &of_all)};
-  same.log_evidence = same.fit.log_evidence + best.log_posterior - of_all.log_evidence;
+  const double prior = best.log_posterior - of_all.log_evidence;
+  Others same{.fit =
+                  fit_hypothesis(others, of_all.hypothesis, &of_all, {.to_beat = to_beat - prior})};
+  same.log_evidence = same.fit.log_evidence + prior;
   return same.log_evidence > out.log_evidence ? same : out;
 }
 
@@ -62,10 +66,11 @@ double left_of(const PreparedRecord& record, const FittedRecord& fitted) {
   return (error_of(record, fitted.mean) - noise) / total_power(record.moment);
 }
 
-/// Does a fit leave no more of any record with motion than simulations do?
-bool explains_all(const Experiment& experiment, const HypothesisFit& fit) {
+/// Does a fit leave no more of any record with motion (but one) than simulations do?
+bool explains_all(const Experiment& experiment, const HypothesisFit& fit,
+                  const std::optional<std::size_t> but_one = std::nullopt) {
   for (std::size_t r = 0; r < experiment.records.size(); ++r)
-    if (!experiment.records[r].is_still() &&
+    if (r != but_one && !experiment.records[r].is_still() &&
         left_of(experiment.records[r], fit.records[r]) >
             power_without_cause(experiment.simulation_accuracy))
       return false;
@@ -116,14 +121,20 @@ std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
     const auto is_it = [&](const PreparedRecord& r) { return r.number == record.number; };
     const Experiment alone = with_records(experiment, is_it);
     const Experiment without = with_records(experiment, std::not_fn(is_it));
-    const Others others = answer_of_others(without, result);
-    if (!explains_all(without, others.fit)) return;
     tried[i] = {.name = record.name, .own = fit_hypothesis(alone, Hypothesis{})};
-    const double better = error_of(record, simulate_mean(others.fit.chain(experiment), record)) -
-                          error_of(record, tried[i].own.records.front().mean);
-    if (better < usual * total_power(record.moment)) return;
-    tried[i].log_odds = tried[i].own.log_evidence + others.log_evidence + log_prior -
-                        std::log(static_cast<double>(n_moving)) - best.log_posterior;
+    const double of_own = error_of(record, tried[i].own.records.front().mean),
+                 worth = usual * total_power(record.moment);
+    // Then the record contradicts nothing.
+    if (error_of(record, fit.records[suspects[i]].mean) - of_own < worth &&
+        explains_all(experiment, fit, suspects[i]))
+      return;
+    const double known = tried[i].own.log_evidence + log_prior -
+                         std::log(static_cast<double>(n_moving)) - best.log_posterior;
+    const Others others = answer_of_others(without, result, sure_nats - known);
+    if (!explains_all(without, others.fit)) return;
+    if (error_of(record, simulate_mean(others.fit.chain(experiment), record)) - of_own < worth)
+      return;
+    tried[i].log_odds = known + others.log_evidence;
   });
   const auto most = std::ranges::max_element(tried, {}, &MisplacedRecord::log_odds);
   if (!(most->log_odds > sure_nats)) return std::nullopt;

@@ -38,6 +38,11 @@ bool is_rotation(const SimulationAndRecords& given, const Experiment& experiment
   const auto nonlinear = std::ranges::find_if(result.candidates, [&](const Candidate& candidate) {
     return has_joint_law(result.fits[candidate.fit].hypothesis);
   });
+  // Where an unknown cause explains no more than the best answer, neither does another readout.
+  const auto outside = std::ranges::find(result.candidates, outside_catalogue, &Candidate::name);
+  if (outside == result.candidates.end() ||
+      outside->log_posterior < result.candidates.front().log_posterior)
+    return false;
   if (nonlinear - result.candidates.begin() >= std::min(n_probable, std::ssize(result.candidates)))
     return false;
   const SimulationAndRecords other = read_as_rotation(given);

@@ -22,11 +22,12 @@ struct Addition {
 
 /// Change by an effect, over all bins of a fit's records.
 struct Overlap {
-  double cross = 0.,
-         own = 0.;  // inner product of the change of the mean with the residual, with itself
+  /// Inner product of the change of the mean with the residual, with itself, and of the residual
+  /// with itself.
+  double cross = 0., own = 0., residual = 0.;
   std::vector<NoisyBin> noisy{};
   std::vector<Addition> additions{};
-  double of_mean() const { return own > 0. ? 2. * cross * cross / own : 0.; }
+  double of_mean() const { return own > 0. ? 2. * std::min(cross * cross / own, residual) : 0.; }
 
   /// Gain in twice the log likelihood by a multiple of the new noise's variance.
   double of_noise(double multiple) const {
@@ -88,8 +89,10 @@ struct FitResidual::State {
   Chain chain;
   Eigen::VectorXcd mean, error;  // whitened error, without per-record nuisance parameters
   Eigen::VectorXcd noise;        // the error without the discrepancy
+  double residual = 0.;          // squared error, relative to noise and discrepancy
   Eigen::VectorXd per_deviation;
-  Eigen::MatrixXd columns;  // whitened derivatives of the mean
+  Eigen::MatrixXd columns;     // whitened derivatives of the mean
+  Eigen::MatrixXd covariance;  // of their parameters
   ModelDiscrepancy::Solution discrepancy;
 
   State(const Experiment& of, const HypothesisFit& best)
@@ -104,11 +107,13 @@ struct FitResidual::State {
     error = whitened.error;
     per_deviation = whitened.per_deviation;
     noise = error - discrepancy.mean();
+    residual = discrepancy.apply_inverse(error).dot(error).real();
     mean.resize(error.size());
     Eigen::Index row = 0;
     for (const Prediction& prediction : at)
       for (const Complex& value : prediction.mean) mean(row++) = value;
     columns = posterior.derivatives(fit.x, at).mean;
+    covariance = fit.covariance(posterior.chain_parameters(), posterior.chain_parameters());
     for (Eigen::Index i = 0; i < per_deviation.size(); ++i)
       columns.middleRows(2 * i, 2) *= per_deviation(i);
   }
@@ -144,13 +149,14 @@ struct FitResidual::State {
     }
     const Eigen::VectorXcd weighed = discrepancy.apply_inverse(change);
     out.cross = weighed.dot(error).real();
+    out.residual = residual;
     Eigen::VectorXd along = Eigen::VectorXd::Zero(columns.cols());
     for (row = 0; row < weighed.size(); ++row)
       along += weighed(row).real() * columns.row(2 * row).transpose() +
                weighed(row).imag() * columns.row(2 * row + 1).transpose();
     // The information is twice the Gram matrix of the columns.
     const double whole = weighed.dot(change).real();
-    out.own = std::max(whole - 2. * along.dot(fit.covariance * along), 1e-9 * whole);
+    out.own = std::max(whole - 2. * along.dot(covariance * along), 1e-9 * whole);
     keep_loud(out.noisy);
     return out;
   }
