@@ -223,8 +223,14 @@ Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recor
   experiment.measured_modes = measured_modes(real);
   out.untested = untested_effects(experiment);
   out.location = locate_gap(experiment);
-  SearchResult result = search(experiment, options.search);
-  if (is_rotation({simulation, real}, experiment, result)) {
+  SearchOptions of_moment = options.search;
+  bool is_another = false;
+  of_moment.ends_after_singles = [&](const SearchResult& singles) {
+    is_another = is_rotation({simulation, real}, experiment, singles);
+    return is_another;
+  };
+  SearchResult result = search(experiment, of_moment);
+  if (is_another) {
     const SimulationAndRecords other = read_as_rotation({simulation, recorded});
     return diagnose(other.simulation, other.real, options);
   }

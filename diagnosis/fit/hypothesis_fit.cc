@@ -416,6 +416,21 @@ HypothesisFit fit_as_simulated(const Experiment& experiment) {
   return fit;
 }
 
+double error_left(const PreparedRecord& record, const FittedRecord& fitted) {
+  double noise = 0.;
+  for (const double variance : fitted.noise) noise += variance;
+  return (total_power(difference(record.moment, fitted.mean)) - noise) / total_power(record.moment);
+}
+
+double largest_error_left(const Experiment& experiment, const HypothesisFit& fit,
+                          const std::optional<std::size_t> but_one) {
+  double most = 0.;
+  for (std::size_t r = 0; r < experiment.records.size(); ++r)
+    if (r != but_one && !experiment.records[r].is_still())
+      most = std::max(most, error_left(experiment.records[r], fit.records[r]));
+  return most;
+}
+
 std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
                                               const HypothesisFit& fit) {
   std::vector<WhitenedRecord> records(fit.records.size());

@@ -69,6 +69,12 @@ bool has_recalibrated(const HypothesisFit& fit);
 /// gap looks like before they absorb a part of it.
 HypothesisFit fit_as_simulated(const Experiment& experiment);
 
+/// Power of the error that a fit leaves in a record above its noise, relative to the moment; and the
+/// largest one of the records with motion (but one).
+double error_left(const PreparedRecord& record, const FittedRecord& fitted);
+double largest_error_left(const Experiment& experiment, const HypothesisFit& fit,
+                          std::optional<std::size_t> but_one = std::nullopt);
+
 /// Whitened residuals of all records, without the most probable discrepancy and per-record nuisance
 /// parameters.
 std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,

@@ -59,22 +59,11 @@ double error_of(const PreparedRecord& record, const std::vector<Complex>& mean) 
   return total_power(difference(record.moment, mean));
 }
 
-/// Power of the error that a fit leaves in a record above its noise, relative to the moment.
-double left_of(const PreparedRecord& record, const FittedRecord& fitted) {
-  double noise = 0.;
-  for (const double variance : fitted.noise) noise += variance;
-  return (error_of(record, fitted.mean) - noise) / total_power(record.moment);
-}
-
 /// Does a fit leave no more of any record with motion (but one) than simulations do?
 bool explains_all(const Experiment& experiment, const HypothesisFit& fit,
                   const std::optional<std::size_t> but_one = std::nullopt) {
-  for (std::size_t r = 0; r < experiment.records.size(); ++r)
-    if (r != but_one && !experiment.records[r].is_still() &&
-        left_of(experiment.records[r], fit.records[r]) >
-            power_without_cause(experiment.simulation_accuracy))
-      return false;
-  return true;
+  return largest_error_left(experiment, fit, but_one) <=
+         power_without_cause(experiment.simulation_accuracy);
 }
 
 }  // namespace
@@ -109,10 +98,10 @@ std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
     // What a level alone contradicts is more often its law than its file.
     if (experiment.records[r].is_still() || experiment.records[r].is_response()) continue;
     ++n_moving;
-    const bool is_left = left_of(experiment.records[r], fit.records[r]) > usual;
+    const bool is_left = error_left(experiment.records[r], fit.records[r]) > usual;
     is_explained = is_explained && !is_left;
     // An effect may bend to the misplaced record at the cost of the others.
-    if (is_left || left_of(experiment.records[r], none.records[r]) > usual) suspects.push_back(r);
+    if (is_left || error_left(experiment.records[r], none.records[r]) > usual) suspects.push_back(r);
   }
   if (n_moving < fewest || is_explained) return std::nullopt;
   std::vector<MisplacedRecord> tried(suspects.size());

@@ -1,6 +1,7 @@
 #include "diagnosis/search/readout_choice.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -38,12 +39,12 @@ bool is_rotation(const SimulationAndRecords& given, const Experiment& experiment
   const auto nonlinear = std::ranges::find_if(result.candidates, [&](const Candidate& candidate) {
     return has_joint_law(result.fits[candidate.fit].hypothesis);
   });
-  // Where an unknown cause explains no more than the best answer, neither does another readout.
-  const auto outside = std::ranges::find(result.candidates, outside_catalogue, &Candidate::name);
-  if (outside == result.candidates.end() ||
-      outside->log_posterior < result.candidates.front().log_posterior)
-    return false;
   if (nonlinear - result.candidates.begin() >= std::min(n_probable, std::ssize(result.candidates)))
+    return false;
+  // One effect that leaves nothing is simpler than another readout.
+  const HypothesisFit& best = result.fits[result.candidates.front().fit];
+  if (best.hypothesis.effects().size() == 1 &&
+      largest_error_left(experiment, best) < std::pow(experiment.simulation_accuracy, 2))
     return false;
   const SimulationAndRecords other = read_as_rotation(given);
   Experiment reread =

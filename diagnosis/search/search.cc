@@ -89,16 +89,11 @@ class Searcher {
       refine_parts(size);
       // A part that is fitted again may be a better one to extend.
       if (size > 1) fit_promising(extensions(size));
+      if (size == 1 && options_.ends_after_singles && options_.ends_after_singles(result()))
+        return result();
     }
     settle_calibrations();
-    SearchResult result;
-    result.is_complete = !is_late();
-    result.candidates = candidates();
-    if (result.candidates.empty())
-      throw signals::UserError("no answer has a finite likelihood: check the units of the records");
-    set_probabilities(result);
-    result.fits = std::move(fits_);
-    return result;
+    return result();
   }
 
  private:
@@ -367,6 +362,14 @@ class Searcher {
         *same = std::move(task);
     }
     return tasks;
+  }
+
+  SearchResult result() const {
+    SearchResult out{.fits = fits_, .candidates = candidates(), .is_complete = !is_late()};
+    if (out.candidates.empty())
+      throw signals::UserError("no answer has a finite likelihood: check the units of the records");
+    set_probabilities(out);
+    return out;
   }
 
   std::vector<Candidate> candidates() const {

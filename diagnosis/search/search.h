@@ -36,6 +36,8 @@ struct SearchOptions {
   std::function<void()> on_fit = {};       // after each fit, one at a time
   /// No further fit begins after this time [s].
   double time_limit_s = std::numeric_limits<double>::infinity();
+  /// Sees the answers with one effect; true ends the search.
+  std::function<bool(const SearchResult&)> ends_after_singles = {};
 };
 
 /// Fits "none" (calibration parameters alone), an unknown cause, every effect whose shape the
