@@ -173,6 +173,7 @@ void conclude(Diagnosis& out, const Evidence& evidence, SearchResult& result,
   out.gap = {out.attribution.error.nrmse_before, out.attribution.error.noise_floor,
              out.location.p_value};
   out.response = compare_response(experiment, result.fits[best.fit]);
+  out.levels = compare_levels(experiment, held_out, result.fits[best.fit]);
   out.updated = updated_model(experiment, result.fits[best.fit]);
   if (out.verdict != outside_catalogue) out.resonance = resonance_change(experiment, out.updated);
   out.wind_speed_error_m_s = wind_speed_error_m_s(evidence.simulation, out.updated, evidence.real);

@@ -13,6 +13,7 @@
 #include "diagnosis/validation/attribution.h"
 #include "diagnosis/validation/comparison.h"
 #include "diagnosis/validation/held_out.h"
+#include "diagnosis/validation/level_comparison.h"
 #include "diagnosis/validation/named_answers.h"
 
 namespace vibrissa::diagnosis {
@@ -66,6 +67,7 @@ struct Diagnosis {
   std::vector<std::string> guesses{};  // made while the dataset was read
   /// Nominal model and best answer compared with the records.
   ResponseComparison response{};
+  std::vector<LevelComparison> levels{};
   TraceComparison trace{};
   /// Terms that describe what no known effect explains, where the answer is outside_catalogue or
   /// leaves more than twice the simulation's accuracy and more than noise.

@@ -114,6 +114,21 @@ static void to_json(Json& out, const Location& location) {
          {"map", map}};
 }
 
+void to_json(Json& out, const ResponsePeak& peak) {
+  out = {{"frequency_hz", peak.frequency_hz}, {"amplitude", peak.amplitude}};
+}
+
+void to_json(Json& out, const LevelComparison& level) {
+  out = {{"name", level.name},
+         {"direction", signals::to_string(level.direction)},
+         {"level_m_s2", level.level_m_s2},
+         {"held_out", level.held_out},
+         {"unit", level.readout == signals::Readout::moment ? "N m" : "rad or m"},
+         {"measured_peak", level.measured_peak},
+         {"simulated_peak", level.simulated_peak},
+         {"updated_peak", level.updated_peak}};
+}
+
 std::string diagnosis_json(const Diagnosis& diagnosis) {
   const Json document{{"schema", "vibrissa-diagnosis-2"},
                       {"gap",
@@ -128,6 +143,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis) {
                       {"verdict", diagnosis.verdict},
                       {"unknown_cause", diagnosis.unknown_cause},
                       {"resonance", diagnosis.resonance},
+                      {"responses", diagnosis.levels},
                       {"ranking", diagnosis.ranking},
                       {"probability_of_unlisted", diagnosis.probability_of_unlisted},
                       {"probability_of_tried", diagnosis.probability_of_tried},

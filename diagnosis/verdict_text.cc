@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "diagnosis/model/words.h"
 
@@ -77,6 +78,25 @@ std::string resonance_line(const Diagnosis& diagnosis) {
     text +=
         "; far below it the moment for the same motion is " + ratio + " times the simulated one";
   return text;
+}
+
+/// Peaks at the lowest and the highest level of one direction: a resonance moves with level.
+std::string peaks_line(const std::vector<LevelComparison>& levels,
+                       const signals::SweepDirection direction) {
+  const auto is_it = [&](const LevelComparison& level) { return level.direction == direction; };
+  const auto first = std::ranges::find_if(levels, is_it);
+  if (first == levels.end()) return "";
+  const LevelComparison& last = *std::find_if(levels.rbegin(), levels.rend(), is_it);
+  const auto range = [&](const auto& peak) {
+    return three_digits(peak(*first).frequency_hz) + " to " +
+           three_digits(peak(last).frequency_hz) + " Hz";
+  };
+  const std::string from = three_digits(first->level_m_s2), to = three_digits(last.level_m_s2);
+  return "Peak of the response, sweep " + signals::to_string(direction) + ", at " +
+         (from == to ? to : from + " to " + to) + " m/s^2: measured " +
+         range(std::mem_fn(&LevelComparison::measured_peak)) + ", simulated " +
+         range(std::mem_fn(&LevelComparison::simulated_peak)) + ", with the correction " +
+         range(std::mem_fn(&LevelComparison::updated_peak));
 }
 
 /// "damping 0.54 (0.53 .. 0.55) times the simulated value", "flow_lag: tau 0.002 s (...)". The
@@ -325,7 +345,9 @@ std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_line
   lines.add_table(attribution_lines(diagnosis));
   if (diagnosis.unknown_cause) lines.add("Unknown part: " + unknown_sentence(diagnosis));
   lines.add("Where: " + location_sentence(diagnosis.location));
-  lines.add(resonance_line(diagnosis));
+  if (diagnosis.levels.empty()) lines.add(resonance_line(diagnosis));
+  for (const auto direction : {signals::SweepDirection::up, signals::SweepDirection::down})
+    lines.add(peaks_line(diagnosis.levels, direction));
   if (!diagnosis.ranking.empty()) {
     lines.add(materials_line(diagnosis.ranking.front()));
     if (diagnosis.ranking.front().held_out) {

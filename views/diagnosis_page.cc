@@ -251,6 +251,8 @@ report::PageSection improvement(const Diagnosis& d, const std::vector<report::Fi
     add(section, "held_out", "Held-out records, corrected by the first answer",
         held_out_table(*d.ranking.front().held_out));
   add_figure(section, figures, "response");
+  if (!d.levels.empty())
+    add(section, "peaks", "Peaks of the responses by level", level_table(d.levels));
   if (!d.trace.time_s.empty()) section.figures.push_back(held_out_record_figure(d));
   return section;
 }

@@ -99,6 +99,91 @@ report::Figure response_figure(const diagnosis::Diagnosis& diagnosis) {
           .panels = {panel}};
 }
 
+std::string unit_of(const diagnosis::Diagnosis& diagnosis) {
+  return diagnosis.levels.front().readout == signals::Readout::moment ? "N m" : "rad or m";
+}
+
+std::string level_name(const diagnosis::LevelComparison& level) {
+  return report::Cell(level.level_m_s2).rounded(3) + " m/s²" +
+         (level.held_out ? ", not used for the fit" : "");
+}
+
+std::vector<double> per_level(const std::vector<double>& values,
+                              const diagnosis::LevelComparison& level) {
+  std::vector<double> out = values;
+  for (double& value : out) value /= level.level_m_s2;
+  return out;
+}
+
+/// Measured and corrected responses of all sweeps in one direction; a colour for each level.
+report::Panel level_panel(const diagnosis::Diagnosis& diagnosis,
+                          const signals::SweepDirection direction) {
+  report::Panel panel{.title = "Sweep " + signals::to_string(direction) +
+                               ": measured (points), with " + diagnosis.verdict + " (lines)",
+                      .x_label = "Frequency [Hz]",
+                      .y_label = "Response / base acceleration [" + unit_of(diagnosis) + " s²/m]",
+                      .log_y = true};
+  const diagnosis::LevelComparison* last = nullptr;
+  std::size_t colour = 0;
+  for (const diagnosis::LevelComparison& level : diagnosis.levels) {
+    if (level.direction != direction) continue;
+    last = &level;
+    panel.curves.push_back({.label = level_name(level),
+                            .style = report::CurveStyle::points,
+                            .x = level.frequency_hz,
+                            .y = per_level(level.measured, level),
+                            .colour = colour});
+    panel.curves.push_back(
+        {.x = level.frequency_hz, .y = per_level(level.updated, level), .colour = colour++});
+  }
+  if (last != nullptr)
+    panel.curves.push_back({.label = "simulation, " + level_name(*last),
+                            .style = report::CurveStyle::dashed,
+                            .x = last->frequency_hz,
+                            .y = per_level(last->simulated, *last),
+                            .colour = colour});
+  return panel;
+}
+
+/// Frequency of the peak over its amplitude.
+report::Panel backbone_panel(const diagnosis::Diagnosis& diagnosis) {
+  report::Panel panel{.title = "Frequency of the peak over its amplitude",
+                      .x_label = "Amplitude of the response [" + unit_of(diagnosis) + "]",
+                      .y_label = "Frequency [Hz]"};
+  std::size_t colour = 0;
+  for (const auto direction : {signals::SweepDirection::up, signals::SweepDirection::down}) {
+    const std::string sweep = ", sweep " + signals::to_string(direction);
+    report::Curve measured{
+        .label = "measured" + sweep, .style = report::CurveStyle::points, .colour = colour},
+        updated{.label = "with " + diagnosis.verdict + sweep, .colour = colour++};
+    for (const diagnosis::LevelComparison& level : diagnosis.levels) {
+      if (level.direction != direction) continue;
+      measured.x.push_back(level.measured_peak.amplitude);
+      measured.y.push_back(level.measured_peak.frequency_hz);
+      updated.x.push_back(level.updated_peak.amplitude);
+      updated.y.push_back(level.updated_peak.frequency_hz);
+    }
+    if (measured.x.empty()) continue;
+    panel.curves.push_back(std::move(measured));
+    panel.curves.push_back(std::move(updated));
+  }
+  return panel;
+}
+
+report::Figure levels_figure(const diagnosis::Diagnosis& diagnosis) {
+  report::Figure figure{
+      .name = "response",
+      .title = "Responses before and after correction",
+      .caption =
+          "Amplitudes at the measured lines. Where several states are stable, a sweep stays "
+          "on its branch until it ends, or jumps at the line that fits it best."};
+  for (const auto direction : {signals::SweepDirection::up, signals::SweepDirection::down})
+    if (report::Panel panel = level_panel(diagnosis, direction); !panel.curves.empty())
+      figure.panels.push_back(std::move(panel));
+  figure.panels.push_back(backbone_panel(diagnosis));
+  return figure;
+}
+
 /// The first n samples.
 report::Panel trace_panel(const diagnosis::Diagnosis& diagnosis, const std::size_t n) {
   const diagnosis::TraceComparison& trace = diagnosis.trace;
@@ -188,7 +273,10 @@ std::vector<report::Figure> diagnosis_plots(const diagnosis::Diagnosis& diagnosi
   if (!diagnosis.ranking.empty()) figures.push_back(ranking_figure(diagnosis.ranking));
   if (diagnosis.unknown_cause && !diagnosis.unknown_cause->residual.over_angle.x.empty())
     figures.push_back(unknown_figure(*diagnosis.unknown_cause));
-  if (!diagnosis.response.frequency_hz.empty()) figures.push_back(response_figure(diagnosis));
+  if (!diagnosis.levels.empty())
+    figures.push_back(levels_figure(diagnosis));
+  else if (!diagnosis.response.frequency_hz.empty())
+    figures.push_back(response_figure(diagnosis));
   if (!diagnosis.trace.time_s.empty()) figures.push_back(trace_figure(diagnosis));
   return figures;
 }
@@ -201,6 +289,25 @@ report::Figure held_out_record_figure(const diagnosis::Diagnosis& diagnosis) {
   figure.panels.insert(figure.panels.begin(), std::move(whole));
   figure.name = "held_out_record";
   return figure;
+}
+
+report::Table level_table(const std::vector<diagnosis::LevelComparison>& levels) {
+  report::Table table({{"level", "m/s²", 3},
+                       {"sweep", ""},
+                       {"used for the fit", ""},
+                       {"measured peak", "Hz", 5},
+                       {"simulated", "Hz", 5},
+                       {"with correction", "Hz", 5},
+                       {"correction - measured", "%", 2},
+                       {"measured amplitude", "", 3},
+                       {"with correction", "", 3}});
+  for (const diagnosis::LevelComparison& level : levels)
+    table.add_row({level.level_m_s2, signals::to_string(level.direction),
+                   level.held_out ? "no" : "yes", level.measured_peak.frequency_hz,
+                   level.simulated_peak.frequency_hz, level.updated_peak.frequency_hz,
+                   100. * (level.updated_peak.frequency_hz / level.measured_peak.frequency_hz - 1.),
+                   level.measured_peak.amplitude, level.updated_peak.amplitude});
+  return table;
 }
 
 report::Table ranking_table(const diagnosis::Diagnosis& diagnosis) {

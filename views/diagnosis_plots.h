@@ -15,6 +15,9 @@ std::vector<report::Figure> diagnosis_plots(const diagnosis::Diagnosis& diagnosi
 /// The whole held-out record, and below it its first second, which diagnosis_plots() shows alone.
 report::Figure held_out_record_figure(const diagnosis::Diagnosis& diagnosis);
 
+/// Peaks of each response: measured, simulated, with the correction.
+report::Table level_table(const std::vector<diagnosis::LevelComparison>& levels);
+
 /// One row per answer: probability, prediction errors on held-out records before and after
 /// correction, share of the gap closed.
 report::Table ranking_table(const diagnosis::Diagnosis& diagnosis);

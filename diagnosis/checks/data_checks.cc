@@ -154,6 +154,12 @@ void check_what_is_there(const WantedPaths& wanted, const UsableRecord& is_usabl
     if (fits && moved.base)
       levels.push_back(rms_about_mean(entry.record.channel(channel::base_acceleration)));
   }
+  for (const signals::DatasetResponse& entry : real.responses) {
+    const bool fits = entry.split == signals::Split::fit;
+    (fits ? base : held_out) = true;
+    if (fits) levels.push_back(std::ranges::max(entry.level_m_s2));
+    quiet = true;  // the noise of a response is known without rest
+  }
   const auto add = [&](bool missing, FindingKind kind, const std::string& message) {
     if (missing) findings.push_back({kind, "", message});
   };

@@ -69,8 +69,8 @@ bool has_recalibrated(const HypothesisFit& fit);
 /// gap looks like before they absorb a part of it.
 HypothesisFit fit_as_simulated(const Experiment& experiment);
 
-/// Power of the error that a fit leaves in a record above its noise, relative to the moment; and the
-/// largest one of the records with motion (but one).
+/// Power of the error that a fit leaves in a record above its noise, relative to the moment; and
+/// the largest one of the records with motion (but one).
 double error_left(const PreparedRecord& record, const FittedRecord& fitted);
 double largest_error_left(const Experiment& experiment, const HypothesisFit& fit,
                           std::optional<std::size_t> but_one = std::nullopt);

@@ -101,7 +101,8 @@ std::optional<MisplacedRecord> misplaced_record(const Experiment& experiment,
     const bool is_left = error_left(experiment.records[r], fit.records[r]) > usual;
     is_explained = is_explained && !is_left;
     // An effect may bend to the misplaced record at the cost of the others.
-    if (is_left || error_left(experiment.records[r], none.records[r]) > usual) suspects.push_back(r);
+    if (is_left || error_left(experiment.records[r], none.records[r]) > usual)
+      suspects.push_back(r);
   }
   if (n_moving < fewest || is_explained) return std::nullopt;
   std::vector<MisplacedRecord> tried(suspects.size());

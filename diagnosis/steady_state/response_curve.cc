@@ -162,21 +162,30 @@ class Segment {
     }
     return 0.5 * (a + b);
   }
-  /// Parameters at which the frequency is w, by bisection within each part that does not turn.
-  std::vector<double> crossings(const double w) const {
-    std::vector<double> out;
+  /// Where the curve passes a frequency.
+  struct Crossing {
+    std::size_t line;  // of the frequency
+    double t;          // parameter of the segment
+  };
+  /// In the order of the frequencies; by bisection within each part that does not turn.
+  std::vector<Crossing> crossings(std::span<const double> w_rad_s) const {
+    std::vector<Crossing> out;
     const double middle = turn().value_or(1.);
     for (const auto& [low, high] : {std::array{0., middle}, std::array{middle, 1.}}) {
-      const double at_low = frequency(low) - w, at_high = frequency(high) - w;
-      // A point of the curve belongs to the segment that begins there.
-      if (high <= low || (at_low != 0. && at_low * at_high >= 0.) || at_low == at_high) continue;
-      double a = low, b = high;
-      for (int i = 0; i < 50 && at_low != 0.; ++i) {
-        const double c = 0.5 * (a + b);
-        ((frequency(c) - w) * at_low > 0. ? a : b) = c;
+      const double from = frequency(low), to = frequency(high);
+      for (std::size_t line = 0; high > low && line < w_rad_s.size(); ++line) {
+        const double at_low = from - w_rad_s[line], at_high = to - w_rad_s[line];
+        // A point of the curve belongs to the segment that begins there.
+        if ((at_low != 0. && at_low * at_high >= 0.) || at_low == at_high) continue;
+        double a = low, b = high;
+        for (int i = 0; i < 50 && at_low != 0.; ++i) {
+          const double c = 0.5 * (a + b);
+          ((frequency(c) - w_rad_s[line]) * at_low > 0. ? a : b) = c;
+        }
+        out.push_back({line, a});
       }
-      out.push_back(a);
     }
+    std::ranges::stable_sort(out, {}, &Crossing::line);
     return out;
   }
 
@@ -264,12 +273,11 @@ std::vector<std::vector<PeriodicMotion>> ResponseCurve::at(
   std::vector<const Eigen::MatrixXd*> inverse;
   for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
     const Segment segment(points_[i], points_[i + 1]);
-    for (std::size_t j = 0; j < w_rad_s.size(); ++j)
-      for (const double t : segment.crossings(w_rad_s[j])) {
-        line.push_back(j);
-        motions.push_back(segment.motion(t, w_rad_s[j]));
-        inverse.push_back(&points_[t < 0.5 ? i : i + 1].inverse);
-      }
+    for (const auto& [j, t] : segment.crossings(w_rad_s)) {
+      line.push_back(j);
+      motions.push_back(segment.motion(t, w_rad_s[j]));
+      inverse.push_back(&points_[t < 0.5 ? i : i + 1].inverse);
+    }
   }
   constexpr int n_iterations = 3;
   constexpr auto n_lanes = static_cast<std::size_t>(signals::n_lanes);

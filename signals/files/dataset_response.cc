@@ -192,6 +192,10 @@ std::string to_string(const ResponseQuantity quantity) {
   return "";
 }
 
+std::string to_string(const SweepDirection direction) {
+  return direction == SweepDirection::up ? "up" : "down";
+}
+
 bool is_response(const json& entry, const std::string& where) {
   return word_of(entry, "kind", where, {"record", "response"}) == "response";
 }

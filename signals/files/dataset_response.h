@@ -20,6 +20,7 @@ std::string to_string(ResponseQuantity quantity);
 
 /// Direction of a stepped or swept sine.
 enum class SweepDirection { up, down };
+std::string to_string(SweepDirection direction);
 
 /// Steady response to a sine of the base whose level is held, line by line: the fundamental of the
 /// response [SI unit] relative to the phase of the base acceleration, exp(+j w t).

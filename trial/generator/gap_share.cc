@@ -31,11 +31,12 @@ std::vector<std::optional<double>> gap_shares(const TrialCase& trial_case) {
   // With the wind that blows, whether it is measured or not.
   constexpr bool with_all_wind = true;
   const std::vector<std::complex<double>> gap = change.of(trial_case.world, with_all_wind);
+  const double of_gap = power_of(gap);
   for (const CaseEffect& effect : trial_case.effects) {
     std::vector<std::complex<double>> back = change.of(without(trial_case, effect), with_all_wind);
     for (std::size_t i = 0; i < back.size(); ++i) back[i] -= gap[i];
-    out.push_back(find_unknown(effect.id).random ? std::nullopt
-                                                 : std::optional(power_of(back) / power_of(gap)));
+    const bool has_share = of_gap > 0. && !find_unknown(effect.id).random;
+    out.push_back(has_share ? std::optional(power_of(back) / of_gap) : std::nullopt);
   }
   return out;
 }

@@ -24,7 +24,10 @@ void set_truth(ScoredCase& out, const json& effects) {
   for (const json& effect : effects) {
     const std::string id =
         is_outside ? diagnosis::outside_catalogue : effect.at("id").get<std::string>();
-    (effect.value("gap_share", 1.) < least_gap_share ? out.notes : ids).push_back(id);
+    // Trials of earlier versions have null where there is no share.
+    const json share = effect.value("gap_share", json());
+    const bool is_note = share.is_number() && share.get<double>() < least_gap_share;
+    (is_note ? out.notes : ids).push_back(id);
   }
   out.truth = is_outside && out.notes.empty() ? diagnosis::outside_catalogue : joined_name(ids);
 }

@@ -38,5 +38,9 @@ TEST(GapShare, OfARandomEffectIsNone) {
   EXPECT_FALSE(gap_shares(with({}, {{.id = "hum", .size = 1e-5}})).at(0));
 }
 
+TEST(GapShare, WithoutAGapIsNone) {
+  EXPECT_FALSE(gap_shares(with({}, {{.id = "drag_error", .size = 0.1}})).at(0));  // no wind
+}
+
 }  // namespace
 }  // namespace vibrissa::trial
