@@ -126,7 +126,8 @@ void to_json(Json& out, const LevelComparison& level) {
          {"unit", level.readout == signals::Readout::moment ? "N m" : "rad or m"},
          {"measured_peak", level.measured_peak},
          {"simulated_peak", level.simulated_peak},
-         {"updated_peak", level.updated_peak}};
+         {"updated_peak", level.updated_peak},
+         {"branch_end_hz", level.branch_end_hz ? Json(*level.branch_end_hz) : Json(nullptr)}};
 }
 
 std::string diagnosis_json(const Diagnosis& diagnosis) {

@@ -96,7 +96,20 @@ std::string peaks_line(const std::vector<LevelComparison>& levels,
          (from == to ? to : from + " to " + to) + " m/s^2: measured " +
          range(std::mem_fn(&LevelComparison::measured_peak)) + ", simulated " +
          range(std::mem_fn(&LevelComparison::simulated_peak)) + ", with the correction " +
-         range(std::mem_fn(&LevelComparison::updated_peak));
+         range(std::mem_fn(&LevelComparison::updated_peak)) +
+         (first->branch_end_hz && last.branch_end_hz
+              ? ", where its branch ends at " + three_digits(*first->branch_end_hz) + " to " +
+                    three_digits(*last.branch_end_hz) + " Hz"
+              : "");
+}
+
+/// Predictions of responses use the line of the jump.
+std::string jump_line(const std::vector<LevelComparison>& levels) {
+  const bool jumps = std::ranges::any_of(
+      levels, [](const LevelComparison& level) { return level.branch_end_hz.has_value(); });
+  return jumps ? "A sweep may jump before its branch ends: the line of the jump is taken from the "
+                 "measurement, in held-out responses, too"
+               : "";
 }
 
 /// "damping 0.54 (0.53 .. 0.55) times the simulated value", "flow_lag: tau 0.002 s (...)". The
@@ -348,11 +361,13 @@ std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_line
   if (diagnosis.levels.empty()) lines.add(resonance_line(diagnosis));
   for (const auto direction : {signals::SweepDirection::up, signals::SweepDirection::down})
     lines.add(peaks_line(diagnosis.levels, direction));
+  lines.add(jump_line(diagnosis.levels));
   if (!diagnosis.ranking.empty()) {
     lines.add(materials_line(diagnosis.ranking.front()));
     if (diagnosis.ranking.front().held_out) {
       lines.add(held_out_line(*diagnosis.ranking.front().held_out));
-      lines.add(separation_line(diagnosis));
+      // Nobody separates a response.
+      if (diagnosis.levels.empty()) lines.add(separation_line(diagnosis));
     }
   }
   lines.add(others_line(diagnosis));

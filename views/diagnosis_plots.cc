@@ -175,8 +175,8 @@ report::Figure levels_figure(const diagnosis::Diagnosis& diagnosis) {
       .name = "response",
       .title = "Responses before and after correction",
       .caption =
-          "Amplitudes at the measured lines. Where several states are stable, a sweep stays "
-          "on its branch until it ends, or jumps at the line that fits it best."};
+          "Amplitudes at the measured lines. Where several states are stable, the corrected sweep "
+          "jumps at the line where the measured one does, as far as its branch exists there."};
   for (const auto direction : {signals::SweepDirection::up, signals::SweepDirection::down})
     if (report::Panel panel = level_panel(diagnosis, direction); !panel.curves.empty())
       figure.panels.push_back(std::move(panel));
@@ -299,6 +299,7 @@ report::Table level_table(const std::vector<diagnosis::LevelComparison>& levels)
                        {"simulated", "Hz", 5},
                        {"with correction", "Hz", 5},
                        {"correction - measured", "%", 2},
+                       {"its branch ends", "Hz", 5},
                        {"measured amplitude", "", 3},
                        {"with correction", "", 3}});
   for (const diagnosis::LevelComparison& level : levels)
@@ -306,7 +307,8 @@ report::Table level_table(const std::vector<diagnosis::LevelComparison>& levels)
                    level.held_out ? "no" : "yes", level.measured_peak.frequency_hz,
                    level.simulated_peak.frequency_hz, level.updated_peak.frequency_hz,
                    100. * (level.updated_peak.frequency_hz / level.measured_peak.frequency_hz - 1.),
-                   level.measured_peak.amplitude, level.updated_peak.amplitude});
+                   report::Cell(level.branch_end_hz), level.measured_peak.amplitude,
+                   level.updated_peak.amplitude});
   return table;
 }
 

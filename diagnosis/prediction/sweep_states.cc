@@ -138,13 +138,31 @@ void hold_ended_branches(const std::vector<double>& hz, const std::vector<std::s
   }
 }
 
-/// The states of the sweep by line, or nothing where a line has none.
-std::vector<PeriodicMotion> swept(const ResponseCurve& curve, const PreparedRecord& record) {
+/// The stable states of each line, or nothing where a line has none.
+std::vector<std::vector<PeriodicMotion>> states_of(const ResponseCurve& curve,
+                                                   const PreparedRecord& record) {
   std::vector<std::vector<PeriodicMotion>> states = curve.at(angular_frequencies(record));
   for (std::vector<PeriodicMotion>& at_line : states) {
     if (at_line.empty()) return {};
     at_line = stable(at_line);
   }
+  return states;
+}
+
+std::optional<double> last_of_several(const PreparedRecord& record,
+                                      const std::vector<std::vector<PeriodicMotion>>& states) {
+  const std::vector<std::size_t> order = sweep_order(record);
+  if (states.empty() || states[order.back()].size() > 1) return std::nullopt;
+  std::optional<double> out;
+  for (const std::size_t b : order)
+    if (states[b].size() > 1) out = record.sines.frequency_hz[b];
+  return out;
+}
+
+/// The states of the sweep by line.
+std::vector<PeriodicMotion> swept(const ResponseCurve& curve, const PreparedRecord& record,
+                                  std::vector<std::vector<PeriodicMotion>> states) {
+  if (states.empty()) return {};
   const std::vector<std::size_t> order = sweep_order(record);
   hold_ended_branches(record.sines.frequency_hz, order, states);
   Costs costs;
@@ -183,7 +201,9 @@ bool is_nonlinear_sweep(const Chain& chain, const PreparedRecord& record) {
 
 SweepStates::SweepStates(const Chain& chain, const PreparedRecord& record) : chain_(chain) {
   const ResponseCurve curve = curve_of(chain, record);
-  motions_ = swept(curve, record);
+  std::vector<std::vector<PeriodicMotion>> states = states_of(curve, record);
+  branch_end_hz_ = last_of_several(record, states);
+  motions_ = swept(curve, record, std::move(states));
   if (motions_.empty()) {
     readings_ = linear_readings(chain, record);
     return;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/model/chain.h"
@@ -27,6 +28,9 @@ class SweepStates {
 
   /// The reading [N m] at each line.
   const std::vector<Complex>& readings() const { return readings_; }
+  /// The last line with several stable states, in the order of the sweep [Hz]: a sweep that stays
+  /// on its branch jumps there. Nothing where all lines have one or the last has several.
+  std::optional<double> branch_end_hz() const { return branch_end_hz_; }
   /// The same on the same branches under a chain that hardly differs: with the motion's error E,
   /// y - (dE / dy)^-1 (E_changed(y) - E(y)).
   std::vector<Complex> readings_of(const Chain& changed, const PreparedRecord& record) const;
@@ -41,6 +45,7 @@ class SweepStates {
 
   Chain chain_;
   std::size_t highest_order_ = 1;
+  std::optional<double> branch_end_hz_{};
   std::vector<PeriodicMotion> motions_;  // empty where the curve has no state at each line
   std::vector<Complex> readings_;
   mutable std::once_flag is_linearised_{};

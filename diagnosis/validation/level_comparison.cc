@@ -33,6 +33,8 @@ LevelComparison compared(const PreparedRecord& record, const Chain& simulated,
   out.measured_peak = peak_of(record, out.measured);
   out.simulated_peak = peak_of(record, out.simulated);
   out.updated_peak = peak_of(record, out.updated);
+  if (is_nonlinear_sweep(updated, record))
+    out.branch_end_hz = SweepStates(updated, record).branch_end_hz();
   return out;
 }
 

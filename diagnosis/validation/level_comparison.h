@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct LevelComparison {
   /// Amplitudes of the moment [N m], of the rotation [rad] or of the deflection [m].
   std::vector<double> measured{}, simulated{}, updated{};
   ResponsePeak measured_peak{}, simulated_peak{}, updated_peak{};
+  /// Where the branch of the updated simulation ends: a sweep may jump before, as it was measured
+  /// to do (sweep_states.h).
+  std::optional<double> branch_end_hz{};
 };
 
 /// All responses of the fit and of the held-out records, in the order of rising level. experiment:

@@ -56,6 +56,23 @@ TEST(SweepStates, AreThoseOfAnIntegratedSweepInBothDirections) {
         0.01);
 }
 
+TEST(SweepStates, TheirBranchEndsWhereAnIntegratedSweepJumps) {
+  for (const auto direction : {SweepDirection::up, SweepDirection::down}) {
+    const auto sweep = oscillator().response("sweep", test::evenly(34., 66., 161), 1.5, direction);
+    const std::size_t n = sweep.value.size();
+    std::size_t jump = 1;  // the sweep jumps between this line and the one below it
+    const auto step = [&](const std::size_t i) {
+      return std::abs(std::abs(sweep.value[i]) - std::abs(sweep.value[i - 1]));
+    };
+    for (std::size_t i = 2; i < n; ++i)
+      if (step(i) > step(jump)) jump = i;
+    const double before = sweep.frequency_hz[direction == SweepDirection::up ? jump - 1 : jump];
+    const auto end = SweepStates(hardening(), prepare_response(sweep, 0)).branch_end_hz();
+    ASSERT_TRUE(end);
+    EXPECT_NEAR(*end, before, 0.01 * before);
+  }
+}
+
 TEST(SweepStates, FollowASweepThatJumpsBeforeItsBranchEnds) {
   const auto up = measured(SweepDirection::up), down = measured(SweepDirection::down);
   // The last ten lines with several states are taken from the lower branch.

@@ -73,5 +73,9 @@ TEST(LevelComparison, ThePeakOfAStiffeningSpringRisesWithTheLevel) {
             levels[0].measured_peak.frequency_hz + 2. * step_hz);
 }
 
+TEST(LevelComparison, ALinearSimulationHasNoBranchThatEnds) {
+  for (const LevelComparison& level : compared()) EXPECT_FALSE(level.branch_end_hz);
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis
