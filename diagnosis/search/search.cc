@@ -89,11 +89,16 @@ class Searcher {
       refine_parts(size);
       // A part that is fitted again may be a better one to extend.
       if (size > 1) fit_promising(extensions(size));
-      if (size == 1 && options_.ends_after_singles && options_.ends_after_singles(result()))
-        return result();
+      if (size == 1 && options_.ends_after_singles) {
+        SearchResult singles = ranked();
+        singles.fits = fits_;
+        if (options_.ends_after_singles(singles)) return singles;
+      }
     }
     settle_calibrations();
-    return result();
+    SearchResult result = ranked();
+    result.fits = std::move(fits_);
+    return result;
   }
 
  private:
@@ -364,8 +369,9 @@ class Searcher {
     return tasks;
   }
 
-  SearchResult result() const {
-    SearchResult out{.fits = fits_, .candidates = candidates(), .is_complete = !is_late()};
+  /// The answers so far, without their fits.
+  SearchResult ranked() const {
+    SearchResult out{.fits = {}, .candidates = candidates(), .is_complete = !is_late()};
     if (out.candidates.empty())
       throw signals::UserError("no answer has a finite likelihood: check the units of the records");
     set_probabilities(out);

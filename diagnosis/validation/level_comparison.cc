@@ -21,20 +21,20 @@ ResponsePeak peak_of(const PreparedRecord& record, const std::vector<double>& va
 
 LevelComparison compared(const PreparedRecord& record, const Chain& simulated,
                          const Chain& updated) {
+  const Prediction with_updated = simulate(updated, record);
   LevelComparison out{.name = record.name,
                       .direction = record.sines.direction,
                       .readout = record.readout,
                       .frequency_hz = record.sines.frequency_hz,
                       .measured = amplitudes(record, record.moment),
                       .simulated = amplitudes(record, simulate_mean(simulated, record)),
-                      .updated = amplitudes(record, simulate_mean(updated, record))};
+                      .updated = amplitudes(record, with_updated.mean)};
   for (const Complex& line : record.acceleration)
     out.level_m_s2 = std::max(out.level_m_s2, std::abs(line) / record.sines.per_amplitude);
   out.measured_peak = peak_of(record, out.measured);
   out.simulated_peak = peak_of(record, out.simulated);
   out.updated_peak = peak_of(record, out.updated);
-  if (is_nonlinear_sweep(updated, record))
-    out.branch_end_hz = SweepStates(updated, record).branch_end_hz();
+  if (with_updated.sweep) out.branch_end_hz = with_updated.sweep->branch_end_hz();
   return out;
 }
 
