@@ -328,6 +328,18 @@ bool is_recalibration(const std::string& answer) {
   });
 }
 
+/// What to know before one sets a calibration whose ratio may be 1.
+std::string doubt_about(const Diagnosis& diagnosis, const ParameterEstimate& ratio) {
+  if (ratio.ci95[0] > 1. || ratio.ci95[1] < 1.) return "";
+  std::vector<std::string> alike;
+  for (const std::vector<std::string>& set : diagnosis.indistinguishable)
+    if (std::ranges::count(set, ratio.effect) > 0)
+      for (const std::string& id : set)
+        if (id != ratio.effect && is_recalibration(id)) alike.push_back(quantity_of(id));
+  if (alike.empty()) return " (its interval includes 1: measure again before you change it)";
+  return " (or change " + joined(alike, " or ") + ": the records do not tell which one is off)";
+}
+
 std::string consequence(const Diagnosis& diagnosis) {
   std::vector<std::string> missing, settings;
   for (const std::string& id : effect_ids(diagnosis.verdict))
@@ -336,10 +348,7 @@ std::string consequence(const Diagnosis& diagnosis) {
     for (const ParameterEstimate& p : diagnosis.ranking.front().parameters)
       if (is_recalibration(p.effect) && p.name == "ratio")
         settings.push_back("set " + quantity_of(p.effect) + " to " + three_digits(p.value) +
-                           " times the simulated value" +
-                           (p.ci95[0] <= 1. && 1. <= p.ci95[1]
-                                ? " (its interval includes 1: measure again before you change it)"
-                                : ""));
+                           " times the simulated value" + doubt_about(diagnosis, p));
   const std::string values = settings.empty() ? "" : ": " + joined(settings, ", ");
   if (missing.empty()) return "The simulation needs recalibration" + values;
   return "The simulation lacks " + joined(missing, " and ") +

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ struct HypothesisFit {
   double log_evidence = -std::numeric_limits<double>::infinity();
   int n_iterations = 0;
   std::vector<FittedRecord> records;
+  /// 95 % intervals of the first parameters of calibration effects, in their coordinates, where
+  /// other calibrations may move in their place.
+  std::map<std::string, std::array<double, 2>> calibration_intervals{};
 
   /// Index of an effect's parameter among the fit's parameters.
   std::optional<std::size_t> index(const std::string& effect, std::size_t parameter) const;

@@ -9,7 +9,7 @@
 #include "diagnosis/model/words.h"
 #include "diagnosis/prediction/chain_simulation.h"
 #include "diagnosis/records/spectrum.h"
-#include "diagnosis/search/needless_calibrations.h"
+#include "diagnosis/search/calibration_posterior.h"
 
 namespace vibrissa::diagnosis {
 namespace {

@@ -12,7 +12,7 @@
 #include "diagnosis/model/parallel.h"
 #include "diagnosis/records/spectrum.h"
 #include "diagnosis/search/calibrated_odds.h"
-#include "diagnosis/search/needless_calibrations.h"
+#include "diagnosis/search/calibration_posterior.h"
 #include "diagnosis/search/resemblance.h"
 #include "signals/base/error.h"
 
@@ -186,11 +186,14 @@ class Searcher {
       if (posterior_of(i) > best_posterior() - still_hopeful_nats) hopeful.push_back(i);
     for_each_parallel(hopeful.size(), options_.n_threads, [&](std::size_t nth) {
       HypothesisFit& fit = fits_[hopeful[nth]];
+      auto intervals = calibration_intervals(fit, experiment_.simulation_accuracy);
       const std::vector<std::string> needless = needless_calibrations(fit);
-      if (needless.empty()) return;
-      HypothesisFit settled =
-          fit_hypothesis(experiment_, fit.hypothesis, &fit, {.nominal = needless});
-      if (settled.log_evidence > fit.log_evidence) fit = std::move(settled);
+      if (!needless.empty()) {
+        HypothesisFit settled =
+            fit_hypothesis(experiment_, fit.hypothesis, &fit, {.nominal = needless});
+        if (settled.log_evidence > fit.log_evidence) fit = std::move(settled);
+      }
+      fit.calibration_intervals = std::move(intervals);
       const std::lock_guard lock(mutex_);
       if (options_.on_fit) options_.on_fit();
     });

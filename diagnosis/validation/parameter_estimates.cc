@@ -81,6 +81,10 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
       const auto value = [&](double at) {
         return parameter.value(std::clamp(at, parameter.prior.low, parameter.prior.high));
       };
+      std::array<double, 2> ci95{x - half, x + half};
+      const auto wider = fit.calibration_intervals.find(id);
+      if (fit_parameter.parameter == 0 && wider != fit.calibration_intervals.end())
+        ci95 = {std::min(x, wider->second[0]), std::max(x, wider->second[1])};
       const double reach = 1e-6 * (parameter.prior.high - parameter.prior.low);
       out.push_back(
           {.effect = id,
@@ -88,7 +92,7 @@ std::vector<ParameterEstimate> parameter_estimates(const HypothesisFit& fit,
            .unit = parameter.unit,
            .relative_to = parameter.relative_to,
            .value = value(x),
-           .ci95 = {value(x - half), value(x + half)},
+           .ci95 = {value(ci95[0]), value(ci95[1])},
            .at_limit = x < parameter.prior.low + reach || x > parameter.prior.high - reach});
     }
   return out;

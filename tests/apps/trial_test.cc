@@ -198,6 +198,7 @@ TEST_F(WrittenTrial, LeavesCalibrationsOutOnSensorsAtADistance) {
   json off = answer("damping+delay+stiffness", 0.9);
   off["diagnosis"]["ranking"][0]["parameters"] = {
       {{"effect", "damping"}, {"name", "ratio"}, {"value", 0.62}, {"ci95", {0.55, 0.7}}},
+      {{"effect", "damping"}, {"name", "modal_share"}, {"value", 0.9}, {"ci95", {0.8, 1.}}},
       {{"effect", "stiffness"}, {"name", "ratio"}, {"value", 0.5}, {"ci95", {0.4, 0.6}}}};
   add("single", delay, off, far);
   add("single", delay, answer("damping+delay", 0.9), trial::Circumstances{});
@@ -215,6 +216,21 @@ TEST_F(WrittenTrial, LeavesCalibrationsOutOnSensorsAtADistance) {
   EXPECT_EQ(hits_and_number(classes.at("distance: as_paper"),
                             "calibrations, true value in the 95 % interval"),
             Pair(1, 1));
+}
+
+TEST_F(WrittenTrial, MultipliesACalibrationByTheEffectOfTheSameName) {
+  const json damping = {{{"id", "damping"}, {"size", 0.5}, {"limit", 0.1}}};  // 0.6 times 1.5
+  const auto with_interval = [](double low, double high) {
+    json out = answer("damping", 0.9);
+    out["diagnosis"]["ranking"][0]["parameters"] = {
+        {{"effect", "damping"}, {"name", "ratio"}, {"value", 0.9}, {"ci95", {low, high}}}};
+    return out;
+  };
+  add("single", damping, with_interval(0.85, 0.95), trial::Circumstances{});
+  add("single", damping, with_interval(0.55, 0.65), trial::Circumstances{});
+  const trial::TrialScore score = trial::score_trial(trial_, labels_);
+  const trial::Share& found = score.shares.at("calibrations, true value in the 95 % interval");
+  EXPECT_EQ(std::pair(found.hits, found.of), Pair(1, 2));
 }
 
 TEST_F(WrittenTrial, OfCompleteRecordsHasNoClasses) {

@@ -291,6 +291,11 @@ TEST(Diagnose, DoesNotSayWhichGainIsOffWithoutWind) {
   ASSERT_TRUE(diagnosis.verdict == "sensor_gain" || diagnosis.verdict == "reference_gain");
   EXPECT_THAT(diagnosis.indistinguishable,
               Contains(testing::UnorderedElementsAre("sensor_gain", "reference_gain")));
+  const ParameterEstimate& gain = diagnosis.ranking.front().parameters.front();
+  const double whole = gain.effect == "sensor_gain" ? 1.2 : 1. / 1.2;
+  EXPECT_LE(gain.ci95[0], std::min(1., whole));
+  EXPECT_GE(gain.ci95[1], std::max(1., whole));
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("the records do not tell which one is off"));
 }
 
 TEST(Diagnose, DiagnosesWindAlone) {

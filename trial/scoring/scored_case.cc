@@ -92,14 +92,19 @@ std::vector<double> parameter_errors(const json& answer, const json& effects) {
   return out;
 }
 
-/// Does the interval of each calibration that the answer lists hold its true value?
-std::vector<bool> calibrations_covered(const json& parameters, const json& truth) {
+/// Does the interval of each calibration's ratio that the answer lists hold its true value?
+std::vector<bool> calibrations_covered(const json& parameters, const json& truth,
+                                       const json& effects) {
   std::vector<bool> out;
   for (const json& p : parameters) {
     const std::string id = p.at("effect");
     // The modal stiffness ratio is not the ratio of the silicone's modulus.
-    if (!truth.contains(id) || id == "stiffness" || p.at("value").is_null()) continue;
-    const double value = truth.at(id);
+    if (!truth.contains(id) || id == "stiffness" || p.at("name") != "ratio" ||
+        p.at("value").is_null())
+      continue;
+    double value = truth.at(id);
+    for (const json& effect : effects)
+      if (effect.at("id") == id) value *= 1. + effect.at("size").get<double>();
     out.push_back(p.at("ci95")[0] <= value && value <= p.at("ci95")[1]);
   }
   return out;
@@ -219,8 +224,9 @@ ScoredCase score_case(const std::string& name, const json& label, const json& an
   out.seconds = answer.at("seconds");
   read_answer(out, as_version_2(answer.at("diagnosis")), effects);
   if (label.contains("calibrations"))
-    out.calibrations_covered = calibrations_covered(
-        answer.at("diagnosis").at("ranking").at(0).at("parameters"), label.at("calibrations"));
+    out.calibrations_covered =
+        calibrations_covered(answer.at("diagnosis").at("ranking").at(0).at("parameters"),
+                             label.at("calibrations"), effects);
   out.resolved_as_recommended = resolved(out, answer, "recommended");
   out.resolved_by_chance = resolved(out, answer, "by_chance");
   if (out.kind == CaseClass::wrong_metadata)
