@@ -19,12 +19,8 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_eff
 struct State {
   double weight, deviation;
 };
-constexpr std::array<State, 6> states{{{0.5, 0.},
-                                       {0.25, 0.869},
-                                       {0.125, 2.046},
-                                       {0.0625, 4.216},
-                                       {0.03125, 8.49},
-                                       {0.03125, 25.5}}};
+constexpr std::array<State, 6> states{
+    {{0.5, 0.}, {0.25, 0.869}, {0.125, 2.046}, {0.0625, 4.216}, {0.03125, 8.49}, {0.03125, 25.5}}};
 
 /// First parameters of the calibration effects of a fit, which decide whether they vanish.
 std::vector<Eigen::Index> deciding_parameters(const HypothesisFit& fit) {
@@ -48,8 +44,7 @@ struct Component {
 
 void keep_probable(std::vector<Component>& components) {
   constexpr double hopeless_nats = 14.;
-  const double most =
-      std::ranges::max_element(components, {}, &Component::log_weight)->log_weight;
+  const double most = std::ranges::max_element(components, {}, &Component::log_weight)->log_weight;
   for (Component& c : components) c.log_weight -= most;
   std::erase_if(components, [](const Component& c) { return c.log_weight < -hopeless_nats; });
 }
@@ -110,8 +105,7 @@ class CalibrationMixture {
     const Eigen::LLT<Matrix> llt(precision);
     const Vector pulled = total.asDiagonal() * linear_, z = llt.solve(pulled);
     const Matrix factor = llt.matrixL();
-    Component out{.log_weight =
-                      0.5 * pulled.dot(z) - factor.diagonal().array().log().sum(),
+    Component out{.log_weight = 0.5 * pulled.dot(z) - factor.diagonal().array().log().sum(),
                   .mean = Vector(size()),
                   .deviation = Vector(size())};
     const Matrix covariance = llt.solve(Matrix::Identity(size(), size()));

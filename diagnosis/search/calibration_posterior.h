@@ -19,7 +19,8 @@ namespace vibrissa::diagnosis {
 std::vector<std::string> needless_calibrations(const HypothesisFit& fit);
 
 /// Central 95 % interval of the first parameter of each effect, in its coordinate: of the sensor
-/// alone, where the simulation's own gain has this relative error (standard deviation) on each path.
+/// alone, where the simulation's own gain has this relative error (standard deviation) on each
+/// path.
 std::map<std::string, std::array<double, 2>> calibration_intervals(const HypothesisFit& fit,
                                                                    double simulation_accuracy);
 

@@ -295,7 +295,7 @@ TEST(Diagnose, DoesNotSayWhichGainIsOffWithoutWind) {
   const double whole = gain.effect == "sensor_gain" ? 1.2 : 1. / 1.2;
   EXPECT_LE(gain.ci95[0], std::min(1., whole));
   EXPECT_GE(gain.ci95[1], std::max(1., whole));
-  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("the records do not tell which one is off"));
+  EXPECT_THAT(verdict_text(diagnosis), HasSubstr("(or change "));
 }
 
 TEST(Diagnose, DiagnosesWindAlone) {

@@ -68,9 +68,9 @@ struct GainsOfBaseMotion {
   std::pair<HypothesisFit, double> draw(const Experiment& experiment, std::mt19937& random) const {
     HypothesisFit fit;
     for (FitParameter& parameter : make_fit_parameters(experiment, Hypothesis{}))
-      if (!parameter.nuisance || (parameter.parameter == 0 &&
-                                  (parameter.effect->id == "sensor_gain" ||
-                                   parameter.effect->id == "reference_gain")))
+      if (!parameter.nuisance ||
+          (parameter.parameter == 0 &&
+           (parameter.effect->id == "sensor_gain" || parameter.effect->id == "reference_gain")))
         fit.fit_parameters.push_back(parameter);
     const auto n = static_cast<Eigen::Index>(fit.fit_parameters.size());
     const auto sensor = static_cast<Eigen::Index>(*fit.index("sensor_gain", 0)),
