@@ -84,6 +84,24 @@ report::Table output_only_table(const separation::OutputOnlyIdentification& foun
   return table;
 }
 
+report::Table ring_down_table(const separation::RingDown& found) {
+  report::Table table({{"from", ""},
+                       {"amplitude", "N m", 3},
+                       {"frequency", "Hz", 6},
+                       {"± sd", "Hz", 2},
+                       {"damping ratio", "", 4},
+                       {"± sd", "", 2}});
+  const auto add = [&](const std::string& from, const std::vector<separation::DecayPoint>& points) {
+    for (const separation::DecayPoint& point : points)
+      table.add_row({from, point.amplitude_n_m, point.frequency_hz.value,
+                     point.frequency_hz.standard_deviation, point.damping_ratio.value,
+                     point.damping_ratio.standard_deviation});
+  };
+  add("law", found.fitted);
+  add("periods alone", found.measured);
+  return table;
+}
+
 std::string evidence_text(const separation::ModelEvidence& evidence) {
   return "poles [rad/s]: " + plane_text(evidence.poles_zeros.poles) +
          "\nzeros [rad/s]: " + plane_text(evidence.poles_zeros.zeros) +

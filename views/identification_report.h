@@ -3,6 +3,7 @@
 #include <string>
 
 #include "report/figures/table.h"
+#include "separation/ringdown/ring_down.h"
 #include "separation/verdict/identification_json.h"
 
 namespace vibrissa::views {
@@ -15,6 +16,9 @@ std::string verdict_text(const separation::FittedBvrm& fit, const separation::Ve
 
 /// One row per mode, and one row without damping for each undamped line.
 report::Table output_only_table(const separation::OutputOnlyIdentification& found);
+
+/// One row for each point: those of the fitted law, and those that were measured without a law.
+report::Table ring_down_table(const separation::RingDown& found);
 
 /// Poles, zeros and the residual test of the model, as text.
 std::string evidence_text(const separation::ModelEvidence& evidence);

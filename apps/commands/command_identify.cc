@@ -16,6 +16,7 @@
 #include "separation/model/sampled_bvrm.h"
 #include "separation/nonlinear/identify_nonlinear.h"
 #include "separation/nonlinear/nonlinear_c_header.h"
+#include "separation/ringdown/ring_down.h"
 #include "signals/base/error.h"
 #include "signals/files/response_file.h"
 #include "views/identification_report.h"
@@ -37,7 +38,7 @@ struct IdentifyCommandOptions {
   separation::IdentifyOptions identify;
   std::optional<std::string> hold;
   std::string method = "output-error";
-  bool no_direct_term = false, cross_validation = false, output_only = false;
+  bool no_direct_term = false, cross_validation = false, output_only = false, ring_down = false;
   bool nonlinear = false;
   std::optional<std::size_t> max_lags;
   bool frequency_response = false;
@@ -62,12 +63,11 @@ void say_written(const IdentifyCommandOptions& options, const std::optional<std:
   if (file && !options.common.quiet) std::cout << "model: " << *file << "\n";
 }
 
-void refuse_what_needs_an_input(const CLI::App& command) {
-  const std::string reason = "needs the base acceleration; --output-only does not use it";
+void refuse_what_needs_an_input(const CLI::App& command, const std::string& given) {
+  const std::string reason = "needs the base acceleration; " + given + " does not use it";
   refuse_given(command, options_of_records(), reason);
   refuse_given(command, {"-o", "--no-direct-term", "--frequency-response", "--response-as"},
                reason);
-  refuse_given(command, {"--max-order"}, "is not used by --output-only, whose highest is --order");
 }
 
 void refuse_what_needs_a_record(const CLI::App& command) {
@@ -113,7 +113,10 @@ void identify_from_response(const IdentifyCommandOptions& options) {
 }
 
 void identify_from_output(const IdentifyCommandOptions& options) {
-  refuse_what_needs_an_input(*options.command);
+  refuse_what_needs_an_input(*options.command, "--output-only");
+  refuse_given(*options.command, {"--ring-down"}, "and --output-only are two ways; give one");
+  refuse_given(*options.command, {"--max-order"},
+               "is not used by --output-only, whose highest is --order");
   const signals::Record record = options.record.read(options.record_file);
   separation::OutputOnlyOptions output_only;
   output_only.max_lags = options.max_lags;
@@ -125,6 +128,19 @@ void identify_from_output(const IdentifyCommandOptions& options) {
     return;
   }
   std::cout << views::output_only_table(found).to_text() << found.words << "\n";
+}
+
+void identify_from_decay(const IdentifyCommandOptions& options) {
+  refuse_what_needs_an_input(*options.command, "--ring-down");
+  refuse_given(*options.command, {"--order", "--max-order"}, "is not used by --ring-down");
+  const signals::Record record = options.record.read(options.record_file);
+  const auto found = separation::identify_ring_down(record.channel(signals::channel::base_moment),
+                                                    record.sampling_rate_hz());
+  if (options.common.json) {
+    print_json(separation::ring_down_json(found));
+    return;
+  }
+  std::cout << found.words << "\n" << views::ring_down_table(found).to_text();
 }
 
 void say_identified(const IdentifyCommandOptions& options, const separation::Identification& result,
@@ -149,11 +165,13 @@ void say_identified(const IdentifyCommandOptions& options, const separation::Ide
 void offer_output_only(const signals::Record& record, const std::string& file) {
   const std::string& input = signals::channel::base_acceleration;
   if (record.has(input) || !record.has(signals::channel::base_moment)) return;
-  throw signals::UserError(file + ": no column " + input +
-                           ": name it (--column 'base_acceleration=NAME[unit]'); if it was not "
-                           "measured, 'vibrissa identify " +
-                           file +
-                           " --output-only' gives resonances and damping from the moment alone");
+  throw signals::UserError(
+      file + ": no column " + input +
+      ": name it (--column 'base_acceleration=NAME[unit]'); if it was not "
+      "measured, 'vibrissa identify " +
+      file +
+      " --output-only' gives resonances and damping from the moment alone, and "
+      "--ring-down, after flicks or hits, gives them against the amplitude");
 }
 
 signals::Record read_checked(const IdentifyCommandOptions& options) {
@@ -227,6 +245,11 @@ void add_other_inputs(CLI::App& command, IdentifyCommandOptions& options) {
       "Gives resonances and damping from base_moment alone, after a hit or under an input that was "
       "not measured and is close to white noise; gives no gain and no model. --order is then the "
       "highest order tried (default 20); --max-order is not used");
+  command.add_flag(
+      "--ring-down", options.ring_down,
+      "The base_moment decays after flicks or hits: gives frequency and damping against the "
+      "amplitude, and the law of the damping (viscous, drag, friction); gives no gain and no "
+      "model");
   command
       .add_option("--lags", options.max_lags,
                   "For --output-only: half of the longest lag of the covariances [samples], which "
@@ -248,6 +271,8 @@ void identify_what_is_given(IdentifyCommandOptions options) {
   if (!options.response_as.empty()) options.frequency_response = true;
   if (options.output_only)
     identify_from_output(options);
+  else if (options.ring_down)
+    identify_from_decay(options);
   else if (options.frequency_response)
     identify_from_response(options);
   else if (options.nonlinear)
@@ -315,7 +340,8 @@ void add_identify_command(CLI::App& app) {
       "  vibrissa identify modal_test.uff --frequency-response --response-as '2[mN mm/g]'\n      "
       "(the second response of the file, in mN mm/g)\n"
       "  vibrissa identify loud.csv --nonlinear -o nonlinear.json\n"
-      "  vibrissa identify ring_down.csv --output-only");
+      "  vibrissa identify flick.csv --ring-down\n"
+      "  vibrissa identify bridge.csv --output-only");
   command->callback([options] { identify_what_is_given(*options); });
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <random>
 
 #include "separation/model/simulation.h"
@@ -199,6 +200,26 @@ TEST(Identify, FindsResonanceAndDampingWithoutAnyInputChannel) {
   EXPECT_THAT(found["words"].get<std::string>(), HasSubstr("no gain and no direct term"));
   const auto text = vibrissa("identify '" + record + "' --output-only");
   EXPECT_THAT(text.output, HasSubstr("damping ratio"));
+}
+
+TEST(Identify, GivesTheDampingOfADecayAgainstItsAmplitude) {
+  const Folder folder;
+  const std::string record = folder.file("flick.csv");
+  signals::Record moment_alone(500., 2000);
+  std::vector<double> moment(2000);
+  for (std::size_t i = 100; i < moment.size(); ++i) {
+    const double angle = 2. * std::numbers::pi * 31. * static_cast<double>(i - 100) / 500.;
+    moment[i] = 1e-4 * std::exp(-0.02 * angle) * std::sin(angle) + (i % 2 == 0 ? 1e-7 : -1e-7);
+  }
+  moment_alone.set_channel(signals::channel::base_moment, moment);
+  signals::write_record(record, moment_alone);
+  const json found = vibrissa("identify '" + record + "' --ring-down --json").json();
+  EXPECT_NEAR(found["law"]["frequency_hz"].get<double>(), 31. * std::hypot(1., 0.02), 0.01);
+  EXPECT_NEAR(found["fitted"].back()["damping_ratio"].get<double>(), 0.02, 2e-4);
+  EXPECT_EQ(found["damping_laws"], json({"viscous"}));
+  const auto text = vibrissa("identify '" + record + "' --ring-down");
+  EXPECT_THAT(text.output, HasSubstr("The damping is viscous"));
+  EXPECT_THAT(text.output, HasSubstr("periods alone"));
 }
 
 TEST(Identify, OffersTheOutputAloneWhereTheInputIsMissing) {

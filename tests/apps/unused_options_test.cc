@@ -70,6 +70,8 @@ TEST(UnusedOptions, OfModelsAndRecordsAreToldApart) {
       {"bode " + flow() + " --segment 500", "--segment", "is a model"},
       {"bode " + record + " --low 5", "--low", "is a record"},
       {"identify " + record + " --lags 5", "--lags", "--output-only"},
+      {"identify " + record + " --ring-down --order 2", "--order", "--ring-down"},
+      {"identify " + record + " --ring-down --output-only", "--ring-down", "two ways"},
       {"identify " + record + " --order 2 --max-order 4", "--max-order", "--order"},
       {"identify " + record + " --frequency-response --separator tab", "--separator", "records"},
       {"separate " + record + " --hold zero_order", "--hold", "--model"},

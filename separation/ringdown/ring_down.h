@@ -1,0 +1,45 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "separation/model/fitted_bvrm.h"
+#include "separation/ringdown/decay_fit.h"
+#include "separation/ringdown/decay_pieces.h"
+
+namespace vibrissa::separation {
+
+/// Resonance and damping at one amplitude of the base moment.
+struct DecayPoint {
+  double amplitude_n_m = 0.;
+  Estimate frequency_hz, damping_ratio;
+};
+
+/// A mode from its free decays.
+struct RingDown {
+  Decays decays;
+  FittedDecay fit;
+  /// Damped sines of a few periods each, one after the other: without any law.
+  std::vector<DecayPoint> measured;
+  /// Of the longest decay by the fitted law, from the largest to the smallest amplitude.
+  std::vector<DecayPoint> fitted;
+  EquivalentMode largest, smallest;       // shares of the damping at both ends
+  std::vector<std::string> damping_laws;  // of "viscous", "drag", "friction": 5 % or more
+  std::string words;
+};
+
+/// Frequency and damping of the strongest mode against amplitude, from a base moment [N m] that
+/// decays after hits or releases, and the law of its damping: viscous, drag (in proportion to the
+/// square of the speed), dry friction, with a cubic spring. A part enters the law where it lowers
+/// Schwarz's criterion (BIC, 1978) by 10 or more. Throws UserError as find_decays(). Proven by
+/// tests/separation/ringdown/ring_down_test.cc: twenty oscillators that another method integrates.
+RingDown identify_ring_down(std::span<const double> moment, double sampling_rate_hz);
+
+/// {"words", "damping_laws", "law": {"frequency_hz", ...}, "pieces", "measured", "fitted":
+/// [{"amplitude_n_m", "frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd"}]}.
+nlohmann::json ring_down_json(const RingDown& found);
+
+}  // namespace vibrissa::separation
