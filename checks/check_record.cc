@@ -165,7 +165,8 @@ RecordReport check_record(const signals::DatasetRecord& entry) {
   if (!entry.excitation.wind)
     find_missing(record, channel::base_acceleration,
                  "name it with its unit, as in --column 'base_acceleration=ax[g]'; without it, "
-                 "'vibrissa identify --output-only' gives resonances and damping alone",
+                 "'vibrissa identify --output-only' gives resonances and damping alone, and "
+                 "--ring-down, after flicks or hits, gives them against the amplitude",
                  report.findings);
   const std::vector<Finding> faults = recording_faults(entry);
   report.findings.insert(report.findings.end(), faults.begin(), faults.end());

@@ -98,7 +98,7 @@ report::Table ring_down_table(const separation::RingDown& found) {
                      point.damping_ratio.standard_deviation});
   };
   add("law", found.fitted);
-  add("periods alone", found.measured);
+  add("without a law", found.measured);
   return table;
 }
 

@@ -131,6 +131,8 @@ void identify_from_output(const IdentifyCommandOptions& options) {
 }
 
 void identify_from_decay(const IdentifyCommandOptions& options) {
+  refuse_given(*options.command, {"-o"},
+               "writes a model, and --ring-down has none; '--json > FILE' keeps the result");
   refuse_what_needs_an_input(*options.command, "--ring-down");
   refuse_given(*options.command, {"--order", "--max-order"}, "is not used by --ring-down");
   const signals::Record record = options.record.read(options.record_file);
@@ -140,7 +142,13 @@ void identify_from_decay(const IdentifyCommandOptions& options) {
     print_json(separation::ring_down_json(found));
     return;
   }
-  std::cout << found.words << "\n" << views::ring_down_table(found).to_text();
+  std::cout
+      << found.words << "\n"
+      << views::ring_down_table(found).to_text()
+      << "law: one law fitted to all samples; without a law: damped sines, a few periods each; "
+         "amplitude: peak of the moment; sd: standard deviation\n"
+         "drag: damping that grows with the speed squared; friction: sticks before it slips "
+         "(docs/nonlinear.md)\n";
 }
 
 void say_identified(const IdentifyCommandOptions& options, const separation::Identification& result,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
+#include <numbers>
 
 #include "signals/spectra/fft.h"
 
@@ -12,9 +14,10 @@ namespace vibrissa::separation {
 namespace {
 
 using Spans = std::span<const std::span<const double>>;
-/// Of each piece: moment, rate, offset, and with friction its state.
+/// Of each piece: moment, rate, offset, drift, and with friction its state.
+constexpr Eigen::Index n_moments = 4;
 Eigen::Index n_of_start(const LawParts& parts) {
-  return 3 + parts.friction;
+  return n_moments + parts.friction;
 }
 
 Eigen::VectorXd parameters_of(const DecayLaw& law, const LawParts& parts) {
@@ -50,8 +53,9 @@ class DecayProblem {
     const auto at = n_law() + n_of_start(parts_) * static_cast<Eigen::Index>(piece);
     return {.moment = unknowns[at],
             .rate = unknowns[at + 1],
-            .friction = parts_.friction ? std::tanh(unknowns[at + 3]) : 0.,
-            .offset = unknowns[at + 2]};
+            .friction = parts_.friction ? std::tanh(unknowns[at + n_moments]) : 0.,
+            .offset = unknowns[at + 2],
+            .drift = unknowns[at + 3]};
   }
 
   std::vector<double> error(const Eigen::VectorXd& unknowns, std::size_t piece) const {
@@ -83,7 +87,8 @@ class DecayProblem {
 
   double step_of(Eigen::Index i) const {
     constexpr double relative = 1e-6;
-    if (i >= n_law()) return relative * ((i - n_law()) % n_of_start(parts_) < 3 ? largest_ : 1.);
+    if (i >= n_law())
+      return relative * ((i - n_law()) % n_of_start(parts_) < n_moments ? largest_ : 1.);
     return parts_.cubic && i == 2 ? relative / (largest_ * largest_) : relative;
   }
 
@@ -191,9 +196,11 @@ FittedDecay fit_decay(const DecayLaw& law, const LawParts& parts, Spans pieces,
     const DecayStart first = first_state(law, pieces[p], sampling_rate_hz);
     const Eigen::Index at = n_law + n_start * static_cast<Eigen::Index>(p);
     start.segment(at, 3) << first.moment, first.rate, first.offset;
-    if (parts.friction) start[at + 3] = first.rate > 0. ? 1. : -1.;  // it slips that way
+    if (parts.friction) start[at + n_moments] = first.rate > 0. ? 1. : -1.;  // it slips that way
     n_samples += static_cast<double>(pieces[p].size());
   }
+  if (NormalEquations equations; !problem.linearise(start, equations))
+    return {.law = law, .parts = parts, .squares = std::numeric_limits<double>::infinity()};
   const LevenbergResult best = minimise(
       start, [&](const auto& x, auto& equations) { return problem.linearise(x, equations); },
       {.n_residuals = n_samples});

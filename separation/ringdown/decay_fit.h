@@ -20,19 +20,19 @@ struct FittedDecay {
   DecayLaw law;
   LawParts parts;
   std::vector<DecayStart> starts{};  // of each piece
-  Eigen::VectorXd parameters;        // of the law
+  Eigen::VectorXd parameters{};      // of the law
   Eigen::MatrixXd covariance{};      // of the parameters; empty where the decays do not tell them
   std::vector<std::vector<double>> errors{};  // measured minus fitted moment of each piece
-  double squares = 0.;                        // sum over all pieces
+  double squares = 0.;  // sum over all pieces; infinite where the law cannot be a start
   std::size_t n_unknowns = 0;
 };
 
 /// The law with other parameters.
 DecayLaw with_parameters(DecayLaw law, const LawParts& parts, const Eigen::VectorXd& parameters);
 
-/// Least squares over all samples of the pieces, each with a start and an offset of its own, by
-/// Levenberg and Marquardt from `law`. Deviations are for white noise, multiplied where the errors
-/// of the fit are larger near the mode's frequency than over the whole band. Proven by
+/// Least squares over all samples of the pieces, each with a start, an offset and its drift of its
+/// own, by Levenberg and Marquardt from `law`. Deviations are for white noise, multiplied where the
+/// errors of the fit are larger near the mode's frequency than over the whole band. Proven by
 /// tests/separation/ringdown/ring_down_test.cc.
 FittedDecay fit_decay(const DecayLaw& law, const LawParts& parts,
                       std::span<const std::span<const double>> pieces, double sampling_rate_hz);

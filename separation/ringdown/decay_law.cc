@@ -66,14 +66,15 @@ double friction_at_turn(const DecayLaw& law, const double amplitude) {
 
 std::vector<double> decay(const DecayLaw& law, const DecayStart& start, const std::size_t n,
                           const double sampling_rate_hz) {
-  constexpr double largest_step_rad = 0.1;  // frequency right to 1e-6
+  constexpr double largest_step_rad = 0.15;  // frequency right to 4e-6
   const double angle = 2. * std::numbers::pi * law.frequency_hz / sampling_rate_hz;
   const auto n_steps = static_cast<int>(std::ceil(angle / largest_step_rad));
   State state{.y = start.moment, .v = start.rate, .z = start.friction};
   std::vector<double> out;
   out.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
-    out.push_back(start.offset + total_moment(law, state.y, state.v, state.z));
+    const double part = static_cast<double>(i) / static_cast<double>(n);
+    out.push_back(start.offset + start.drift * part + total_moment(law, state.y, state.v, state.z));
     for (int k = 0; k < n_steps; ++k) advance(law, state, angle / n_steps);
   }
   return out;

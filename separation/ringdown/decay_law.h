@@ -31,6 +31,7 @@ struct DecayStart {
   double moment = 0., rate = 0.;  // y [N m] and y' / w [N m]
   double friction = 0.;           // z
   double offset = 0.;             // of the reading [N m]
+  double drift = 0.;              // of the offset over all samples [N m]
 };
 
 /// The reading at n samples, by the classical Runge-Kutta rule of fourth order, friction exactly

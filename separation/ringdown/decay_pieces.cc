@@ -14,13 +14,14 @@ namespace vibrissa::separation {
 
 namespace {
 
-/// Frequency of the largest line above a few periods of the record [Hz].
+/// Frequency of the largest line of the moment's rate, which shows steps and drift little [Hz].
 double strongest_line_hz(std::span<const double> moment, const double rate_hz) {
   constexpr std::size_t lowest_line = 5;
   const std::vector<std::complex<double>> lines = signals::real_fft(signals::remove_mean(moment));
   std::size_t best = lowest_line;
+  const auto rate = [&](std::size_t k) { return static_cast<double>(k) * std::abs(lines[k]); };
   for (std::size_t k = lowest_line; k < lines.size(); ++k)
-    if (std::norm(lines[k]) > std::norm(lines[best])) best = k;
+    if (rate(k) > rate(best)) best = k;
   return static_cast<double>(best) * rate_hz / static_cast<double>(moment.size());
 }
 
@@ -78,8 +79,9 @@ Decays find_decays(std::span<const double> moment, const double sampling_rate_hz
   if (out.pieces.empty())
     throw signals::UserError(
         "ring-down: no free decay was found: at " + std::to_string(out.frequency_hz) +
-        " Hz, the strongest line, the moment never falls to a third over five periods; record a "
-        "flick or a hit and the rest that follows, without motion of the base");
+        " Hz, the strongest line, the moment never falls to a third over at least five periods. If "
+        "the record ends before that, record longer; if it falls within fewer periods, identify "
+        "the sensor under base motion; if the line is hum or the base moves, remove that");
   return out;
 }
 

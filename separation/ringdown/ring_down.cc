@@ -11,6 +11,7 @@
 #include "signals/base/number_text.h"
 #include "signals/base/significant_digits.h"
 #include "signals/base/student.h"
+#include "signals/spectra/resample.h"
 
 namespace vibrissa::separation {
 
@@ -28,6 +29,7 @@ double period_samples(const DecayLaw& law, double rate_hz) {
 
 /// Schwarz's criterion.
 double criterion(const FittedDecay& fit) {
+  if (!std::isfinite(fit.squares)) return fit.squares;
   double n = 0.;
   for (const std::vector<double>& error : fit.errors) n += static_cast<double>(error.size());
   return n * std::log(fit.squares / n) + static_cast<double>(fit.n_unknowns) * std::log(n);
@@ -42,6 +44,10 @@ FittedDecay first_fit(const Decays& decays, const Pieces& pieces, double rate_hz
                                 pieces, rate_hz);
     if (!best || fit.squares < best->squares) best = std::move(fit);
   }
+  if (!std::isfinite(best->squares))
+    throw signals::UserError("ring-down: the strongest line, at " +
+                             std::to_string(decays.frequency_hz) +
+                             " Hz, is too near to half of the sampling rate");
   return std::move(*best);
 }
 
@@ -63,13 +69,11 @@ std::vector<DecayLaw> starts_with(const DecayLaw& law, const LawParts& part, dou
     out.push_back(start);
   }
   if (part.friction)
-    for (const auto& [slip, stick] : frictions)
-      for (const double reversal : {0., 1.}) {
-        start.slip = slip * largest;
-        start.stick_ratio = stick;
-        start.reversal = reversal;
-        out.push_back(start);
-      }
+    for (const auto& [slip, stick] : frictions) {
+      start.slip = slip * largest;
+      start.stick_ratio = stick;
+      out.push_back(start);
+    }
   return out;
 }
 
@@ -135,7 +139,7 @@ bool trim(const FittedDecay& fit, double rate_hz, Pieces& pieces) {
 using Period = std::array<double, 3>;
 std::vector<Period> periods_of(const DecayLaw& law, DecayStart start, double duration_s) {
   constexpr double samples_a_period = 100.;
-  start.offset = 0.;
+  start.offset = start.drift = 0.;
   const double rate_hz = samples_a_period * law.frequency_hz;
   const std::vector<double> x =
       decay(law, start, static_cast<std::size_t>(duration_s * rate_hz), rate_hz);
@@ -180,9 +184,14 @@ struct FittedCurve {
   }
 };
 
-/// Logarithms of amplitudes in equal steps over a decay; empty where it has less than two periods.
-std::vector<double> amplitudes_of(const FittedCurve& curve, const std::size_t n) {
-  const std::vector<Period> periods = curve.periods(curve.fit.parameters);
+/// Logarithms of amplitudes in equal steps over a decay, as far as they exceed the noise; empty
+/// where it has less than two periods.
+std::vector<double> amplitudes_of(const FittedCurve& curve, const double noise_rms,
+                                  const std::size_t n) {
+  constexpr double above_noise = 3.;
+  std::vector<Period> periods = curve.periods(curve.fit.parameters);
+  std::erase_if(
+      periods, [&](const Period& period) { return period[0] < std::log(above_noise * noise_rms); });
   std::vector<double> out;
   if (periods.size() < 2) return out;
   for (std::size_t k = 0; k < n; ++k)
@@ -233,6 +242,7 @@ FrictionForms compare_frictions(FittedDecay fit, const Pieces& pieces, double ra
   DecayLaw law = fit.law;
   law.reversal = 1. - law.reversal;
   FittedDecay other = fit_decay(law, fit.parts, pieces, rate_hz);
+  if (!std::isfinite(other.squares)) return {.fit = std::move(fit)};
   if (criterion(other) < criterion(fit)) std::swap(other, fit);
   const double better = criterion(other) - criterion(fit);
   return {std::move(fit), std::move(other), 1. / (1. + std::exp(0.5 * better))};
@@ -240,9 +250,9 @@ FrictionForms compare_frictions(FittedDecay fit, const Pieces& pieces, double ra
 
 /// Points of the better form; their deviations allow for the other one.
 std::vector<DecayPoint> points_of(const FrictionForms& forms, std::size_t piece, double duration_s,
-                                  std::size_t n) {
+                                  double noise_rms, std::size_t n) {
   const FittedCurve curve{forms.fit, piece, duration_s};
-  const std::vector<double> amplitudes = amplitudes_of(curve, n);
+  const std::vector<double> amplitudes = amplitudes_of(curve, noise_rms, n);
   std::vector<DecayPoint> out = points_of(curve, amplitudes);
   if (!forms.other) return out;
   const std::vector<DecayPoint> others =
@@ -275,7 +285,7 @@ std::vector<DecayPoint> measured_points(const RingDown& found, const Pieces& pie
                                         {}, {&window, 1}, rate_hz);
       if (fit.covariance.size() == 0) continue;
       const FittedCurve curve{fit, 0, static_cast<double>(n) / rate_hz};
-      const std::vector<DecayPoint> middle = points_of(curve, amplitudes_of(curve, 1));
+      const std::vector<DecayPoint> middle = points_of(curve, amplitudes_of(curve, 0., 1));
       if (middle.empty()) continue;
       const DecayPoint& point = middle.front();
       const bool is_told = point.frequency_hz.standard_deviation < 0.1 * fit.law.frequency_hz &&
@@ -286,10 +296,55 @@ std::vector<DecayPoint> measured_points(const RingDown& found, const Pieces& pie
   return out;
 }
 
-/// The piece with the largest range of amplitudes.
-std::size_t longest(const Pieces& pieces) {
-  const auto most = std::ranges::max_element(pieces, {}, &std::span<const double>::size);
-  return static_cast<std::size_t>(most - pieces.begin());
+/// At most so many samples are fitted, the first ones of all pieces.
+void shorten(Pieces& pieces) {
+  constexpr std::size_t most_samples = 12000, fewest_of_a_piece = 100;
+  std::size_t left = most_samples;
+  std::erase_if(pieces, [&](std::span<const double>& piece) {
+    if (piece.size() > left && left < fewest_of_a_piece) return true;
+    piece = piece.first(std::min(piece.size(), left));
+    left -= piece.size();
+    return false;
+  });
+}
+
+/// Damping of the points that were measured without a law less that of the law, in standard
+/// deviations (rms).
+double deviation_of_rows(const RingDown& found) {
+  double sum = 0.;
+  for (const DecayPoint& point : found.measured) {
+    const auto nearest = std::ranges::min_element(found.fitted, {}, [&](const DecayPoint& fitted) {
+      return std::abs(std::log(fitted.amplitude_n_m / point.amplitude_n_m));
+    });
+    sum += std::pow((point.damping_ratio.value - nearest->damping_ratio.value) /
+                        std::hypot(point.damping_ratio.standard_deviation,
+                                   nearest->damping_ratio.standard_deviation,
+                                   0.05 * nearest->damping_ratio.value),
+                    2);
+  }
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(found.measured.size(), 1)));
+}
+
+double rms_of(const FittedDecay& fit) {
+  double n = 0.;
+  for (const std::vector<double>& error : fit.errors) n += static_cast<double>(error.size());
+  return std::sqrt(fit.squares / n);
+}
+
+void refuse_what_is_no_decay(const FittedDecay& fit, const Pieces& pieces) {
+  constexpr double most_left = 0.5;  // of the power
+  double power = 0.;
+  for (const std::span<const double> piece : pieces)
+    for (const double value : signals::remove_mean(piece)) power += value * value;
+  if (fit.squares > most_left * power)
+    throw signals::UserError(
+        "ring-down: no decaying mode explains half of the moment behind its largest values; record "
+        "a flick or a hit and the rest that follows, without motion of the base");
+}
+
+std::size_t strongest_piece(const FittedDecay& fit) {
+  const auto most = std::ranges::max_element(fit.starts, {}, amplitude_of);
+  return static_cast<std::size_t>(most - fit.starts.begin());
 }
 
 std::string digits(double value, int n) {
@@ -306,16 +361,38 @@ std::string with_interval(const Estimate& estimate) {
   return digits(estimate.value, n) + " ± " + digits(half, 2);
 }
 
+std::string at_amplitude(const DecayPoint& point) {
+  return digits(point.amplitude_n_m, 3) + " N m: " + with_interval(point.frequency_hz) +
+         " Hz, damping ratio " + with_interval(point.damping_ratio);
+}
+
+std::string shares_of(const EquivalentMode& mode) {
+  std::string out;
+  for (const auto& [name, share] :
+       {std::pair("viscous", mode.viscous_share), std::pair("drag", mode.drag_share),
+        std::pair("friction", mode.friction_share)})
+    if (share >= 0.005)
+      out += (out.empty() ? "" : ", ") + std::string(name) + " " + digits(100. * share, 2) + " %";
+  return out;
+}
+
 std::string words_of(const RingDown& found) {
-  const DecayPoint &low = found.fitted.back(), &high = found.fitted.front();
   std::string laws;
   for (const std::string& law : found.damping_laws) laws += (laws.empty() ? "" : " and ") + law;
-  std::string out = "At the smallest amplitude, " + digits(low.amplitude_n_m, 3) +
-                    " N m: " + with_interval(low.frequency_hz) + " Hz, damping ratio " +
-                    with_interval(low.damping_ratio) + ". At the largest, " +
-                    digits(high.amplitude_n_m, 3) + " N m: " + with_interval(high.frequency_hz) +
-                    " Hz, " + with_interval(high.damping_ratio) +
-                    " (95 % intervals). The damping is " + laws + ".";
+  std::string out;
+  if (found.is_doubtful())
+    out = "Doubtful: the law leaves an error of " + digits(found.error_rms_n_m, 2) +
+          " N m (rms), the quietest part of the record has " + digits(found.decays.noise_rms, 2) +
+          " N m, and the rows without a law differ from it by " +
+          digits(found.deviation_of_rows, 2) +
+          " of their standard deviations (rms): another mode near by, a base that moves, or a law "
+          "that is not tried. The "
+          "intervals are too narrow; believe the rows without a law. ";
+  out += "At the largest amplitude that was fitted, " + at_amplitude(found.fitted.front()) +
+         "; at the smallest, " + at_amplitude(found.fitted.back()) +
+         " (95 % intervals). The damping is " + laws +
+         " (at the largest amplitude: " + shares_of(found.largest) +
+         "; at the smallest: " + shares_of(found.smallest) + ").";
   if (found.fit.parts.cubic)
     out += found.fit.law.cubic > 0. ? " The spring stiffens with the deflection."
                                     : " The spring softens with the deflection.";
@@ -336,32 +413,47 @@ std::vector<std::string> laws_of(const RingDown& found) {
 
 }  // namespace
 
+bool RingDown::is_doubtful() const {
+  constexpr double much = 2.;
+  return error_rms_n_m > much * decays.noise_rms || deviation_of_rows > much;
+}
+
 RingDown identify_ring_down(std::span<const double> moment, const double sampling_rate_hz) {
   constexpr int most_trims = 6;
   constexpr std::size_t n_points = 12;
   RingDown out;
   out.decays = find_decays(moment, sampling_rate_hz);
+  const std::vector<double> centred = signals::remove_mean(moment);
   Pieces pieces;
   for (const DecayPiece& piece : out.decays.pieces)
-    pieces.push_back(moment.subspan(piece.first, piece.end - piece.first));
-  for (int i = 0;; ++i) {
-    const LawGrowth growth(pieces, sampling_rate_hz);
-    out.fit = growth.grown(first_fit(out.decays, pieces, sampling_rate_hz));
-    if (i == most_trims || !trim(out.fit, sampling_rate_hz, pieces)) break;
+    pieces.push_back(std::span(centred).subspan(piece.first, piece.end - piece.first));
+  shorten(pieces);
+  const LawGrowth growth(pieces, sampling_rate_hz);
+  out.fit = growth.grown(first_fit(out.decays, pieces, sampling_rate_hz));
+  bool is_trimmed = false;
+  for (int i = 0; i < most_trims && trim(out.fit, sampling_rate_hz, pieces); ++i) {
+    is_trimmed = true;
+    FittedDecay again = fit_decay(out.fit.law, out.fit.parts, pieces, sampling_rate_hz);
+    if (!std::isfinite(again.squares)) break;
+    out.fit = std::move(again);
   }
-  const std::size_t piece = longest(pieces);
+  if (is_trimmed) out.fit = growth.grown(first_fit(out.decays, pieces, sampling_rate_hz));
+  refuse_what_is_no_decay(out.fit, pieces);
   FrictionForms forms = compare_frictions(std::move(out.fit), pieces, sampling_rate_hz);
+  const std::size_t piece = strongest_piece(forms.fit);
   out.fitted = points_of(forms, piece, static_cast<double>(pieces[piece].size()) / sampling_rate_hz,
-                         n_points);
+                         out.decays.noise_rms, n_points);
   out.fit = std::move(forms.fit);
   if (out.fitted.empty())
     throw signals::UserError(
         "ring-down: the fit of the decay swings for less than three periods; "
         "record a longer decay");
+  out.error_rms_n_m = rms_of(out.fit);
   out.largest = equivalent_mode(out.fit.law, out.fitted.front().amplitude_n_m);
   out.smallest = equivalent_mode(out.fit.law, out.fitted.back().amplitude_n_m);
   out.damping_laws = laws_of(out);
   out.measured = measured_points(out, pieces, sampling_rate_hz);
+  out.deviation_of_rows = deviation_of_rows(out);
   out.words = words_of(out);
   return out;
 }
@@ -382,6 +474,10 @@ nlohmann::json ring_down_json(const RingDown& found) {
     pieces.push_back({{"first_sample", piece.first}, {"end_sample", piece.end}});
   const DecayLaw& law = found.fit.law;
   return {{"words", found.words},
+          {"doubtful", found.is_doubtful()},
+          {"error_rms_n_m", found.error_rms_n_m},
+          {"noise_rms_n_m", found.decays.noise_rms},
+          {"deviation_of_rows", found.deviation_of_rows},
           {"damping_laws", found.damping_laws},
           {"law",
            {{"frequency_hz", law.frequency_hz},
