@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -32,6 +33,8 @@ struct DecayStart {
   double friction = 0.;           // z
   double offset = 0.;             // of the reading [N m]
   double drift = 0.;              // of the offset over all samples [N m]
+
+  double amplitude() const { return std::hypot(moment, rate); }
 };
 
 /// The reading at n samples, by the classical Runge-Kutta rule of fourth order, friction exactly

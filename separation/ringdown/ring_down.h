@@ -1,22 +1,14 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "separation/model/fitted_bvrm.h"
-#include "separation/ringdown/decay_fit.h"
+#include "separation/ringdown/decay_curve.h"
 #include "separation/ringdown/decay_pieces.h"
 
 namespace vibrissa::separation {
-
-/// Resonance and damping at one amplitude of the base moment.
-struct DecayPoint {
-  double amplitude_n_m = 0.;
-  Estimate frequency_hz, damping_ratio;
-};
 
 /// A mode from its free decays.
 struct RingDown {
@@ -46,6 +38,9 @@ struct RingDown {
 /// explains half of the moment. Proven by tests/separation/ringdown/ring_down_test.cc: twenty
 /// oscillators that another method integrates.
 RingDown identify_ring_down(std::span<const double> moment, double sampling_rate_hz);
+
+/// The answer in sentences.
+std::string words_of(const RingDown& found);
 
 /// {"words", "doubtful", "error_rms_n_m", "noise_rms_n_m", "deviation_of_rows",
 /// "damping_laws", "law": {"frequency_hz",

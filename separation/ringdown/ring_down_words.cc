@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "separation/ringdown/ring_down.h"
+#include "signals/base/number_text.h"
+#include "signals/base/significant_digits.h"
+#include "signals/base/student.h"
+
+namespace vibrissa::separation {
+
+namespace {
+
+std::string digits(double value, int n) {
+  return signals::to_text(signals::with_significant_digits(value, n));
+}
+
+std::string with_interval(const Estimate& estimate) {
+  const double half = signals::normal_quantile_975 * estimate.standard_deviation;
+  const int n =
+      half > 0.
+          ? std::clamp(1 + static_cast<int>(std::ceil(std::log10(std::abs(estimate.value) / half))),
+                       2, 8)
+          : 6;
+  return digits(estimate.value, n) + " ± " + digits(half, 2);
+}
+
+std::string at_amplitude(const DecayPoint& point) {
+  return digits(point.amplitude_n_m, 3) + " N m: " + with_interval(point.frequency_hz) +
+         " Hz, damping ratio " + with_interval(point.damping_ratio);
+}
+
+std::string shares_of(const EquivalentMode& mode) {
+  std::string out;
+  for (const auto& [name, share] :
+       {std::pair("viscous", mode.viscous_share), std::pair("drag", mode.drag_share),
+        std::pair("friction", mode.friction_share)})
+    if (share >= 0.005)
+      out += (out.empty() ? "" : ", ") + std::string(name) + " " + digits(100. * share, 2) + " %";
+  return out;
+}
+
+}  // namespace
+
+std::string words_of(const RingDown& found) {
+  std::string laws;
+  for (const std::string& law : found.damping_laws) laws += (laws.empty() ? "" : " and ") + law;
+  std::string out;
+  if (found.is_doubtful())
+    out = "Doubtful: the law leaves an error of " + digits(found.error_rms_n_m, 2) +
+          " N m (rms), the quietest part of the record has " + digits(found.decays.noise_rms, 2) +
+          " N m, and the rows without a law differ from it by " +
+          digits(found.deviation_of_rows, 2) +
+          " of their standard deviations (rms): another mode near by, a base that moves, or a law "
+          "that is not tried. The "
+          "intervals are too narrow; believe the rows without a law. ";
+  out += "At the largest amplitude that was fitted, " + at_amplitude(found.fitted.front()) +
+         "; at the smallest, " + at_amplitude(found.fitted.back()) +
+         " (95 % intervals). The damping is " + laws +
+         " (at the largest amplitude: " + shares_of(found.largest) +
+         "; at the smallest: " + shares_of(found.smallest) + ").";
+  if (found.fit.parts.cubic)
+    out += found.fit.law.cubic > 0. ? " The spring stiffens with the deflection."
+                                    : " The spring softens with the deflection.";
+  return out;
+}
+
+nlohmann::json ring_down_json(const RingDown& found) {
+  const auto points = [](const std::vector<DecayPoint>& list) {
+    nlohmann::json out = nlohmann::json::array();
+    for (const DecayPoint& point : list)
+      out.push_back({{"amplitude_n_m", point.amplitude_n_m},
+                     {"frequency_hz", point.frequency_hz.value},
+                     {"frequency_sd_hz", point.frequency_hz.standard_deviation},
+                     {"damping_ratio", point.damping_ratio.value},
+                     {"damping_sd", point.damping_ratio.standard_deviation}});
+    return out;
+  };
+  nlohmann::json pieces = nlohmann::json::array();
+  for (const DecayPiece& piece : found.decays.pieces)
+    pieces.push_back({{"first_sample", piece.first}, {"end_sample", piece.end}});
+  const DecayLaw& law = found.fit.law;
+  return {{"words", found.words},
+          {"doubtful", found.is_doubtful()},
+          {"error_rms_n_m", found.error_rms_n_m},
+          {"noise_rms_n_m", found.decays.noise_rms},
+          {"deviation_of_rows", found.deviation_of_rows},
+          {"damping_laws", found.damping_laws},
+          {"law",
+           {{"frequency_hz", law.frequency_hz},
+            {"damping_ratio", law.damping_ratio},
+            {"cubic_per_n_m2", law.cubic},
+            {"drag_per_n_m", law.drag},
+            {"slip_n_m", law.slip},
+            {"stick_ratio", law.stick_ratio}}},
+          {"pieces", pieces},
+          {"measured", points(found.measured)},
+          {"fitted", points(found.fitted)}};
+}
+
+}  // namespace vibrissa::separation
