@@ -21,12 +21,12 @@ struct FittedCurve {
   double duration_s = 0.;
 };
 
-/// Logarithms of amplitudes in equal steps over a decay, as far as they exceed three times the noise;
-/// empty where it has less than two periods.
+/// Logarithms of amplitudes in equal steps over a decay, as far as they exceed three times the
+/// noise; empty where it has less than two periods.
 std::vector<double> amplitudes_of(const FittedCurve& curve, double noise_rms, std::size_t n);
 
-/// Frequency and damping of the periods of the curve, by its maxima, at these amplitudes; deviations
-/// from the covariance of the fit.
+/// Frequency and damping of the periods of the curve, by its maxima, at these amplitudes;
+/// deviations from the covariance of the fit.
 std::vector<DecayPoint> points_of(const FittedCurve& curve,
                                   const std::vector<double>& log_amplitudes);
 

@@ -24,8 +24,7 @@ FittedDecay first_fit(double frequency_hz, const DecayMoments& pieces, double ra
     if (!best || fit.squares < best->squares) best = std::move(fit);
   }
   if (!std::isfinite(best->squares))
-    throw signals::UserError("ring-down: the strongest line, at " +
-                             std::to_string(frequency_hz) +
+    throw signals::UserError("ring-down: the strongest line, at " + std::to_string(frequency_hz) +
                              " Hz, is too near to half of the sampling rate");
   return std::move(*best);
 }
