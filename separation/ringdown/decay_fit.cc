@@ -47,10 +47,13 @@ class DecayProblem {
   }
 
   Eigen::Index n_law() const { return 2 + parts_.cubic + parts_.drag + 2 * parts_.friction; }
-  double largest_moment() const { return largest_; }
+  /// Index of the first unknown of a piece.
+  Eigen::Index first_of(std::size_t piece) const {
+    return n_law() + n_of_start(parts_) * static_cast<Eigen::Index>(piece);
+  }
 
   DecayStart start_of(const Eigen::VectorXd& unknowns, std::size_t piece) const {
-    const auto at = n_law() + n_of_start(parts_) * static_cast<Eigen::Index>(piece);
+    const Eigen::Index at = first_of(piece);
     return {.moment = unknowns[at],
             .rate = unknowns[at + 1],
             .friction = parts_.friction ? std::tanh(unknowns[at + n_moments]) : 0.,
@@ -98,8 +101,7 @@ class DecayProblem {
                  NormalEquations& equations) const {
     constexpr double usual = 2., noise = 1e-3;
     const double weight = std::pow(noise * largest_ / usual, 2);
-    const Eigen::Index i =
-        n_law() + n_of_start(parts_) * static_cast<Eigen::Index>(piece) + n_of_start(parts_) - 1;
+    const Eigen::Index i = first_of(piece) + n_moments;
     equations.matrix(i, i) += weight;
     equations.gradient[i] -= weight * unknowns[i];
     equations.cost += weight * unknowns[i] * unknowns[i];
@@ -109,8 +111,7 @@ class DecayProblem {
                  NormalEquations& equations) const {
     std::vector<Eigen::Index> columns;
     for (Eigen::Index i = 0; i < n_law(); ++i) columns.push_back(i);
-    for (Eigen::Index i = 0; i < n_of_start(parts_); ++i)
-      columns.push_back(n_law() + n_of_start(parts_) * static_cast<Eigen::Index>(piece) + i);
+    for (Eigen::Index i = 0; i < n_of_start(parts_); ++i) columns.push_back(first_of(piece) + i);
     const std::vector<double> here = error(unknowns, piece);
     const auto n = static_cast<Eigen::Index>(here.size());
     const Eigen::Map<const Eigen::VectorXd> e(here.data(), n);
@@ -170,6 +171,12 @@ double colour_at(const std::vector<std::vector<double>>& errors, double frequenc
 
 }  // namespace
 
+double FittedDecay::n_samples() const {
+  double n = 0.;
+  for (const std::vector<double>& error : errors) n += static_cast<double>(error.size());
+  return n;
+}
+
 DecayLaw with_parameters(DecayLaw law, const LawParts& parts, const Eigen::VectorXd& x) {
   law.frequency_hz = std::exp(x[0]);
   law.damping_ratio = std::exp(x[1]);
@@ -187,14 +194,12 @@ FittedDecay fit_decay(const DecayLaw& law, const LawParts& parts, Spans pieces,
                       const double sampling_rate_hz) {
   const DecayProblem problem(law, parts, pieces, sampling_rate_hz);
   const Eigen::Index n_law = problem.n_law();
-  const Eigen::Index n_start = n_of_start(parts);
-  Eigen::VectorXd start =
-      Eigen::VectorXd::Zero(n_law + n_start * static_cast<Eigen::Index>(pieces.size()));
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(problem.first_of(pieces.size()));
   start.head(n_law) = parameters_of(law, parts);
   double n_samples = 0.;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const DecayStart first = first_state(law, pieces[p], sampling_rate_hz);
-    const Eigen::Index at = n_law + n_start * static_cast<Eigen::Index>(p);
+    const Eigen::Index at = problem.first_of(p);
     start.segment(at, 3) << first.moment, first.rate, first.offset;
     if (parts.friction) start[at + n_moments] = first.rate > 0. ? 1. : -1.;  // it slips that way
     n_samples += static_cast<double>(pieces[p].size());

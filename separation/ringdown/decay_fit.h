@@ -25,6 +25,8 @@ struct FittedDecay {
   std::vector<std::vector<double>> errors{};  // measured minus fitted moment of each piece
   double squares = 0.;  // sum over all pieces; infinite where the law cannot be a start
   std::size_t n_unknowns = 0;
+
+  double n_samples() const;  // of all pieces
 };
 
 /// The law with other parameters.

@@ -128,8 +128,7 @@ void refuse_what_is_no_decay(const FittedDecay& fit, const DecayMoments& pieces)
 
 double criterion(const FittedDecay& fit) {
   if (!std::isfinite(fit.squares)) return fit.squares;
-  double n = 0.;
-  for (const std::vector<double>& error : fit.errors) n += static_cast<double>(error.size());
+  const double n = fit.n_samples();
   return n * std::log(fit.squares / n) + static_cast<double>(fit.n_unknowns) * std::log(n);
 }
 

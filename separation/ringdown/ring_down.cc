@@ -69,12 +69,6 @@ void shorten(DecayMoments& pieces) {
   });
 }
 
-double rms_of(const FittedDecay& fit) {
-  double n = 0.;
-  for (const std::vector<double>& error : fit.errors) n += static_cast<double>(error.size());
-  return std::sqrt(fit.squares / n);
-}
-
 std::size_t strongest_piece(const FittedDecay& fit) {
   const auto most = std::ranges::max_element(fit.starts, {}, &DecayStart::amplitude);
   return static_cast<std::size_t>(most - fit.starts.begin());
@@ -116,9 +110,9 @@ RingDown identify_ring_down(std::span<const double> moment, const double samplin
   out.fit = std::move(forms.fit);
   if (out.fitted.empty())
     throw signals::UserError(
-        "ring-down: the fit of the decay swings for less than three periods; "
-        "record a longer decay");
-  out.error_rms_n_m = rms_of(out.fit);
+        "ring-down: the fit of the decay swings for less than three periods; record a longer "
+        "decay");
+  out.error_rms_n_m = std::sqrt(out.fit.squares / out.fit.n_samples());
   out.largest = equivalent_mode(out.fit.law, out.fitted.front().amplitude_n_m);
   out.smallest = equivalent_mode(out.fit.law, out.fitted.back().amplitude_n_m);
   out.damping_laws = laws_of(out);

@@ -33,19 +33,18 @@ struct RingDown {
 /// Frequency and damping of the strongest mode against amplitude, from a base moment [N m] that
 /// decays after hits or releases, and the law of its damping: viscous, drag (in proportion to the
 /// square of the speed), dry friction, with a cubic spring. A part enters the law where it lowers
-/// Schwarz's criterion (BIC, 1978) by 10 or more. Of a long record
-/// 12 000 samples of the decays are fitted. Throws UserError as find_decays(), and where no mode
-/// explains half of the moment. Proven by tests/separation/ringdown/ring_down_test.cc: twenty
-/// oscillators that another method integrates.
+/// Schwarz's criterion (BIC, 1978) by 10 or more. Of a long record 12 000 samples of the decays are
+/// fitted. Throws UserError as find_decays(), and where no mode explains half of the moment. Proven
+/// by tests/separation/ringdown/ring_down_test.cc: twenty oscillators that another method
+/// integrates.
 RingDown identify_ring_down(std::span<const double> moment, double sampling_rate_hz);
 
 /// The answer in sentences.
 std::string words_of(const RingDown& found);
 
-/// {"words", "doubtful", "error_rms_n_m", "noise_rms_n_m", "deviation_of_rows",
-/// "damping_laws", "law": {"frequency_hz",
-/// ...}, "pieces", "measured", "fitted":
-/// [{"amplitude_n_m", "frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd"}]}.
+/// {"words", "doubtful", "error_rms_n_m", "noise_rms_n_m", "deviation_of_rows", "damping_laws",
+/// "law": {"frequency_hz", ...}, "pieces", "measured", "fitted": [{"amplitude_n_m",
+/// "frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd"}]}.
 nlohmann::json ring_down_json(const RingDown& found);
 
 }  // namespace vibrissa::separation

@@ -53,8 +53,7 @@ std::string words_of(const RingDown& found) {
           " N m, and the rows without a law differ from it by " +
           digits(found.deviation_of_rows, 2) +
           " of their standard deviations (rms): another mode near by, a base that moves, or a law "
-          "that is not tried. The "
-          "intervals are too narrow; believe the rows without a law. ";
+          "that is not tried. The intervals are too narrow; believe the rows without a law. ";
   out += "At the largest amplitude that was fitted, " + at_amplitude(found.fitted.front()) +
          "; at the smallest, " + at_amplitude(found.fitted.back()) +
          " (95 % intervals). The damping is " + laws +
