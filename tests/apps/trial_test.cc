@@ -227,7 +227,7 @@ TEST_F(WrittenTrial, MultipliesACalibrationByTheEffectOfTheSameName) {
     return out;
   };
   add("single", damping, with_interval(0.85, 0.95), trial::Circumstances{});
-  add("single", damping, with_interval(0.55, 0.65), trial::Circumstances{});
+  add("single", damping, with_interval(0.5, 0.58), trial::Circumstances{});
   const trial::TrialScore score = trial::score_trial(trial_, labels_);
   const trial::Share& found = score.shares.at("calibrations, true value in the 95 % interval");
   EXPECT_EQ(std::pair(found.hits, found.of), Pair(1, 2));
