@@ -199,7 +199,7 @@ class Identifier {
   }
 
   bool has_lasting_mode(const FittedBvrm& fit) const {
-    return !are_hits(segments_) && lasting_mode_hz(fit.model, n_samples_ / rate_);
+    return !are_hits(segments_) && !lasting_modes_hz(fit.model, n_samples_ / rate_).empty();
   }
 
   /// The model of the order asked for, fitted to the whole records; when that does not converge or
@@ -384,6 +384,8 @@ Identification identify_bvrm(std::span<const Record> fit_records, const Record& 
   const ModelStructure structure = identifier.structure_of(selected);
   Identification result;
   take(identifier.fit(selected.fit.model, structure), result);
+  for (const Record& record : fit_records)
+    result.duration_s = std::max(result.duration_s, record.duration_s());
   result.scored = result.fit.model;
   result.order_words = std::move(selected.words);
   result.hold = structure.hold;
@@ -426,6 +428,7 @@ Identification identify_record(const Record& record, const IdentifyOptions& opti
       result = std::move(delayed->result);
     }
   result.n_hits = hits_of(record.channel(channel::base_acceleration)).size();
+  result.duration_s = record.duration_s();
   const Identifier identifier(all, used);
   take(identifier.fit(result.fit.model, {result.hold, result.direct_term, result.viscous_term}),
        result);

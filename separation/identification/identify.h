@@ -65,6 +65,7 @@ struct Identification {
   /// followed the acceleration, and undone (delay_s of the model). See estimate_delay().
   std::optional<Estimate> found_delay_s;
   std::size_t n_hits = 0;  // of the record; 0: its input is no hit
+  double duration_s = 0.;  // of the longest record that the model was fitted to
 };
 
 /// A record divided in time into a part to fit and a part that only scores the model.

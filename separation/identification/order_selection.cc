@@ -15,7 +15,7 @@
 #include "separation/segments/hit_blocks.h"
 #include "separation/segments/whitener.h"
 #include "signals/base/error.h"
-#include "signals/base/number_text.h"
+#include "signals/base/significant_digits.h"
 #include "signals/spectra/fft.h"
 
 namespace vibrissa::separation {
@@ -131,8 +131,12 @@ class Growth {
   }
 
   bool hear(const FittedBvrm& fit, const OutputErrorOptions& fit_options) {
-    lasting_hz_ = are_hits_ ? std::nullopt : lasting_mode_hz(fit.model, duration_s_);
-    if (lasting_hz_ && !squares_.empty()) return false;
+    const std::vector<double> lasting_hz = lasting_modes_hz(fit.model, duration_s_);
+    if (squares_.empty()) n_lasting_ = lasting_hz.size();
+    if (!are_hits_ && lasting_hz.size() > n_lasting_) {
+      refused_hz_ = lasting_hz.front();
+      return false;
+    }
     squares_.push_back(squares(output_errors(fit.model, held_out_, rate_hz_, fit_options)));
     constexpr double significant = 2.;  // standard deviations
     if (mean_difference_significance(squares_[gained_], squares_.back()) > significant)
@@ -145,10 +149,9 @@ class Growth {
   bool still_gains() const { return gained_ + 1 == squares_.size() && gained_ > 0; }
 
   std::string words() const {
-    if (!lasting_hz_ || squares_.empty()) return {};
+    if (!refused_hz_) return {};
     return "; order " + std::to_string(2 * squares_.size() + 2) +
-           " was not considered, because its mode at " +
-           signals::to_text(std::round(10. * *lasting_hz_) / 10.) +
+           " was not considered, because its mode at " + signals::rounded(*refused_hz_, 3) +
            " Hz does not decay within the record";
   }
 
@@ -160,7 +163,9 @@ class Growth {
   double rounding_, duration_s_ = 0.;
   std::vector<std::vector<double>> squares_;  // of each order
   std::size_t gained_ = 0;                    // place of the last order that gained
-  std::optional<double> lasting_hz_;
+  /// Where the record is so short that the first mode lasts, further modes must decay.
+  std::size_t n_lasting_ = 0;
+  std::optional<double> refused_hz_;
 };
 
 /// The fits of rising order to one part, scored by another.
@@ -278,11 +283,11 @@ std::optional<signals::FrequencyResponse> response_to_hits(std::span<const Segme
 
 }  // namespace
 
-std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s) {
-  const auto lasting = std::ranges::find_if(
-      model.modes, [&](const ModalTerm& mode) { return 0.5 * mode.a1 * duration_s < 1.; });
-  if (lasting == model.modes.end()) return std::nullopt;
-  return lasting->frequency_hz();
+std::vector<double> lasting_modes_hz(const Bvrm& model, double duration_s) {
+  std::vector<double> lasting_hz;
+  for (const ModalTerm& mode : model.modes)
+    if (0.5 * mode.a1 * duration_s < 1.) lasting_hz.push_back(mode.frequency_hz());
+  return lasting_hz;
 }
 
 bool are_hits(std::span<const Segment> segments) {

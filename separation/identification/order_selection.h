@@ -31,10 +31,10 @@ std::vector<FittedBvrm> fit_orders(const signals::FrequencyResponse& response,
                                    const WantsNextOrder& wants_next = {},
                                    std::span<const FittedBvrm> further_starts = {});
 
-/// The frequency [Hz] of a mode that does not decay by a factor e within this time: it is near a
-/// line of the input and fits that line through the accelerometer noise. In a separator that starts
-/// at rest it would oscillate without end. Nothing: all modes decay.
-std::optional<double> lasting_mode_hz(const Bvrm& model, double duration_s);
+/// The frequencies [Hz] of the modes that do not decay by a factor e within this time: they are
+/// near a line of the input and fit that line through the accelerometer noise. In a separator that
+/// starts at rest they would oscillate without end.
+std::vector<double> lasting_modes_hz(const Bvrm& model, double duration_s);
 
 /// Whether each segment begins with one hit (hits_of()). A pulse has no lines that a mode could
 /// fit, and what rings after it tells a mode that lasts longer than the record.

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "separation/ringdown/ring_down.h"
-#include "signals/base/number_text.h"
 #include "signals/base/significant_digits.h"
 #include "signals/base/student.h"
 
@@ -12,9 +11,7 @@ namespace vibrissa::separation {
 
 namespace {
 
-std::string digits(double value, int n) {
-  return signals::to_text(signals::with_significant_digits(value, n));
-}
+using signals::rounded;
 
 std::string with_interval(const Estimate& estimate) {
   const double half = signals::normal_quantile_975 * estimate.standard_deviation;
@@ -23,11 +20,11 @@ std::string with_interval(const Estimate& estimate) {
           ? std::clamp(1 + static_cast<int>(std::ceil(std::log10(std::abs(estimate.value) / half))),
                        2, 8)
           : 6;
-  return digits(estimate.value, n) + " ± " + digits(half, 2);
+  return rounded(estimate.value, n) + " ± " + rounded(half, 2);
 }
 
 std::string at_amplitude(const DecayPoint& point) {
-  return digits(point.amplitude_n_m, 3) + " N m: " + with_interval(point.frequency_hz) +
+  return rounded(point.amplitude_n_m, 3) + " N m: " + with_interval(point.frequency_hz) +
          " Hz, damping ratio " + with_interval(point.damping_ratio);
 }
 
@@ -37,7 +34,7 @@ std::string shares_of(const EquivalentMode& mode) {
        {std::pair("viscous", mode.viscous_share), std::pair("drag", mode.drag_share),
         std::pair("friction", mode.friction_share)})
     if (share >= 0.005)
-      out += (out.empty() ? "" : ", ") + std::string(name) + " " + digits(100. * share, 2) + " %";
+      out += (out.empty() ? "" : ", ") + std::string(name) + " " + rounded(100. * share, 2) + " %";
   return out;
 }
 
@@ -48,10 +45,10 @@ std::string words_of(const RingDown& found) {
   for (const std::string& law : found.damping_laws) laws += (laws.empty() ? "" : " and ") + law;
   std::string out;
   if (found.is_doubtful())
-    out = "Doubtful: the law leaves an error of " + digits(found.error_rms_n_m, 2) +
-          " N m (rms), the quietest part of the record has " + digits(found.decays.noise_rms, 2) +
+    out = "Doubtful: the law leaves an error of " + rounded(found.error_rms_n_m, 2) +
+          " N m (rms), the quietest part of the record has " + rounded(found.decays.noise_rms, 2) +
           " N m, and the rows without a law differ from it by " +
-          digits(found.deviation_of_rows, 2) +
+          rounded(found.deviation_of_rows, 2) +
           " of their standard deviations (rms): another mode near by, a base that moves, or a law "
           "that is not tried. The intervals are too narrow; believe the rows without a law. ";
   out += "At the largest amplitude that was fitted, " + at_amplitude(found.fitted.front()) +

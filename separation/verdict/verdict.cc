@@ -3,24 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "separation/identification/order_selection.h"
 #include "separation/verdict/coherence.h"
 #include "separation/verdict/peak_phase.h"
+#include "signals/base/significant_digits.h"
 #include "signals/spectra/frequency_response.h"
 
 namespace vibrissa::separation {
 
 namespace {
 
-std::string rounded(double value, int digits) {
-  std::ostringstream text;
-  text.precision(digits);
-  text << value;
-  return text.str();
-}
+using signals::rounded;
 
 std::string hertz(double value) {
   return rounded(value, 4) + " Hz";
@@ -144,14 +139,14 @@ void set_frequencies_apart(const FittedBvrm& fit, const signals::FrequencyRespon
 Verdict judge(const Identification& identification, const signals::Record& fitted) {
   Verdict verdict;
   verdict.band = coherent_band(fitted);
-  const double duration_s = static_cast<double>(fitted.n_samples()) / fitted.sampling_rate_hz();
   const FittedBvrm& fit = identification.fit;
   sort_modes(
       fit,
       [&](std::size_t k) -> std::optional<std::string> {
         Bvrm alone;
         alone.modes = {fit.model.modes[k]};
-        if (identification.n_hits > 0 || !lasting_mode_hz(alone, duration_s)) return std::nullopt;
+        if (identification.n_hits > 0 || lasting_modes_hz(alone, identification.duration_s).empty())
+          return std::nullopt;
         return "it does not decay within the record";
       },
       verdict);

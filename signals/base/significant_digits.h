@@ -2,6 +2,9 @@
 
 #include <array>
 #include <charconv>
+#include <string>
+
+#include "signals/base/number_text.h"
 
 namespace vibrissa::signals {
 
@@ -15,6 +18,11 @@ inline double with_significant_digits(const double value, const int n_digits) {
   double rounded = value;
   std::from_chars(text.data(), end, rounded);
   return rounded;
+}
+
+/// Its text. Proven by tests/signals/base/significant_digits_test.cc.
+inline std::string rounded(const double value, const int n_digits) {
+  return to_text(with_significant_digits(value, n_digits));
 }
 
 }  // namespace vibrissa::signals

@@ -9,14 +9,6 @@
 #include "signals/spectra/uneven_resample.h"
 
 namespace vibrissa::signals {
-namespace {
-
-std::string three_digits(const double value) {
-  return to_text(with_significant_digits(value, 3));
-}
-
-}  // namespace
-
 std::vector<Record> resampled_records(const std::string& path, const Sources& sources,
                                       const std::vector<std::vector<double>>& values,
                                       const double rate_hz, std::optional<Clock>& clock) {
@@ -44,8 +36,8 @@ std::vector<Record> resampled_records(const std::string& path, const Sources& so
   }
   clock->words = "resampled to " + to_text(rate_hz) + " Hz from " +
                  std::to_string(values.back().size()) +
-                 " uneven stamps, as a signal without power above " + three_digits(even.band_hz) +
-                 " Hz; the expected error is " + three_digits(100. * even.error_share) +
+                 " uneven stamps, as a signal without power above " + rounded(even.band_hz, 3) +
+                 " Hz; the expected error is " + rounded(100. * even.error_share, 3) +
                  " % of a signal that fills this band";
   if (records.empty())
     throw UserError(path + ": no piece between gaps has " + std::to_string(least_samples) +

@@ -59,10 +59,6 @@ bool are_intervals(const std::vector<double>& times) {
   return *least > 0. && *least < *most && *most < 20. * usual && 8 * n_falls > times.size();
 }
 
-std::string rounded(const double value, const int n_digits) {
-  return to_text(with_significant_digits(value, n_digits));
-}
-
 std::string words_of(const Clock& clock, const std::size_t n_stamps, const std::string& column) {
   const int digits = std::clamp(
       int(std::log10(clock.sampling_rate_hz / std::max(clock.rate_error_hz, 1e-300))) + 2, 3, 9);

@@ -19,7 +19,7 @@ double peak_of(const std::span<const double> values) {
   return peak;
 }
 
-std::string rounded(const double value) {
+std::string to_four_decimals(const double value) {
   return to_text(std::round(value * 1e4) / 1e4);
 }
 
@@ -28,12 +28,12 @@ void check_acceleration(const std::string& name, const std::span<const double> v
   constexpr double gravity_band = 0.05, most_m_s2 = 2000.;
   const double mean = mean_of(values), peak = peak_of(values);
   if (std::abs(std::abs(mean) - 1.) < gravity_band)
-    remarks.push_back(name + " has a mean of " + rounded(mean) +
+    remarks.push_back(name + " has a mean of " + to_four_decimals(mean) +
                       " m/s2, which looks like gravity in g: give the column its unit, as in "
                       "--column 'base_acceleration=ax[g]'");
   if (peak > most_m_s2)
     remarks.push_back(
-        name + " reaches " + rounded(peak) +
+        name + " reaches " + to_four_decimals(peak) +
         " m/s2, which looks like mm/s2, mg or counts: give the column its unit, as in "
         "--column 'base_acceleration=ax[mg]'");
 }
@@ -45,8 +45,8 @@ std::vector<std::string> implausible_magnitudes(const Record& record) {
   std::vector<std::string> remarks;
   constexpr double slowest_hz = 2., longest_s = 600.;
   if (record.sampling_rate_hz() < slowest_hz && record.duration_s() > longest_s)
-    remarks.push_back("the record would last " + rounded(record.duration_s()) + " s at " +
-                      rounded(record.sampling_rate_hz()) +
+    remarks.push_back("the record would last " + to_four_decimals(record.duration_s()) + " s at " +
+                      to_four_decimals(record.sampling_rate_hz()) +
                       " Hz, so its time is probably in ms: give the time column its unit, as in "
                       "--column 'time=t[ms]'");
   for (const std::string& name : record.channel_names()) {
@@ -54,11 +54,11 @@ std::vector<std::string> implausible_magnitudes(const Record& record) {
     if (name.ends_with("_m_s2")) check_acceleration(name, values, remarks);
     const double peak = peak_of(values);
     if (name == channel::wind_speed && peak > fastest_wind_m_s)
-      remarks.push_back(name + " reaches " + rounded(peak) +
+      remarks.push_back(name + " reaches " + to_four_decimals(peak) +
                         " m/s: give the column its unit, as in --column 'wind_speed=v[km/h]'");
     if (name.ends_with("_N_m") && peak > most_moment_n_m)
       remarks.push_back(
-          name + " reaches " + rounded(peak) +
+          name + " reaches " + to_four_decimals(peak) +
           " N m, which looks like a smaller unit or the sensor's raw unit: give the column its "
           "unit, as in --column 'base_moment=M[mN mm]' or 'base_moment=B[uT]*0.18[N m/T]'");
   }

@@ -81,7 +81,7 @@ std::size_t worst_off_grid(const PrintedTimes& times, const double period) {
 
 // Without the rounding errors of a difference, for messages.
 std::string difference_text(const double difference_s) {
-  return to_text(with_significant_digits(difference_s, 6));
+  return rounded(difference_s, 6);
 }
 
 // When a period is about one unit of the last digit, rounding looks like a lost sample.

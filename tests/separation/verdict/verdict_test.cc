@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 #include "separation/model/simulation.h"
 #include "separation/verdict/identification_json.h"
 #include "tests/separation/moment_record.h"
@@ -48,6 +50,18 @@ TEST(Verdict, SaysForWhichBandAModelOfANoisySensorIsUsableAndHowGood) {
   EXPECT_GT(verdict.band.high_hz, 60.);
 }
 
+// 1.2 times the time in which the amplitude falls by e: the part that is not held out is shorter.
+TEST(Verdict, TellsAModeThatDecaysWithinTheWholeRecord) {
+  const double frequency_hz = 31., damping_ratio = 1e-3;
+  const Bvrm truth{.modes = {make_modal_term(frequency_hz, damping_ratio, 1e-6)}};
+  const auto n = static_cast<std::size_t>(1.2 * rate_hz /
+                                          (2. * std::numbers::pi * frequency_hz * damping_ratio));
+  const signals::Record record = noisy_record(test::white_noise(n, 3., 11), truth, 0.05, 12);
+  const Verdict verdict = judge(identify_record(record), record);
+  EXPECT_TRUE(verdict.usable);
+  EXPECT_EQ(verdict.determined.size(), 1u);
+}
+
 TEST(Verdict, CallsNoiseNotUsable) {
   const signals::Record record =
       make_record(test::white_noise(4000, 1., 3), test::white_noise(4000, 1., 4));
@@ -67,6 +81,7 @@ TEST(Verdict, SetsPolesApartThatTheDataDoNotTell) {
   const signals::Record record = noisy_record(slow_motion(8000, 7), test::sensor(1), 0.05, 8);
   Identification found;
   found.held_out_vaf_percent = 99.;
+  found.duration_s = record.duration_s();
   const auto reasons_of = [&](const ModalTerm& mode, double deviation) {
     found.fit = known_fit({make_modal_term(30., 0.02, 1e-6), mode}, deviation);
     const Verdict verdict = judge(found, record);

@@ -15,5 +15,11 @@ TEST(SignificantDigits, AreThoseOfTheNearestNumber) {
   EXPECT_TRUE(std::isnan(with_significant_digits(std::nan(""), 3)));
 }
 
+TEST(SignificantDigits, AreTheDigitsOfTheText) {
+  EXPECT_EQ(rounded(123456., 3), "123000");
+  EXPECT_EQ(rounded(0.1 + 0.2, 4), "0.3");
+  EXPECT_EQ(rounded(-1. / 3., 2), "-0.33");
+}
+
 }  // namespace
 }  // namespace vibrissa::signals
