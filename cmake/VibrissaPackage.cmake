@@ -38,7 +38,7 @@ vibrissa_install_licence(library ${CMAKE_INSTALL_DATADIR}/doc/libvibrissa-dev)
 if(VIBRISSA_SOLID)
   vibrissa_install_licence(program ${CMAKE_INSTALL_DOCDIR})
   install(TARGETS vibrissa COMPONENT program DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(TARGETS generate_trial observe_trial COMPONENT program
+  install(TARGETS vibrissa-solid generate_trial observe_trial COMPONENT program
           DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/vibrissa)
   install(TARGETS python_core python_solid COMPONENT program
           DESTINATION lib/python3/dist-packages/vibrissa)

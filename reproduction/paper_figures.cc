@@ -4,8 +4,8 @@
 
 #include "report/figures/table.h"
 #include "reproduction/paper_rig.h"
-#include "views/bode_data.h"
-#include "views/run_plots.h"
+#include "views/records/bode_data.h"
+#include "views/run/run_plots.h"
 
 namespace vibrissa::reproduction {
 

@@ -5,7 +5,7 @@
 
 #include "report/text/json_file.h"
 #include "reproduction/paper_figures.h"
-#include "views/separation_scores.h"
+#include "views/records/separation_scores.h"
 
 namespace vibrissa::reproduction {
 

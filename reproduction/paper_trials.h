@@ -7,7 +7,7 @@
 #include "case/rig.h"
 #include "reproduction/paper_sensors.h"
 #include "separation/identification/identify.h"
-#include "views/separation_scores.h"
+#include "views/records/separation_scores.h"
 
 namespace vibrissa::reproduction {
 

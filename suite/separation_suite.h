@@ -8,7 +8,7 @@
 #include "report/figures/figure.h"
 #include "report/figures/table.h"
 #include "suite/separation_scenarios.h"
-#include "views/separation_scores.h"
+#include "views/records/separation_scores.h"
 
 namespace vibrissa::suite {
 

@@ -4,14 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command_line/command.h"
+#include "apps/command_line/programs.h"
 #include "apps/command_line/record_options.h"
 #include "checks/report_json.h"
 #include "checks/report_text.h"
 #include "diagnosis/diagnosis.h"
 #include "report/files/run_folder.h"
-#include "report/pictures.h"
 #include "signals/base/error.h"
-#include "views/check_page.h"
+#include "views/records/check_page.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -39,7 +39,7 @@ void write_results(const CheckCommand& options, const std::vector<checks::CheckR
   folder.write_text("check.txt", text);
   for (const report::Figure& figure : views::check_plots(results))
     report::write_figure(folder.path(), figure);
-  const auto pictures = report::draw_pictures(folder.path());
+  const auto pictures = draw_pictures(folder.path());
   report::write_page(folder.path(), views::check_page(results));
   if (options.common.is_talkative())
     std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/command_line/command.h"
+#include "apps/command_line/programs.h"
 #include "apps/command_line/record_options.h"
 #include "apps/command_line/refused_options.h"
 #include "apps/commands/resonance_diagnosis.h"
@@ -12,11 +13,10 @@
 #include "diagnosis/model/updated_model.h"
 #include "diagnosis/planning/next_experiment.h"
 #include "report/files/run_folder.h"
-#include "report/pictures.h"
 #include "signals/base/error.h"
 #include "signals/system/progress.h"
-#include "views/diagnosis_page.h"
-#include "views/diagnosis_plots.h"
+#include "views/records/diagnosis_page.h"
+#include "views/records/diagnosis_plots.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -47,7 +47,7 @@ void write_results(const DiagnoseCommand& options, const diagnosis::Diagnosis& d
   folder.write_text("ranking.csv", views::ranking_table(diagnosis).to_csv());
   for (const report::Figure& figure : views::diagnosis_plots(diagnosis))
     report::write_figure(folder.path(), figure);
-  const auto pictures = report::draw_pictures(folder.path());
+  const auto pictures = draw_pictures(folder.path());
   report::write_page(folder.path(), views::diagnosis_page(diagnosis));
   if (!options.common.is_talkative()) return;
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";

@@ -1,9 +1,10 @@
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/command_line/command.h"
-#include "report/pictures.h"
+#include "apps/command_line/programs.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::apps {
@@ -19,15 +20,11 @@ nlohmann::json to_json(const report::PictureReport& pictures) {
 void draw(const std::string& folder, const CommonOptions& common) {
   if (!std::filesystem::is_directory(folder))
     throw signals::UserError(folder + ": this folder holds no results");
-  bool is_complete;
-  if (common.json || common.quiet) {
-    const report::PictureReport pictures = report::draw_pictures(folder);
-    is_complete = !pictures.made.empty() && pictures.problems.empty();
-    if (common.json) print_json(to_json(pictures));
-  } else {
-    is_complete = report::draw_folder(folder) == 0;
-  }
-  if (!is_complete) throw signals::UserError(folder + ": some plots could not be drawn");
+  const report::PictureReport pictures = draw_pictures(folder);
+  if (common.json) print_json(to_json(pictures));
+  if (common.is_talkative()) std::cout << pictures.message << std::endl;
+  if (pictures.made.empty() || !pictures.problems.empty())
+    throw signals::UserError(folder + ": some plots could not be drawn");
 }
 
 }  // namespace
@@ -36,7 +33,8 @@ void add_draw_command(CLI::App& app) {
   const auto folder = std::make_shared<std::string>();
   const auto common = std::make_shared<CommonOptions>();
   auto* command = app.add_subcommand(
-      "draw", "Draws the plots of a results folder again (needs a display, or xvfb-run)");
+      "draw",
+      "Draws the plots of a results folder again (shapes in 3-D need a display, or xvfb-run)");
   command->add_option("folder", *folder, "Results folder")->required();
   add_common_options(*command, *common);
   command->footer(

@@ -19,8 +19,8 @@
 #include "separation/ringdown/ring_down.h"
 #include "signals/base/error.h"
 #include "signals/files/response_file.h"
-#include "views/identification_report.h"
-#include "views/nonlinear_report.h"
+#include "views/records/identification_report.h"
+#include "views/records/nonlinear_report.h"
 
 namespace vibrissa::apps {
 

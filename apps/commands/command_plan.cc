@@ -4,16 +4,16 @@
 #include <numbers>
 
 #include "apps/command_line/command.h"
+#include "apps/command_line/programs.h"
 #include "apps/command_line/refused_options.h"
 #include "apps/jobs/nominal_input.h"
 #include "diagnosis/planning/experiment_plan.h"
 #include "report/files/run_folder.h"
-#include "report/pictures.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
 #include "signals/files/dataset.h"
 #include "signals/system/progress.h"
-#include "views/plan_plots.h"
+#include "views/records/plan_plots.h"
 
 namespace vibrissa::apps {
 namespace {
@@ -64,7 +64,7 @@ void write_results(const PlanCommand& options, const diagnosis::ExperimentPlan& 
   folder.write_text("plan.txt", diagnosis::plan_text(plan));
   folder.write_text("detection_limits.csv", views::limits_table(plan).to_csv());
   report::write_figure(folder.path(), views::plan_figure(plan));
-  const auto pictures = report::draw_pictures(folder.path());
+  const auto pictures = draw_pictures(folder.path());
   if (!options.common.is_talkative()) return;
   std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }

@@ -24,7 +24,7 @@
 #include "signals/files/record_io.h"
 #include "signals/model/reduced_model.h"
 #include "signals/system/output_file.h"
-#include "views/separation_scores.h"
+#include "views/records/separation_scores.h"
 
 namespace vibrissa::apps {
 

@@ -8,7 +8,7 @@
 #include "report/files/run_folder.h"
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
-#include "views/diagnosis_page.h"
+#include "views/records/diagnosis_page.h"
 
 namespace vibrissa::apps {
 namespace {

@@ -8,7 +8,7 @@
 #include "report/figures/table.h"
 #include "signals/record/record.h"
 #include "signals/spectra/best_linear_approximation.h"
-#include "views/bode_data.h"
+#include "views/records/bode_data.h"
 
 namespace vibrissa::apps {
 

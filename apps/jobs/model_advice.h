@@ -6,7 +6,7 @@
 
 #include "separation/model/fitted_bvrm.h"
 #include "signals/record/record.h"
-#include "views/separation_scores.h"
+#include "views/records/separation_scores.h"
 
 namespace vibrissa::apps {
 

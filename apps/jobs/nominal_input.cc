@@ -2,24 +2,18 @@
 
 #include <exception>
 #include <filesystem>
+#include <utility>
 
-#include "case/case_file.h"
-#include "case/rig.h"
-#include "case/sensor_model.h"
 #include "diagnosis/model/updated_model.h"
 #include "diagnosis/nominal/nominal_identification.h"
-#include "fem/linalg/solver_session.h"
 #include "signals/base/error.h"
 
 namespace vibrissa::apps {
 namespace {
 
-signals::ReducedModel solve_case(const std::string& file, bool show_progress) {
-  const sensor_case::Case parameters = sensor_case::CaseFile(file).read();
-  sensor_case::refuse_gravity(parameters, "the reduced model");
-  const fem::SolverSession session;
-  return sensor_case::make_reduced_model(fem::Sensor(parameters.sensor), parameters.sensor,
-                                         show_progress);
+CaseSolver& case_solver() {
+  static CaseSolver solver;
+  return solver;
 }
 
 // The error of the names in the file itself is the one that is said.
@@ -42,13 +36,17 @@ signals::Dataset read_simulated(const std::string& source, const signals::ReadOp
 
 }  // namespace
 
+void set_case_solver(CaseSolver solver) {
+  case_solver() = std::move(solver);
+}
+
 double NominalInput::Simulation::sampling_rate_hz() const {
   return dataset.records.empty() ? 0. : dataset.records.front().record.sampling_rate_hz();
 }
 
 signals::ReducedModel NominalInput::read_model(const bool show_progress) const {
   const bool is_case = std::filesystem::path(*model).extension() == ".prm";
-  return is_case ? solve_case(*model, show_progress) : signals::read_reduced_model(*model);
+  return is_case ? case_solver()(*model, show_progress) : signals::read_reduced_model(*model);
 }
 
 void NominalInput::check_one_is_given() const {

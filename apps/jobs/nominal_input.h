@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -8,6 +9,12 @@
 #include "signals/model/reduced_model.h"
 
 namespace vibrissa::apps {
+
+/// The reduced model of a case file, by solving the solid. Programs that cannot solve one never
+/// meet a case file.
+using CaseSolver =
+    std::function<signals::ReducedModel(const std::string& file, bool show_progress)>;
+void set_case_solver(CaseSolver solver);
 
 /// How a command takes the simulation: as a model or as records.
 struct NominalInput {

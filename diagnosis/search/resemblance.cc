@@ -1,6 +1,7 @@
 #include "diagnosis/search/resemblance.h"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 
 #include "diagnosis/prediction/chain_simulation.h"
@@ -43,18 +44,12 @@ struct Overlap {
     }
     return sum;
   }
-  /// The multiple with the largest gain, by golden-section search in its logarithm.
+  /// The multiple with the largest gain, by a search in its logarithm.
   double best_multiple() const {
-    constexpr double golden = 0.6180339887, orders = 14., enough = 1e-2;
-    double low = -orders, high = orders;
-    while (high - low > enough) {
-      const double a = high - golden * (high - low), b = low + golden * (high - low);
-      if (of_noise(std::exp(a)) < of_noise(std::exp(b)))
-        low = a;
-      else
-        high = b;
-    }
-    return std::exp(0.5 * (low + high));
+    constexpr double orders = 14.;
+    constexpr int digits = 10;  // binary, of the logarithm
+    const auto loss = [&](double log_multiple) { return -of_noise(std::exp(log_multiple)); };
+    return std::exp(boost::math::tools::brent_find_minima(loss, -orders, orders, digits).first);
   }
 };
 
@@ -150,10 +145,10 @@ struct FitResidual::State {
     const Eigen::VectorXcd weighed = discrepancy.apply_inverse(change);
     out.cross = weighed.dot(error).real();
     out.residual = residual;
-    Eigen::VectorXd along = Eigen::VectorXd::Zero(columns.cols());
-    for (row = 0; row < weighed.size(); ++row)
-      along += weighed(row).real() * columns.row(2 * row).transpose() +
-               weighed(row).imag() * columns.row(2 * row + 1).transpose();
+    // Real and imaginary parts are rows of the columns.
+    const Eigen::Map<const Eigen::VectorXd> parts(reinterpret_cast<const double*>(weighed.data()),
+                                                  2 * weighed.size());
+    const Eigen::VectorXd along = columns.transpose() * parts;
     // The information is twice the Gram matrix of the columns.
     const double whole = weighed.dot(change).real();
     out.own = std::max(whole - 2. * along.dot(covariance * along), 1e-9 * whole);

@@ -130,12 +130,18 @@ class Searcher {
   }
   bool is_late() const { return std::chrono::steady_clock::now() > end(); }
 
+  /// The first fit is made however long it takes.
+  FitOptions fit_options() const {
+    FitOptions options{.to_beat = best_log_posterior_};
+    if (!fits_.front().records.empty()) options.ends_at = end();
+    return options;
+  }
+
   void fit_all(const std::vector<Task>& tasks) {
     const std::size_t first = fits_.size();
     fits_.resize(first + tasks.size());
     // Set before any fit runs, so that the result does not depend on the order of the threads.
-    FitOptions options{.to_beat = best_log_posterior_};
-    if (!fits_.front().records.empty()) options.ends_at = end();
+    const FitOptions options = fit_options();
     const std::vector<std::size_t> order = longest_first(tasks);
     for_each_parallel(tasks.size(), options_.n_threads, [&](std::size_t nth) {
       const std::size_t i = order[nth];
@@ -230,8 +236,9 @@ class Searcher {
           again.emplace_back(part, base);
       }
     std::vector<HypothesisFit> refined(again.size());
+    const FitOptions options = fit_options();
     for_each_parallel(again.size(), options_.n_threads, [&](std::size_t i) {
-      refined[i] = fit_hypothesis(experiment_, again[i].first, &fits_[again[i].second]);
+      refined[i] = fit_hypothesis(experiment_, again[i].first, &fits_[again[i].second], options);
       const std::lock_guard lock(mutex_);
       if (options_.on_fit) options_.on_fit();
     });

@@ -1,35 +1,19 @@
 #include "report/drawing/draw.h"
 
-#include <vtkAxis.h>
-#include <vtkBrush.h>
-#include <vtkChartXY.h>
-#include <vtkContextActor.h>
-#include <vtkContextScene.h>
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
-#include <vtkPlotPoints.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
-#include <vtkTable.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "report/drawing/band_painter.h"
-#include "report/drawing/clip.h"
-#include "report/drawing/dashes.h"
 #include "report/drawing/lettering.h"
 #include "report/drawing/page_layout.h"
-#include "report/drawing/page_painter.h"
-#include "report/drawing/picture_file.h"
 #include "report/figures/envelope.h"
 
 namespace vibrissa::report {
 namespace {
 
-/// The charts plot pixels, because scaled axes would distort pens in SVG files, and because single
-/// precision would lose a small change on a large value.
+constexpr Colour grid_colour = {221, 221, 221}, fine_grid_colour = {240, 240, 240};
+constexpr Colour frame_colour = {110, 110, 110};
+
 std::vector<double> pixels(const Axis& axis, const std::vector<double>& values, const double start,
                            const double length) {
   std::vector<double> result;
@@ -38,142 +22,152 @@ std::vector<double> pixels(const Axis& axis, const std::vector<double>& values, 
     result.push_back(start + length * axis.part(axis.on_paper(value)));
   return result;
 }
-std::vector<double> x_pixels(const PanelLayout& placed, const std::vector<double>& values) {
-  return pixels(placed.x, values, placed.plot.left, placed.plot.width);
-}
-std::vector<double> y_pixels(const PanelLayout& placed, const std::vector<double>& values) {
-  return pixels(placed.y, values, placed.plot.bottom, placed.plot.height);
-}
-Range x_window(const Box& plot) {
-  return {plot.left, plot.right()};
-}
-Range y_window(const Box& plot) {
-  return {plot.bottom, plot.top()};
+
+/// The middle of a pixel, because a thin line between two pixels would be wide and pale.
+double middle(const double pixel) {
+  return std::floor(pixel) + 0.5;
 }
 
-void add_column(vtkTable& table, const char* name, const std::vector<double>& values) {
-  vtkNew<vtkDoubleArray> column;
-  column->SetName(name);
-  column->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), column->GetPointer(0));
-  table.AddColumn(column);
-}
+/// Draws one panel without its texts.
+class PanelPainter {
+ public:
+  PanelPainter(Canvas& canvas, const Strokes& strokes, const Panel& panel,
+               const PanelLayout& placed)
+      : canvas_(canvas),
+        strokes_(strokes),
+        panel_(panel),
+        placed_(placed),
+        left_(middle(placed.plot.left)),
+        right_(middle(placed.plot.right())),
+        bottom_(middle(placed.plot.bottom)),
+        top_(middle(placed.plot.top())) {}
 
-/// The visible part of a line or of points. A value without x becomes a gap.
-Polyline visible(const Curve& curve, const PanelLayout& placed, const Strokes& strokes) {
-  Polyline line{x_pixels(placed, curve.x), y_pixels(placed, curve.y)};
-  for (std::size_t i = 0; i < line.x.size(); ++i)
-    if (!std::isfinite(line.x[i])) line.y[i] = std::numeric_limits<double>::quiet_NaN();
-  const Range x = x_window(placed.plot), y = y_window(placed.plot);
-  const bool many = line.x.size() > many_points;
-  const auto n_columns = static_cast<std::size_t>(placed.plot.width);
-  const auto n_rows = static_cast<std::size_t>(placed.plot.height);
-  if (curve.style == CurveStyle::points)
-    return many ? one_point_a_pixel(line, x, y, n_columns, n_rows) : clip_points(line, x, y);
-  line = clip_line(many ? envelope(line, x, n_columns) : line, x, y);
-  return curve.style == CurveStyle::dashed ? dashes(line, strokes.dash, strokes.dash_space) : line;
-}
-
-void add_line(vtkChartXY& chart, const Panel& panel, const std::size_t c, const PanelLayout& placed,
-              const Strokes& strokes) {
-  const Curve& curve = panel.curves[c];
-  const Polyline line = visible(curve, placed, strokes);
-  if (line.x.empty()) return;
-  vtkNew<vtkTable> table;
-  add_column(*table, "x", line.x);
-  add_column(*table, "y", line.y);
-  const bool points = curve.style == CurveStyle::points;
-  vtkPlot* plot = chart.AddPlot(points ? vtkChart::POINTS : vtkChart::LINE);
-  plot->SetInputData(table, 0, 1);
-  const Colour colour = palette_colour(colour_number(panel, c));
-  plot->SetColor(colour[0], colour[1], colour[2], 255);
-  const bool fine = curve.style == CurveStyle::line && curve.x.size() > many_points;
-  plot->SetWidth(static_cast<float>(fine ? strokes.fine_line : strokes.line));
-  if (!points) return;
-  auto* marked = vtkPlotPoints::SafeDownCast(plot);
-  marked->SetMarkerStyle(vtkPlotPoints::CIRCLE);
-  marked->SetMarkerSize(static_cast<float>(strokes.point));
-}
-
-void add_bands(BandPainter& painter, const Panel& panel, const PanelLayout& placed) {
-  const Range window = x_window(placed.plot);
-  for (std::size_t c = 0; c < panel.curves.size(); ++c) {
-    const Curve& curve = panel.curves[c];
-    if (curve.style != CurveStyle::band) continue;
-    Band band{x_pixels(placed, curve.x), y_pixels(placed, curve.y_low),
-              y_pixels(placed, curve.y_high)};
-    if (band.x.size() > many_points)
-      band = band_envelope(band, window, static_cast<std::size_t>(placed.plot.width));
-    painter.add(clip_band(band, window, y_window(placed.plot)),
-                tint(palette_colour(colour_number(panel, c)), band_tint));
+  void paint() {
+    paint_grid(true);
+    paint_grid(false);
+    {
+      const Canvas::Clip inside(canvas_, placed_.plot);
+      for (std::size_t c = 0; c < panel_.curves.size(); ++c)
+        if (panel_.curves[c].style == CurveStyle::band) paint_band(c);
+      for (std::size_t c = 0; c < panel_.curves.size(); ++c)
+        if (panel_.curves[c].style != CurveStyle::band) paint_curve(c);
+    }
+    paint_frame();
+    for (const LegendSample& sample : placed_.legend) paint_sample(sample);
   }
-}
 
-/// Hides the chart's axis, because the page draws it.
-void set_axes(vtkChartXY& chart, const Box& plot) {
-  for (const int position : {vtkAxis::LEFT, vtkAxis::BOTTOM, vtkAxis::RIGHT, vtkAxis::TOP}) {
-    vtkAxis* axis = chart.GetAxis(position);
-    axis->SetAxisVisible(false);
-    axis->SetGridVisible(false);
-    axis->SetLabelsVisible(false);
-    axis->SetTicksVisible(false);
-    axis->SetTitle("");
-    axis->SetBehavior(vtkAxis::FIXED);
-    const bool upward = position == vtkAxis::LEFT || position == vtkAxis::RIGHT;
-    const Range window = upward ? y_window(plot) : x_window(plot);
-    axis->SetRange(window.low, window.high);
+ private:
+  void paint_grid(const bool fine) {
+    const Pen pen{.colour = fine ? fine_grid_colour : grid_colour, .width = strokes_.thin};
+    for (const Tick& mark : placed_.x.ticks.marks)
+      if (mark.label.empty() == fine) canvas_.line(x(mark), bottom_, x(mark), top_, pen);
+    for (const Tick& mark : placed_.y.ticks.marks)
+      if (mark.label.empty() == fine) canvas_.line(left_, y(mark), right_, y(mark), pen);
   }
-}
 
-vtkNew<vtkChartXY> chart_of(const Panel& panel, const PanelLayout& placed, const Strokes& strokes) {
-  vtkNew<vtkChartXY> chart;
-  chart->SetShowLegend(false);
-  chart->SetHiddenAxisBorder(0);
-  chart->SetLayoutStrategy(vtkChart::AXES_TO_RECT);
-  chart->GetBackgroundBrush()->SetOpacity(0);
-  const Box& plot = placed.plot;
-  chart->SetSize(vtkRectf(static_cast<float>(plot.left), static_cast<float>(plot.bottom),
-                          static_cast<float>(plot.width), static_cast<float>(plot.height)));
-  set_axes(*chart, plot);
-  for (std::size_t c = 0; c < panel.curves.size(); ++c)
-    if (panel.curves[c].style != CurveStyle::band) add_line(*chart, panel, c, placed, strokes);
-  return chart;
-}
+  void paint_frame() {
+    const Pen pen{.colour = frame_colour, .width = strokes_.thin};
+    canvas_.polyline(
+        {{left_, right_, right_, left_, left_}, {bottom_, bottom_, top_, top_, bottom_}}, pen);
+    for (const Tick& mark : placed_.x.ticks.marks)
+      canvas_.line(x(mark), bottom_ - length(mark), x(mark), bottom_, pen);
+    for (const Tick& mark : placed_.y.ticks.marks)
+      canvas_.line(left_ - length(mark), y(mark), left_, y(mark), pen);
+  }
 
-/// A window with the page drawn on it; figure and page must outlive it.
-vtkNew<vtkRenderWindow> window_with(const Figure& figure, const PageLayout& page) {
-  vtkNew<vtkContextActor> actor;
-  vtkNew<PagePainter> painter;
-  painter->show(figure, page);
-  actor->GetScene()->AddItem(painter);
-  vtkNew<BandPainter> bands;  // painted first, below all other curves
-  for (std::size_t p = 0; p < figure.panels.size(); ++p)
-    add_bands(*bands, figure.panels[p], page.panels[p]);
-  actor->GetScene()->AddItem(bands);
-  for (std::size_t p = 0; p < figure.panels.size(); ++p)
-    actor->GetScene()->AddItem(chart_of(figure.panels[p], page.panels[p], page.strokes));
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1., 1., 1.);
-  renderer->SetBackgroundAlpha(1.);
-  renderer->AddActor(actor);
-  actor->GetScene()->SetRenderer(renderer);
-  vtkNew<vtkRenderWindow> window;
-  window->AddRenderer(renderer);
-  prepare_offscreen(*window, page.width, page.height);
-  return window;
-}
+  void paint_band(const std::size_t c) {
+    const Curve& curve = panel_.curves[c];
+    Band band{x_pixels(curve.x), y_pixels(curve.y_low), y_pixels(curve.y_high)};
+    if (band.x.size() > many_points) band = band_envelope(band, x_window(), n_columns());
+    canvas_.area(band, tint(colour(c), band_tint));
+  }
+
+  /// A value without x becomes a gap.
+  void paint_curve(const std::size_t c) {
+    const Curve& curve = panel_.curves[c];
+    Polyline line{x_pixels(curve.x), y_pixels(curve.y)};
+    for (std::size_t i = 0; i < line.x.size(); ++i)
+      if (!std::isfinite(line.x[i])) line.y[i] = std::numeric_limits<double>::quiet_NaN();
+    const bool many = line.x.size() > many_points;
+    if (curve.style == CurveStyle::points) {
+      const Range rows{placed_.plot.bottom, placed_.plot.top()};
+      if (many)
+        line = one_point_a_pixel(line, x_window(), rows, n_columns(),
+                                 static_cast<std::size_t>(placed_.plot.height));
+      canvas_.points(line, colour(c), strokes_.point);
+      return;
+    }
+    if (many) line = envelope(line, x_window(), n_columns());
+    canvas_.polyline(line, pen_of(c, many));
+  }
+
+  void paint_sample(const LegendSample& sample) {
+    const double right = sample.left + strokes_.sample_width;
+    switch (panel_.curves[sample.curve].style) {
+      case CurveStyle::line:
+      case CurveStyle::dashed:
+        canvas_.line(sample.left, sample.y, right, sample.y, pen_of(sample.curve, false));
+        break;
+      case CurveStyle::points:
+        canvas_.points({{(sample.left + right) / 2.}, {sample.y}}, colour(sample.curve),
+                       strokes_.point);
+        break;
+      case CurveStyle::band:
+        canvas_.box({sample.left, sample.y - strokes_.sample_height / 2., strokes_.sample_width,
+                     strokes_.sample_height},
+                    tint(colour(sample.curve), band_tint));
+    }
+  }
+
+  Pen pen_of(const std::size_t c, const bool many) const {
+    const bool dashed = panel_.curves[c].style == CurveStyle::dashed;
+    return {.colour = colour(c),
+            .width = many && !dashed ? strokes_.fine_line : strokes_.line,
+            .dash = dashed ? strokes_.dash : 0.,
+            .dash_space = strokes_.dash_space};
+  }
+  Colour colour(const std::size_t c) const { return palette_colour(colour_number(panel_, c)); }
+
+  std::vector<double> x_pixels(const std::vector<double>& values) const {
+    return pixels(placed_.x, values, placed_.plot.left, placed_.plot.width);
+  }
+  std::vector<double> y_pixels(const std::vector<double>& values) const {
+    return pixels(placed_.y, values, placed_.plot.bottom, placed_.plot.height);
+  }
+  Range x_window() const { return {placed_.plot.left, placed_.plot.right()}; }
+  std::size_t n_columns() const { return static_cast<std::size_t>(placed_.plot.width); }
+
+  double x(const Tick& mark) const {
+    return middle(placed_.plot.left + placed_.plot.width * placed_.x.part(mark.at));
+  }
+  double y(const Tick& mark) const {
+    return middle(placed_.plot.bottom + placed_.plot.height * placed_.y.part(mark.at));
+  }
+  double length(const Tick& mark) const {
+    return mark.label.empty() ? strokes_.short_tick : strokes_.long_tick;
+  }
+
+  Canvas& canvas_;
+  const Strokes& strokes_;
+  const Panel& panel_;
+  const PanelLayout& placed_;
+  double left_, right_, bottom_, top_;
+};
 
 }  // namespace
 
-void draw_figure(const Figure& figure, const std::filesystem::path& png,
-                 const std::filesystem::path& svg) {
+Picture picture_of(const Figure& figure) {
   check(figure);
-  const PageLayout page = lay_out(figure, text_width), large = magnified(page, oversampling);
-  const auto large_window = window_with(figure, large);
-  write_png(*large_window, png);
-  const auto window = window_with(figure, page);
-  window->Render();
-  write_svg(*window, svg, figure.title, figure.caption);
+  const PageLayout page = lay_out(figure, text_width);
+  return {.width = page.width,
+          .height = page.height,
+          .title = figure.title,
+          .caption = figure.caption,
+          .paint = [&figure, page](Canvas& canvas) {
+            for (std::size_t p = 0; p < page.panels.size(); ++p)
+              PanelPainter(canvas, page.strokes, figure.panels[p], page.panels[p]).paint();
+            for (const PlacedText& text : page.texts) canvas.text(text);
+          }};
 }
 
 }  // namespace vibrissa::report

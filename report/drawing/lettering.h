@@ -1,23 +1,21 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
-class vtkTextProperty;
+typedef struct _PangoLayout PangoLayout;
 
 namespace vibrissa::report {
 
-/// Dark text of a size in pixels in DejaVu Sans when it is installed (it has all characters that
-/// labels use), otherwise in VTK's own font.
-void set_lettering(vtkTextProperty& property, int size, bool bold = false);
+struct EndOfLayout {
+  void operator()(PangoLayout* layout) const;
+};
 
-/// The text as the current font can print it. Without DejaVu Sans superscripts become "^-3",
-/// because a character missing in VTK's font would vanish and turn 10⁻³ into 10³.
-std::string printable(const std::string& text);
+/// The text in DejaVu Sans, or in another font where it has not all characters; size of the letters
+/// in pixels. The same in every kind of file. Not for several threads at once.
+std::unique_ptr<PangoLayout, EndOfLayout> text_layout(const std::string& text, int size, bool bold);
 
-/// Size in pixels as drawn with set_lettering() and printable(). Needs no display.
+/// Its width in pixels. Proven by tests/report/drawing/lettering_test.cc.
 double text_width(const std::string& text, int size, bool bold);
-
-/// The replacement rule of printable(), independent of the installed fonts.
-std::string without_superscripts(const std::string& text);
 
 }  // namespace vibrissa::report

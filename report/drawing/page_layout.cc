@@ -257,19 +257,4 @@ PageLayout lay_out(const Figure& figure, const TextWidth& text_width) {
   return PageBuilder(figure, text_width).build();
 }
 
-PageLayout magnified(PageLayout page, const int factor) {
-  const auto magnify = [&](auto&... values) { ((values *= factor), ...); };
-  magnify(page.width, page.height);
-  auto& [line, fine_line, point, dash, dash_space, thin, long_tick, short_tick, sample_width,
-         sample_height] = page.strokes;
-  magnify(line, fine_line, point, dash, dash_space, thin, long_tick, short_tick, sample_width,
-          sample_height);
-  for (PlacedText& text : page.texts) magnify(text.x, text.y, text.size);
-  for (PanelLayout& panel : page.panels) {
-    magnify(panel.plot.left, panel.plot.bottom, panel.plot.width, panel.plot.height);
-    for (LegendSample& sample : panel.legend) magnify(sample.left, sample.y);
-  }
-  return page;
-}
-
 }  // namespace vibrissa::report

@@ -66,7 +66,4 @@ struct PageLayout {
 /// one x label. Proven by tests/report/drawing/page_layout_test.cc.
 PageLayout lay_out(const Figure& figure, const TextWidth& text_width);
 
-/// The page magnified by an integer factor.
-PageLayout magnified(PageLayout page, int factor);
-
 }  // namespace vibrissa::report

@@ -1,118 +1,82 @@
 #include "report/drawing/picture_file.h"
 
-#include <vtkImageShrink3D.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkRenderWindow.h>
-#include <vtkSVGExporter.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkWindowToImageFilter.h>
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cairo.h>
 
-#include <fstream>
-#include <string>
-#include <system_error>
-#include <utility>
-#include <vector>
+#include <cassert>
+#include <memory>
 
+#include "report/text/html_text.h"
 #include "signals/base/error.h"
 #include "signals/system/output_file.h"
 
 namespace vibrissa::report {
 namespace {
 
-/// The line without an attribute, whose name begins with a space.
-std::string without(std::string line, const std::string& attribute) {
-  const std::size_t start = line.find(attribute);
-  if (start == std::string::npos) return line;
-  const std::size_t value = line.find('"', start), end = line.find('"', value + 1);
-  return line.erase(start, end - start + 1);
-}
-
-/// Corrects the exporter's output: removes clip paths, which hide whole curves in some viewers
-/// (everything is clipped already), and outlines that consist of dashes of zero length.
-std::string updated(const std::string& line) {
-  const std::string no_outline = " stroke-dasharray=\"0,10\"";
-  const std::string unclipped = without(line, " clip-path=");
-  if (unclipped.find(no_outline) == std::string::npos) return unclipped;
-  std::string plain = unclipped;
-  for (const char* attribute :
-       {" stroke-dasharray=", " stroke-width=", " stroke-opacity=", " stroke="})
-    plain = without(plain, attribute);
-  return plain;
-}
-
-/// A temporary file that is removed at the end.
-class PassingFile {
- public:
-  explicit PassingFile(std::filesystem::path file) : file_(std::move(file)) {}
-  ~PassingFile() {
-    std::error_code ignored;
-    std::filesystem::remove(file_, ignored);
-  }
-  PassingFile(const PassingFile&) = delete;
-  PassingFile& operator=(const PassingFile&) = delete;
-
-  const std::filesystem::path& path() const { return file_; }
-
- private:
-  std::filesystem::path file_;
+struct EndOfSurface {
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
 };
+using Surface = std::unique_ptr<cairo_surface_t, EndOfSurface>;
+
+cairo_status_t append(void* const bytes, const unsigned char* const data,
+                      const unsigned int length) {
+  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+void paint(cairo_surface_t* const surface, const Picture& picture) {
+  const std::unique_ptr<cairo_t, void (*)(cairo_t*)> context(cairo_create(surface), cairo_destroy);
+  Canvas canvas(*context, picture.width, picture.height);
+  picture.paint(canvas);
+  if (cairo_status(context.get()) != CAIRO_STATUS_SUCCESS)
+    throw signals::ResourceError(std::string("a picture cannot be painted: ") +
+                                 cairo_status_to_string(cairo_status(context.get())));
+}
+
+std::string png_of(const Picture& picture) {
+  const Surface surface(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, picture.width, picture.height));
+  paint(surface.get(), picture);
+  std::string bytes;
+  cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
+  return bytes;
+}
+
+std::string pdf_of(const Picture& picture) {
+  std::string bytes;
+  const Surface surface(
+      cairo_pdf_surface_create_for_stream(append, &bytes, picture.width, picture.height));
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, picture.title.c_str());
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_SUBJECT,
+                                 picture.caption.c_str());
+  paint(surface.get(), picture);
+  cairo_surface_finish(surface.get());
+  return bytes;
+}
+
+/// Cairo has no words for title and caption of an SVG file: they become its first elements.
+std::string svg_of(const Picture& picture) {
+  std::string bytes;
+  const Surface surface(
+      cairo_svg_surface_create_for_stream(append, &bytes, picture.width, picture.height));
+  cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
+  paint(surface.get(), picture);
+  cairo_surface_finish(surface.get());
+  const std::size_t begin = bytes.find('>', bytes.find("<svg"));
+  assert(begin != std::string::npos);
+  bytes.insert(begin + 1,
+               "\n" + html_element("title", picture.title) + html_element("desc", picture.caption));
+  return bytes;
+}
 
 }  // namespace
 
-OpenDisplay::OpenDisplay() : window_(vtkSmartPointer<vtkRenderWindow>::New()) {
-  prepare_offscreen(*window_, 1, 1);
-  window_->Render();
-}
-
-OpenDisplay::~OpenDisplay() = default;
-
-void prepare_offscreen(vtkRenderWindow& window, const int width, const int height) {
-  window.SetOffScreenRendering(1);
-  window.SetDPI(72);
-  window.SetMultiSamples(0);
-  window.SetSize(width, height);
-}
-
-void write_png(vtkRenderWindow& window, const std::filesystem::path& file) {
-  window.Render();
-  vtkNew<vtkWindowToImageFilter> image;
-  image->SetInput(&window);
-  image->ReadFrontBufferOff();
-  image->SetInputBufferTypeToRGB();
-  vtkNew<vtkImageShrink3D> smaller;
-  smaller->SetInputConnection(image->GetOutputPort());
-  smaller->SetShrinkFactors(oversampling, oversampling, 1);
-  smaller->AveragingOn();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(smaller->GetOutputPort());
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* bytes = writer->GetResult();
-  signals::write_file(file, [&](std::ostream& out) {
-    out.write(reinterpret_cast<const char*>(bytes->GetPointer(0)), bytes->GetNumberOfValues());
-  });
-}
-
-void write_svg(vtkRenderWindow& window, const std::filesystem::path& file, const std::string& title,
-               const std::string& caption) {
-  // The exporter writes only files and does not report failure.
-  const PassingFile raw(file.string() + ".raw");
-  vtkNew<vtkSVGExporter> exporter;
-  exporter->SetRenderWindow(&window);
-  exporter->SetFileName(raw.path().c_str());
-  exporter->SetTitle(title.c_str());
-  exporter->SetDescription(caption.c_str());
-  exporter->Write();
-  std::vector<std::string> lines;
-  std::ifstream in(raw.path());
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  if (lines.empty() || lines.back() != "</svg>")
-    throw signals::ResourceError(file.string() +
-                                 ": the file cannot be written; check whether the disk is full");
-  signals::write_file(file, [&](std::ostream& out) {
-    for (const std::string& line : lines) out << updated(line) << '\n';
-  });
+void write_picture(const Picture& picture, const std::filesystem::path& file) {
+  const std::string bytes = file.extension() == ".png"   ? png_of(picture)
+                            : file.extension() == ".pdf" ? pdf_of(picture)
+                                                         : svg_of(picture);
+  signals::write_file(file, [&](std::ostream& out) { out << bytes; });
 }
 
 }  // namespace vibrissa::report

@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
+#include "report/figures/mode_picture.h"
 #include "report/figures/range.h"
-#include "report/modes/mode_picture.h"
 
 namespace vibrissa::report {
 

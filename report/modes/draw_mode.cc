@@ -2,8 +2,9 @@
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkContextActor.h>
-#include <vtkContextScene.h>
+#include <vtkImageData.h>
+#include <vtkImageShrink3D.h>
+#include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
@@ -11,18 +12,23 @@
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
+#include <span>
 
 #include "report/drawing/lettering.h"
 #include "report/drawing/picture_file.h"
-#include "report/figures/colour_map.h"
+#include "report/modes/colour_map.h"
 #include "report/modes/deformed_mesh.h"
 #include "report/modes/mesh_view.h"
 #include "report/modes/mode_page.h"
 
 namespace vibrissa::report {
 namespace {
+
+/// Of the window relative to the picture, for smooth edges.
+constexpr int oversampling = 2;
 
 vtkNew<vtkActor> plain_actor(vtkPolyData& shape, const double grey, const double opacity) {
   vtkNew<vtkPolyDataMapper> mapper;
@@ -79,34 +85,71 @@ void add_mesh(vtkRenderer& renderer, const DeformedMesh& mesh, vtkLookupTable& c
   renderer.AddActor(plain_actor(*mesh.rest_outline, 0.5, clear));
 }
 
+vtkNew<vtkLookupTable> lookup_table(const std::span<const Colour> colours, const Range& range) {
+  vtkNew<vtkLookupTable> table;
+  table->SetNumberOfTableValues(static_cast<vtkIdType>(colours.size()));
+  table->SetTableRange(range.low, range.high);
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    table->SetTableValue(static_cast<vtkIdType>(i), colours[i][0] / 255., colours[i][1] / 255.,
+                         colours[i][2] / 255.);
+  return table;
+}
+
+Pixels rendered(vtkRenderWindow& window) {
+  window.Render();
+  vtkNew<vtkWindowToImageFilter> large;
+  large->SetInput(&window);
+  large->ReadFrontBufferOff();
+  large->SetInputBufferTypeToRGB();
+  vtkNew<vtkImageShrink3D> smaller;
+  smaller->SetInputConnection(large->GetOutputPort());
+  smaller->SetShrinkFactors(oversampling, oversampling, 1);
+  smaller->AveragingOn();
+  smaller->Update();
+  vtkImageData& image = *smaller->GetOutput();
+  Pixels pixels{.width = image.GetDimensions()[0], .height = image.GetDimensions()[1]};
+  for (int y = pixels.height - 1; y >= 0; --y) {
+    const auto* const row = static_cast<const std::uint8_t*>(image.GetScalarPointer(0, y, 0));
+    pixels.rgb.insert(pixels.rgb.end(), row, row + 3 * pixels.width);
+  }
+  return pixels;
+}
+
 }  // namespace
+
+void prepare_offscreen(vtkRenderWindow& window, const int width, const int height) {
+  window.SetOffScreenRendering(1);
+  window.SetMultiSamples(0);
+  window.SetSize(width, height);
+}
 
 void draw_mode(const ModePicture& picture, const std::filesystem::path& run_folder,
                const std::filesystem::path& png) {
   const DeformedMesh mesh = read_deformed_mesh(run_folder / picture.vtu, picture);
   const MeshView view = view_of(mesh);
-  const ModePage page = mode_page(picture, mesh, view, text_width, oversampling);
+  const ModePage page = mode_page(picture, mesh, view, text_width);
   const auto colours = colour_map(mesh.colours);
+  const auto table = lookup_table(colours, colour_range(mesh.colours));
 
-  vtkNew<vtkRenderer> page_renderer, mesh_renderer;
-  for (vtkRenderer* renderer : {page_renderer.Get(), mesh_renderer.Get()})
-    renderer->SetBackground(1., 1., 1.);
-  vtkNew<ModePagePainter> painter;
-  painter->show(page, view, colours);
-  vtkNew<vtkContextActor> context;
-  context->GetScene()->AddItem(painter);
-  context->GetScene()->SetRenderer(page_renderer);
-  page_renderer->AddActor(context);
-  mesh_renderer->SetViewport(page.mesh.left / page.width, page.mesh.bottom / page.height,
-                             page.mesh.right() / page.width, page.mesh.top() / page.height);
-  add_mesh(*mesh_renderer, mesh, *colours);
-  set_camera(*mesh_renderer, view, page.mesh);
-
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1., 1., 1.);
+  add_mesh(*renderer, mesh, *table);
+  set_camera(*renderer, view, page.mesh);
   vtkNew<vtkRenderWindow> window;
-  window->AddRenderer(page_renderer);
-  window->AddRenderer(mesh_renderer);
-  prepare_offscreen(*window, page.width, page.height);
-  write_png(*window, png);
+  window->AddRenderer(renderer);
+  prepare_offscreen(*window, oversampling * static_cast<int>(page.mesh.width),
+                    oversampling * static_cast<int>(page.mesh.height));
+  const Pixels pixels = rendered(*window);
+  write_picture({.width = page.width,
+                 .height = page.height,
+                 .paint =
+                     [&](Canvas& canvas) {
+                       canvas.picture(pixels, {page.mesh.left, page.mesh.bottom,
+                                               static_cast<double>(pixels.width),
+                                               static_cast<double>(pixels.height)});
+                       paint(canvas, page, view, colours);
+                     }},
+                png);
 }
 
 }  // namespace vibrissa::report

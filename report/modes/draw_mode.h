@@ -2,7 +2,9 @@
 
 #include <filesystem>
 
-#include "report/modes/mode_picture.h"
+#include "report/figures/mode_picture.h"
+
+class vtkRenderWindow;
 
 namespace vibrissa::report {
 
@@ -12,5 +14,8 @@ namespace vibrissa::report {
 /// file that cannot be written. Proven by tests/report/drawing/draw_test.cc.
 void draw_mode(const ModePicture& picture, const std::filesystem::path& run_folder,
                const std::filesystem::path& png);
+
+/// Drawing in the window aborts the program when no display can be opened.
+void prepare_offscreen(vtkRenderWindow& window, int width, int height);
 
 }  // namespace vibrissa::report

@@ -1,15 +1,10 @@
 #include "report/modes/mode_page.h"
 
-#include <vtkContext2D.h>
-#include <vtkObjectFactory.h>
-
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 
-#include "report/drawing/context_painting.h"
-#include "report/figures/colour_map.h"
+#include "report/modes/colour_map.h"
 #include "signals/base/number_text.h"
 
 namespace vibrissa::report {
@@ -34,15 +29,6 @@ Box mesh_box(const MeshView& view) {
 std::string scale_text(const double scale) {
   if (scale == 1.) return "deformation to scale";
   return "deformation \u00d7 " + signals::to_text(scale);
-}
-
-void magnify(ModePage& page, const int zoom) {
-  const auto times_zoom = [&](auto&... values) { ((values *= zoom), ...); };
-  times_zoom(page.width, page.height, page.pen, page.compass_x, page.compass_y,
-             page.compass_length);
-  for (Box* box : {&page.mesh, &page.bar})
-    times_zoom(box->left, box->bottom, box->width, box->height);
-  for (PlacedText& text : page.texts) times_zoom(text.x, text.y, text.size);
 }
 
 /// The column right of the mesh, filled from top to bottom.
@@ -73,12 +59,41 @@ void add_column(ModePage& page, const ModePicture& picture, const DeformedMesh& 
   page.texts.push_back({scale_text(mesh.scale), left, page.mesh.bottom + row / 2., tick_size});
 }
 
+void paint_bar(Canvas& canvas, const ModePage& page, const std::span<const Colour> colours) {
+  const Box& bar = page.bar;
+  const double step = bar.height / static_cast<double>(colours.size());
+  // Each reaches under the next one, so that no gap is visible.
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const double part = static_cast<double>(i) * step;
+    canvas.box({bar.left, bar.bottom + part, bar.width, std::min(1.5 * step, bar.height - part)},
+               colours[i]);
+  }
+  for (const Tick& mark : page.bar_axis.ticks.marks) {
+    const double y = bar.bottom + bar.height * page.bar_axis.part(mark.at);
+    canvas.line(bar.right(), y, bar.right() + 6., y, {.colour = {110, 110, 110}});
+  }
+}
+
+void paint_compass(Canvas& canvas, const ModePage& page, const MeshView& view) {
+  constexpr std::array names = {"x", "y", "z"};
+  constexpr std::array<std::size_t, 3> colours = {1, 2, 0};
+  for (std::size_t axis = 0; axis < names.size(); ++axis) {
+    const double dx = view.right[static_cast<Eigen::Index>(axis)],
+                 dy = view.up[static_cast<Eigen::Index>(axis)];
+    const double length = page.compass_length, beyond = length + 11.;
+    canvas.line(page.compass_x, page.compass_y, page.compass_x + length * dx,
+                page.compass_y + length * dy,
+                {.colour = palette_colour(colours[axis]), .width = 2.});
+    const double seen = std::hypot(dx, dy), stretch = seen / std::max(seen, 0.2);
+    canvas.text({names[axis], page.compass_x + beyond * dx * stretch,
+                 page.compass_y + beyond * dy * stretch, tick_size, Anchor::centre});
+  }
+}
+
 }  // namespace
 
-vtkStandardNewMacro(ModePagePainter);
-
 ModePage mode_page(const ModePicture& picture, const DeformedMesh& mesh, const MeshView& view,
-                   const TextWidth& text_width, const int zoom) {
+                   const TextWidth& text_width) {
   ModePage page;
   page.mesh = mesh_box(view);
   page.width = static_cast<int>(std::ceil(page.mesh.right() + column_width + margin));
@@ -91,66 +106,14 @@ ModePage mode_page(const ModePicture& picture, const DeformedMesh& mesh, const M
     y -= title_row;
   }
   add_column(page, picture, mesh, text_width);
-  magnify(page, zoom);
   return page;
 }
 
-void ModePagePainter::show(const ModePage& page, const MeshView& view,
-                           vtkSmartPointer<vtkLookupTable> colours) {
-  page_ = page;
-  view_ = view;
-  colours_ = std::move(colours);
-}
-
-bool ModePagePainter::Paint(vtkContext2D* painter) {
-  assert(painter && colours_);
-  paint_bar(*painter);
-  paint_compass(*painter);
-  for (const PlacedText& text : page_.texts) paint_text(*painter, text);
-  return true;
-}
-
-void ModePagePainter::paint_bar(vtkContext2D& painter) const {
-  const Box& bar = page_.bar;
-  const auto n = colours_->GetNumberOfTableValues();
-  const double step = bar.height / static_cast<double>(n);
-  for (vtkIdType i = 0; i < n; ++i) {
-    const double* rgba = colours_->GetTableValue(i);
-    Colour colour;
-    for (std::size_t c = 0; c < colour.size(); ++c)
-      colour[c] = static_cast<unsigned char>(std::lround(255. * rgba[c]));
-    set_fill(painter, colour);
-    // Slightly higher than the step, so that no gap is visible.
-    painter.DrawRect(static_cast<float>(bar.left),
-                     static_cast<float>(bar.bottom + static_cast<double>(i) * step),
-                     static_cast<float>(bar.width),
-                     static_cast<float>(i + 1 < n ? 1.5 * step : step));
-  }
-  set_pen(painter, {110, 110, 110}, page_.pen);
-  for (const Tick& mark : page_.bar_axis.ticks.marks) {
-    const double y = bar.bottom + bar.height * page_.bar_axis.part(mark.at);
-    draw_line(painter, bar.right(), y, bar.right() + 6. * page_.pen, y);
-  }
-}
-
-void ModePagePainter::paint_compass(vtkContext2D& painter) const {
-  const std::array<const char*, 3> names = {"x", "y", "z"};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double dx = view_.right[axis], dy = view_.up[axis];
-    const double length = page_.compass_length, beyond = length + 11. * page_.pen;
-    set_pen(painter,
-            palette_colour(static_cast<std::size_t>(axis == 0   ? 1
-                                                    : axis == 1 ? 2
-                                                                : 0)),
-            2. * page_.pen);
-    draw_line(painter, page_.compass_x, page_.compass_y, page_.compass_x + length * dx,
-              page_.compass_y + length * dy);
-    const double size = std::max(std::hypot(dx, dy), 0.2);
-    paint_text(painter, {names[static_cast<std::size_t>(axis)],
-                         page_.compass_x + beyond * dx / size * std::hypot(dx, dy),
-                         page_.compass_y + beyond * dy / size * std::hypot(dx, dy),
-                         static_cast<int>(tick_size * page_.pen), Anchor::centre});
-  }
+void paint(Canvas& canvas, const ModePage& page, const MeshView& view,
+           const std::span<const Colour> colours) {
+  paint_bar(canvas, page, colours);
+  paint_compass(canvas, page, view);
+  for (const PlacedText& text : page.texts) canvas.text(text);
 }
 
 }  // namespace vibrissa::report

@@ -11,7 +11,6 @@
 #include "report/page/page_assets.h"
 #include "report/page/page_figure.h"
 #include "report/page/page_origin.h"
-#include "report/page/page_scene.h"
 #include "report/text/base64.h"
 #include "report/text/html_text.h"
 #include "signals/system/output_file.h"
@@ -39,7 +38,7 @@ std::string inlined_picture(const fs::path& png, const std::string& title) {
 /// Builds the body of the page, and collects the data that its elements need for the script.
 class Body {
  public:
-  explicit Body(const fs::path& folder) : folder_(folder) {
+  Body(const fs::path& folder, const SceneReader& scene_of) : folder_(folder), scene_of_(scene_of) {
     for (const Colour& colour : palette) data_["palette"].push_back(colour);
   }
 
@@ -106,7 +105,7 @@ class Body {
     json list = json::array();
     std::string names;
     for (const ModePicture& scene : scenes) {
-      list.push_back(page_scene(folder_, scene, numbers_));
+      list.push_back(scene_of_(folder_, scene, numbers_));
       names += html_element("li", scene.title + ". " + scene.caption);
     }
     data_["views"].push_back(list);
@@ -124,6 +123,7 @@ class Body {
   }
 
   const fs::path& folder_;
+  const SceneReader& scene_of_;
   PackedNumbers numbers_;
   json data_ = {{"palette", json::array()},
                 {"tables", json::array()},
@@ -171,8 +171,8 @@ std::string scripts(const bool with_scenes) {
 
 }  // namespace
 
-std::string to_html(const Page& page, const fs::path& folder) {
-  Body body(folder);
+std::string to_html(const Page& page, const fs::path& folder, const SceneReader& scene_of) {
+  Body body(folder, scene_of);
   std::string sections;
   for (const PageSection& section : page.sections) sections += body.section(section);
   return filled(page_template(),
@@ -189,8 +189,8 @@ std::string to_html(const Page& page, const fs::path& folder) {
                  {"scripts", scripts(body.has_scenes())}});
 }
 
-void write_page(const fs::path& folder, const Page& page) {
-  const std::string html = to_html(page, folder);
+void write_page(const fs::path& folder, const Page& page, const SceneReader& scene_of) {
+  const std::string html = to_html(page, folder, scene_of);
   signals::write_file(folder / "report.html", [&](std::ostream& out) { out << html; });
 }
 

@@ -151,7 +151,11 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
       },
       verdict);
   conclude(fit, identification.held_out_vaf_percent,
-           "the variance of data that it has not seen (free simulation)", verdict);
+           identification.n_hits == 1
+               ? "the variance of the end of the decay after the only hit; record a second hit to "
+                 "score the model"
+               : "the variance of data that it has not seen (free simulation)",
+           verdict);
   if (identification.found_delay_s)
     verdict.sentence = delay_sentence(*identification.found_delay_s, fitted.sampling_rate_hz()) +
                        " " + verdict.sentence;

@@ -6,7 +6,7 @@
 
 #include "signals/files/record_io.h"
 #include "tests/apps/program.h"
-#include "views/bode_data.h"
+#include "views/records/bode_data.h"
 
 namespace vibrissa::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "views/diagnosis_page.h"
+#include "views/records/diagnosis_page.h"
 
 #include <gmock/gmock.h>
 

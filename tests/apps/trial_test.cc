@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "apps/jobs/nominal_input.h"
+#include "apps/solid/jobs/case_solver.h"
 #include "report/files/child_process.h"
 #include "signals/base/exit_status.h"
 #include "tests/apps/program.h"
@@ -445,6 +446,7 @@ TEST(Trial, GivesTheSameSensorAsAModelAndAsRecords) {
   const std::string trial = folder.file("life");
   ASSERT_EQ(vibrissa("trial make --life --quiet --cases 1 --seed 13 --out " + quoted(trial)).status,
             0);
+  set_case_solver(solve_case);
   const NominalInput model{.model = trial + "/sim.prm", .simulation = {}},
       records{.model = {}, .simulation = trial + "/sim"};
   EXPECT_LT(response_difference(records.read(false).model.nominal, model.read(false).model.nominal),

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/command_line/parse_advice.h"
-#include "apps/commands/command_tree.h"
+#include "apps/solid/command_tree.h"
 #include "signals/base/error.h"
 
 namespace {

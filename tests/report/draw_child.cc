@@ -2,12 +2,13 @@
 #include <iostream>
 #include <string>
 
-#include "report/pictures.h"
+#include "report/modes/draw_scenes.h"
 
 int main(const int n_arguments, char** arguments) {
-  if (n_arguments != 3 || std::string(arguments[1]) != "draw") {
-    std::cerr << "usage: report_draw_child draw FOLDER\n";
+  if (n_arguments != 4 || std::string(arguments[1]) != "draw" ||
+      std::string(arguments[3]) != "--scenes") {
+    std::cerr << "usage: report_draw_child draw FOLDER --scenes\n";
     return 2;
   }
-  return vibrissa::report::draw_folder(arguments[2]);
+  return vibrissa::report::draw_scenes(arguments[2]) ? 0 : 1;
 }

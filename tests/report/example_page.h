@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "report/modes/page_scene.h"
 #include "report/page/page.h"
 #include "report/text/json_file.h"
 #include "tests/report/meshes.h"

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGReader.h>
-#include <vtkSmartPointer.h>
+#include <cairo.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 
 #include "report/figures/palette.h"
 
@@ -16,18 +15,18 @@ namespace vibrissa::report::testing {
 /// A PNG file read back; y counts upward from the lower edge.
 class Picture {
  public:
-  explicit Picture(const std::filesystem::path& file) {
-    vtkNew<vtkPNGReader> reader;
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    image_ = reader->GetOutput();
-  }
-  int width() const { return image_->GetDimensions()[0]; }
-  int height() const { return image_->GetDimensions()[1]; }
+  explicit Picture(const std::filesystem::path& file)
+      : image_(cairo_image_surface_create_from_png(file.c_str()), cairo_surface_destroy) {}
+  int width() const { return cairo_image_surface_get_width(image_.get()); }
+  int height() const { return cairo_image_surface_get_height(image_.get()); }
 
   Colour at(const int x, const int y) const {
-    const auto* pixel = static_cast<const unsigned char*>(image_->GetScalarPointer(x, y, 0));
-    return {pixel[0], pixel[1], pixel[2]};
+    const unsigned char* const row =
+        cairo_image_surface_get_data(image_.get()) +
+        (height() - 1 - y) * cairo_image_surface_get_stride(image_.get());
+    const std::uint32_t pixel = reinterpret_cast<const std::uint32_t*>(row)[x];
+    return {static_cast<unsigned char>(pixel >> 16), static_cast<unsigned char>(pixel >> 8),
+            static_cast<unsigned char>(pixel)};
   }
 
   /// Whether a pixel has nearly this colour.
@@ -55,7 +54,7 @@ class Picture {
   }
 
  private:
-  vtkSmartPointer<vtkImageData> image_;
+  std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> image_;
 };
 
 }  // namespace vibrissa::report::testing

@@ -12,5 +12,5 @@ int main(const int n_arguments, char** arguments) {
   }
   using namespace vibrissa::report;
   const std::filesystem::path folder = arguments[1];
-  write_page(folder, testing::example_page(folder, std::stoul(arguments[2])));
+  write_page(folder, testing::example_page(folder, std::stoul(arguments[2])), page_scene);
 }

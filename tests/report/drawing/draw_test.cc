@@ -2,16 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
-#include <string>
-#include <vector>
+#include <cstdlib>
 
+#include "report/drawing/draw.h"
 #include "report/drawing/lettering.h"
 #include "report/drawing/page_layout.h"
-#include "report/drawing/page_painter.h"
 #include "report/figures/figure.h"
+#include "report/figures/mode_picture.h"
 #include "report/files/child_process.h"
-#include "report/modes/mode_picture.h"
 #include "report/pictures.h"
 #include "tests/report/meshes.h"
 #include "tests/report/picture.h"
@@ -24,21 +22,13 @@ namespace fs = std::filesystem;
 using signals::test::content_of;
 using signals::test::TemporaryFolder;
 using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using testing::Picture;
+using ::testing::StartsWith;
 
-bool can_draw() {
-  const char* display = std::getenv("DISPLAY");
-  return (display && *display) || !find_program("xvfb-run").empty();
-}
-
-/// Draws in a child process, like the program, because VTK aborts on errors.
 class Draw : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (!can_draw()) GTEST_SKIP() << "no display and no xvfb-run";
-  }
   void draw() {
     const PictureReport report = draw_pictures(folder_.path(), {.program = VIBRISSA_DRAW_CHILD});
     ASSERT_TRUE(report.problems.empty() && !report.made.empty()) << report.message << "\n"
@@ -131,8 +121,9 @@ TEST_F(Draw, PutsEveryKindOfCurveWhereItBelongsInItsColour) {
   EXPECT_GT(n_blank, 150);
 
   EXPECT_THAT(content_of(file("kinds.svg")),
-              AllOf(HasSubstr("a &lt; b &amp;"), HasSubstr("caption here"), HasSubstr("<polyline"),
-                    Not(HasSubstr("clip-path="))));
+              AllOf(HasSubstr("a &lt; b &amp;"), HasSubstr("caption here"), HasSubstr("<path")));
+  EXPECT_THAT(content_of(file("kinds.pdf")),
+              AllOf(StartsWith("%PDF"), HasSubstr("caption here"), EndsWith("%%EOF\n")));
 }
 
 TEST_F(Draw, ShowsASpikeOfOneSampleInALongTrace) {
@@ -157,24 +148,6 @@ TEST_F(Draw, ShowsASpikeOfOneSampleInALongTrace) {
   EXPECT_LT(fs::file_size(file("trace.svg")), 300000u) << "thinned";
 }
 
-/// Points of all lines of a colour ("#rrggbb") in an SVG file.
-std::vector<Place> svg_points(const std::string& svg, const std::string& colour) {
-  std::vector<Place> points;
-  std::istringstream lines(svg);
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.find("<polyline stroke=\"" + colour) != std::string::npos) {
-      inside = true;
-    } else if (line.starts_with("\"")) {
-      inside = false;
-    } else if (inside) {
-      const std::size_t comma = line.find(',');
-      points.push_back({std::stod(line.substr(0, comma)), std::stod(line.substr(comma + 1))});
-    }
-  }
-  return points;
-}
-
 TEST_F(Draw, ShowsNothingOutsideTheAxes) {
   Panel panel{.x_label = "x", .y_label = "y", .x_range = Range{0., 1.}, .y_range = Range{0., 1.}};
   panel.curves = {{.x = {-1., 2.}, .y = {-5., 6.}, .colour = 1},
@@ -196,16 +169,13 @@ TEST_F(Draw, ShowsNothingOutsideTheAxes) {
       ASSERT_FALSE(picture.has(x, y, tint(palette_colour(3), band_tint))) << x << " " << y;
     }
   EXPECT_GT(picture.count(palette_colour(1)), 100);
-  const auto points = svg_points(content_of(file("outside.svg")), "#d55e00");
-  EXPECT_EQ(points.size(), 2u);
-  for (const Place& point : points) {  // y counts downward there
-    EXPECT_NEAR(point.x, plot.left + plot.width / 2., plot.width / 2. + 0.01);
-    EXPECT_NEAR(picture.height() - point.y, plot.bottom + plot.height / 2.,
-                plot.height / 2. + 0.01);
-  }
+  EXPECT_THAT(content_of(file("outside.svg")), HasSubstr("clip-path="));
 }
 
 TEST_F(Draw, ShowsADeformedMeshWithItsColours) {
+  const char* const display = std::getenv("DISPLAY");
+  if (!(display && *display) && find_program("xvfb-run").empty())
+    GTEST_SKIP() << "no display and no xvfb-run";
   // Displacement from 0 below to its largest above: from dark violet to yellow.
   testing::write_grid(folder_.path() / "mode.vtu",
                       *testing::column_mesh(6, 0.02, 0.1, [](const testing::Point& x) {

@@ -200,17 +200,6 @@ TEST(PageLayout, PrintsACommonPowerOfTenBesideTheAxis) {
               Not(Contains(::testing::StartsWith("\u00d7"))));
 }
 
-TEST(PageLayout, MagnifiesAllThatIsMeasuredInPixels) {
-  const PageLayout small = page_of(bode()), large = magnified(small, 2);
-  EXPECT_EQ(large.width, 2 * small.width);
-  EXPECT_EQ(large.panels[1].plot.bottom, 2. * small.panels[1].plot.bottom);
-  EXPECT_EQ(large.panels[0].legend[1].left, 2. * small.panels[0].legend[1].left);
-  EXPECT_EQ(large.strokes.dash_space, 2. * small.strokes.dash_space);
-  EXPECT_EQ(large.texts.back().size, 2 * small.texts.back().size);
-  EXPECT_EQ(large.texts.back().x, 2. * small.texts.back().x);
-  EXPECT_EQ(large.panels[0].x.range, small.panels[0].x.range);
-}
-
 TEST(Axis, PutsValuesOnPaper) {
   const Axis linear{.logarithmic = false, .range = {-1., 3.}, .ticks = {}};
   EXPECT_EQ(linear.part(linear.on_paper(0.)), 0.25);

@@ -8,7 +8,7 @@
 namespace vibrissa::report {
 namespace {
 
-ModePage page_for(const double width, const double height, const int zoom = 1) {
+ModePage page_for(const double width, const double height) {
   ModePicture picture;
   picture.title = "Mode 3: 147 Hz, torsion of the fin about the wire";
   picture.colour_label = "Size of the displacement [mm]";
@@ -18,7 +18,7 @@ ModePage page_for(const double width, const double height, const int zoom = 1) {
   MeshView view{};
   view.width = width;
   view.height = height;
-  return mode_page(picture, mesh, view, wide_letters, zoom);
+  return mode_page(picture, mesh, view, wide_letters);
 }
 
 TEST(ModePage, KeepsTextsApartAndOnThePageForTallAndFlatMeshes) {
@@ -49,15 +49,6 @@ TEST(ModePage, TellsTheScaleAndTheValuesOfTheColours) {
                                               std::string("\u00d710\u207b\u2076"), std::string("0"),
                                               std::string("30")}));
   EXPECT_EQ(page.bar_axis.range, (Range{0., 3e-5}));
-}
-
-TEST(ModePage, MagnifiesAllThatIsMeasuredInPixels) {
-  const ModePage small = page_for(0.3, 1.), large = page_for(0.3, 1., 2);
-  EXPECT_EQ(large.width, 2 * small.width);
-  EXPECT_EQ(large.height, 2 * small.height);
-  EXPECT_EQ(large.mesh.height, 2. * small.mesh.height);
-  EXPECT_EQ(large.bar.bottom, 2. * small.bar.bottom);
-  EXPECT_EQ(large.texts.back().size, 2 * small.texts.back().size);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ class ReportPage : public ::testing::Test {
  protected:
   TemporaryFolder folder_;
   Page page_ = testing::example_page(folder_.path(), 2000);
-  std::string html_ = to_html(page_, folder_.path());
+  std::string html_ = to_html(page_, folder_.path(), page_scene);
 };
 
 TEST_F(ReportPage, AsksForNothingElse) {
@@ -112,7 +112,7 @@ TEST_F(ReportPage, EveryFigureHasATitleACaptionNumbersAndItsCsv) {
 TEST_F(ReportPage, FoldsTheTablesThatAreToBeFolded) {
   EXPECT_THAT(html_, Not(HasSubstr("<details class=\"table\">")));
   page_.sections[0].tables[0].folded = true;
-  EXPECT_THAT(to_html(page_, folder_.path()),
+  EXPECT_THAT(to_html(page_, folder_.path(), page_scene),
               HasSubstr("<details class=\"table\"><summary>Records (2 rows)</summary>"));
 }
 
@@ -120,34 +120,37 @@ TEST_F(ReportPage, SaysHowItWasMadeAsRunJsonDoes) {
   const std::string markup = markup_of(html_);
   EXPECT_THAT(markup, HasSubstr("<code>vibrissa diagnose --real &#39;run &lt;/script&gt;"));
   EXPECT_THAT(markup, HasSubstr("2001-02-03T04:05:06Z"));
-  EXPECT_EQ(to_html(page_, folder_.path()), html_) << "nothing in it depends on the clock";
+  EXPECT_EQ(to_html(page_, folder_.path(), page_scene), html_)
+      << "nothing in it depends on the clock";
   std::filesystem::remove(folder_.path() / "run.json");
-  EXPECT_THAT(to_html(page_, folder_.path()), Not(HasSubstr("class=\"command\"")));
+  EXPECT_THAT(to_html(page_, folder_.path(), page_scene), Not(HasSubstr("class=\"command\"")));
 }
 
 TEST_F(ReportPage, InlinesThePictureThatStandsInForAView) {
   EXPECT_THAT(markup_of(html_), Not(HasSubstr("<img")));
   folder_.file("figures/mode_1.png", "foobar");
-  EXPECT_THAT(to_html(page_, folder_.path()), HasSubstr("src=\"data:image/png;base64,Zm9vYmFy\""));
+  EXPECT_THAT(to_html(page_, folder_.path(), page_scene),
+              HasSubstr("src=\"data:image/png;base64,Zm9vYmFy\""));
 }
 
 TEST_F(ReportPage, IsMuchSmallerThanItsFiguresInDecimals) {
   const Page page{.sections = {{.figures = {testing::example_trace(60000, "record")}}}};
   constexpr std::size_t libraries = 260000, bytes_a_sample = 11;
-  EXPECT_LT(to_html(page, folder_.path()).size(), libraries + bytes_a_sample * 60000);
+  EXPECT_LT(to_html(page, folder_.path(), page_scene).size(), libraries + bytes_a_sample * 60000);
 }
 
 TEST_F(ReportPage, CarriesTheLibraryOfViewsOnlyWithAView) {
   EXPECT_THAT(html_, HasSubstr("OrbitControls = function"));
   page_.sections.back().scenes.clear();
-  EXPECT_THAT(to_html(page_, folder_.path()), Not(HasSubstr("OrbitControls = function")));
+  EXPECT_THAT(to_html(page_, folder_.path(), page_scene),
+              Not(HasSubstr("OrbitControls = function")));
 }
 
 TEST_F(ReportPage, IsWrittenWholeAndRefusesWhatCannotBeDrawn) {
-  write_page(folder_.path(), page_);
+  write_page(folder_.path(), page_, page_scene);
   EXPECT_EQ(content_of(folder_.path() / "report.html"), html_);
   page_.sections[0].figures[0].panels[0].curves[1].x.pop_back();
-  EXPECT_THAT([&] { to_html(page_, folder_.path()); },
+  EXPECT_THAT([&] { to_html(page_, folder_.path(), page_scene); },
               ::testing::ThrowsMessage<UserError>(HasSubstr("curve 2 ('simulation')")));
 }
 

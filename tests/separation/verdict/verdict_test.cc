@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "separation/model/simulation.h"
@@ -60,6 +61,15 @@ TEST(Verdict, TellsAModeThatDecaysWithinTheWholeRecord) {
   const Verdict verdict = judge(identify_record(record), record);
   EXPECT_TRUE(verdict.usable);
   EXPECT_EQ(verdict.determined.size(), 1u);
+}
+
+// The end of the decay is no other hit.
+TEST(Verdict, AsksForASecondHitToScoreTheModel) {
+  Signal hit(4096, 0.);
+  for (std::size_t i = 0; i < 5; ++i) hit[85 + i] = 40. * std::sin(0.5 * (1. + double(i)));
+  const signals::Record record = noisy_record(hit, test::sensor(1), 0.01, 13);
+  const Verdict verdict = judge(identify_record(record), record);
+  EXPECT_THAT(verdict.sentence, HasSubstr("record a second hit to score the model"));
 }
 
 TEST(Verdict, CallsNoiseNotUsable) {
