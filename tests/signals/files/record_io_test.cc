@@ -200,6 +200,16 @@ TEST_F(ReadRecord, AsksForTheRateWhenThereIsNoTime) {
                                                HasSubstr("give --rate"))));
 }
 
+TEST_F(ReadRecord, SaysHowToNameAChannelThatIsMissing) {
+  const Record record =
+      read(csv("ax_g,M_mNm", [](const std::size_t i) { return std::to_string(i % 7) + ",1"; }),
+           {.sampling_rate_hz = 100.});
+  EXPECT_THAT(
+      [&] { static_cast<void>(record.channel(channel::base_acceleration)); },
+      ThrowsMessage<UserError>(AllOf(HasSubstr("Known: M_mNm, ax_g"),
+                                     HasSubstr("--column 'base_acceleration=NAME[unit]'"))));
+}
+
 TEST_F(ReadRecord, NamesAResponseOrASpectrumForWhatItIs) {
   EXPECT_THAT(
       reading("frequency_hz,response_real,response_imaginary\n1,2,3\n2,2,3\n"),
