@@ -35,6 +35,12 @@ std::vector<Finding> findings_about_all(const signals::Dataset& dataset) {
 void settle(CheckResult& result, const signals::Dataset& dataset) {
   bool has_moment = true;
   for (const signals::DatasetRecord& entry : dataset.records)
+/// "commas, ..." of "bench/a.csv: read as: commas, ...".
+std::string words_of(const std::string& reading) {
+  const std::string before = ": read as: ";
+  return reading.substr(reading.find(before) + before.size());
+}
+
     has_moment &= entry.record.has(channel::base_moment);
   if (has_moment) result.of_dataset = findings_about_all(dataset);
   result.serves = what_they_serve(result.records, result.of_dataset);
@@ -61,7 +67,7 @@ CheckResult check_dataset(const std::string& source, const signals::Dataset& dat
   for (std::size_t i = 0; i < dataset.records.size(); ++i) {
     result.records.push_back(check_record(dataset.records[i]));
     if (dataset.readings.size() == dataset.records.size())
-      result.records.back().reading = dataset.readings[i];
+      result.records.back().reading = words_of(dataset.readings[i]);
     result.samples.push_back(dataset.records[i].record);
   }
   settle(result, dataset);

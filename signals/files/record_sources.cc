@@ -102,8 +102,8 @@ UnitConversion SourceFinder::conversion(const std::size_t column,
                     ", but channel " + channel + " is in " + to +
                     "; give the calibration, as in --column '" +
                     channel.substr(0, channel.size() - unit_at_the_end(channel).size() - 1) + "=" +
-                    from.bare_name + "[" + from.unit + "]*0.18[" + to + "/(" + from.unit +
-                    ")]', or the unit that is right");
+                    from.bare_name + "[" + from.unit + "]*0.18[" + unit_of_ratio(to, from.unit) +
+                    "]', or the unit that is right");
   }
 }
 

@@ -101,7 +101,7 @@ std::optional<Clock> clock_of_one(const PrintedTimes& times) {
   if (const auto axis = uniform_axis(times))
     return Clock{.sampling_rate_hz = axis->sampling_rate_hz,
                  .pieces = {{0, times.times_s.size(), axis->start_s}},
-                 .words = to_text(axis->sampling_rate_hz) + " Hz from '" + times.column + "'"};
+                 .words = rate_text(axis->sampling_rate_hz) + " from '" + times.column + "'"};
   const double rounding = rounding_of(times, times.times_s.size() - 1);
   auto clock = regress_stamps(times.times_s, rounding);
   if (!clock) return {};
@@ -178,8 +178,8 @@ Clock find_clock(const PrintedTimes& printed, const std::vector<std::size_t>& bl
   for (const Clock& clock : clocks)
     if (std::abs(clock.sampling_rate_hz / all.sampling_rate_hz - 1.) > 1e-2)
       throw UserError(times.file + ": the recordings in the file have different rates (" +
-                      to_text(clock.sampling_rate_hz) + " Hz and " + to_text(all.sampling_rate_hz) +
-                      " Hz on average); choose one by --rows");
+                      rate_text(clock.sampling_rate_hz) + " and " +
+                      rate_text(all.sampling_rate_hz) + " on average); choose one by --rows");
   all.words = before + rounded(all.sampling_rate_hz, 7) + " Hz from '" + times.column + "'; " +
               std::to_string(clocks.size()) + " recordings in the file" + lost_words(all);
   return all;

@@ -103,3 +103,4 @@ TEST(CheckFile, HasAJsonDocumentWithTheSameVerdicts) {
 
 }  // namespace
 }  // namespace vibrissa::checks
+  EXPECT_EQ(n_times(check_text(result), "read as: "), 2u) << check_text(result);
