@@ -52,7 +52,7 @@ class SourceFinder {
   Sources chosen(const std::vector<ColumnChoice>& choices, bool skips_missing) const;
   std::size_t find_column(const ColumnChoice& choice) const;
   void add_channels_by_name(Sources& sources) const;
-  void add_time_by_name(Sources& sources, bool needs_time) const;
+  void add_time_by_name(Sources& sources, bool needs_time, bool has_rate) const;
   void add_all_numbers(Sources& sources) const;
 
  private:
@@ -196,7 +196,8 @@ Source SourceFinder::time_source(const std::size_t column, Sources& sources) con
 
 // time_s, or without another clock the column with the name of a time; one that tells its unit
 // first.
-void SourceFinder::add_time_by_name(Sources& sources, const bool needs_time) const {
+void SourceFinder::add_time_by_name(Sources& sources, const bool needs_time,
+                                    const bool has_rate) const {
   if (sources.time) return;
   const auto is_free = [&](const std::size_t i) {
     return std::none_of(sources.channels.begin(), sources.channels.end(),
@@ -220,7 +221,9 @@ void SourceFinder::add_time_by_name(Sources& sources, const bool needs_time) con
     if (!found || tells_unit) found = i;
     if (tells_unit) break;
   }
-  if (found) sources.time = time_source(*found, sources);
+  if (!found) return;
+  sources.time = time_source(*found, sources);
+  sources.time_is_beside_rate = has_rate;
 }
 
 /// "X_Value" of "X_Value_2", the second of two columns with one name.
@@ -264,9 +267,10 @@ Sources find_sources(const formats::RecordTable& file, const ReadOptions& option
   Sources sources = finder.chosen(options.columns, options.skips_missing_columns);
   finder.add_channels_by_name(sources);
   const bool has_exact_clock = file.clock() && !file.clock_is_nominal();
-  finder.add_time_by_name(sources, !options.sampling_rate_hz && !has_exact_clock);
+  finder.add_time_by_name(sources, !has_exact_clock, options.sampling_rate_hz.has_value());
+  if (!sources.time && !options.sampling_rate_hz && (!file.clock() || sources.channels.empty()))
+    refuse_spectrum(file);
   if (sources.channels.empty() && options.takes_all_columns) finder.add_all_numbers(sources);
-  if (!sources.time && !options.sampling_rate_hz && !file.clock()) refuse_spectrum(file);
   if (sources.channels.empty())
     throw UserError(
         file.place(0) +

@@ -201,6 +201,25 @@ TEST_F(ReadRecord, AsksForTheRateWhenThereIsNoTime) {
 }
 
 TEST_F(ReadRecord, SaysHowToNameAChannelThatIsMissing) {
+// A column named as a time tells where samples are lost, also when a rate is given.
+TEST_F(ReadRecord, UsesTheStampsBesideAGivenRate) {
+  const auto content = [&](const double step_s) {
+    return csv("t,base_moment_N_m", [=](const std::size_t i) {
+      return to_text(step_s * double(i < 50 ? i : i + 7)) + "," + std::to_string(i % 9);
+    });
+  };
+  const test::TemporaryFolder folder;
+  const ReadOptions options{.sampling_rate_hz = 100., .gaps = Gaps::pieces};
+  EXPECT_EQ(read_recording(folder.file("r.csv", content(0.01)), options).pieces.size(), 2u);
+  const Recording other = read_recording(folder.file("s.csv", content(0.02)), options);
+  EXPECT_EQ(other.pieces.size(), 1u);
+  EXPECT_EQ(other.pieces.front().sampling_rate_hz(), 100.);
+  EXPECT_THAT(other.words,
+              AllOf(HasSubstr("100 Hz as given"), HasSubstr("contradicts column 't'")));
+  EXPECT_THAT(reading(content(0.01), {.sampling_rate_hz = 100., .gaps = Gaps::refuse}),
+              ThrowsMessage<UserError>(HasSubstr("gap in time")));
+}
+
   const Record record =
       read(csv("ax_g,M_mNm", [](const std::size_t i) { return std::to_string(i % 7) + ",1"; }),
            {.sampling_rate_hz = 100.});
