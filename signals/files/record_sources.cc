@@ -249,15 +249,32 @@ void SourceFinder::add_all_numbers(Sources& sources) const {
   }
 }
 
+bool rises(const formats::RecordTable& file, const std::size_t column) {
+  const auto values = file.read({{&column, 1}, 1, file.n_rows()}).columns.front();
+  return std::ranges::is_sorted(values);
+}
+
+// "H" of the columns H_real and H_imaginary.
+std::string example_of_response(const std::vector<std::string>& columns) {
+  const std::string real = "_real";
+  const auto found = std::ranges::find_if(
+      columns, [&](const std::string& column) { return column.ends_with(real); });
+  return found == columns.end() ? "NAME" : found->substr(0, found->size() - real.size());
+}
+
 void refuse_spectrum(const formats::RecordTable& file) {
   const auto frequency = std::ranges::find_if(file.columns(), is_frequency_name);
   if (frequency == file.columns().end()) return;
-  throw UserError(file.place(0) + "this is a frequency response or a spectrum, and no record: '" +
-                  *frequency +
-                  "' is its frequency, and it has no time; a response is read by 'vibrissa "
-                  "identify --frequency-response', or by --response-as where it has names of its "
-                  "own. Columns: " +
-                  listed(file.columns()));
+  // A record with a stated rate may have a measured frequency as a channel.
+  if (file.clock() && !rises(file, std::size_t(frequency - file.columns().begin()))) return;
+  const std::vector<std::string> others = file.other_columns();
+  throw UserError(
+      file.place(0) + "this is a frequency response or a spectrum, and no record: '" + *frequency +
+      "' is its frequency, and no column of its length is a time; a response is read by 'vibrissa "
+      "identify --frequency-response', with --response-as '" +
+      example_of_response(file.columns()) +
+      "[UNIT]' where it has a name of its own. Columns: " + listed(file.columns()) +
+      (others.empty() ? "" : "; of other lengths, which --column can choose: " + listed(others)));
 }
 
 }  // namespace

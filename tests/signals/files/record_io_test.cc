@@ -13,6 +13,7 @@
 
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
+#include "signals/formats/numeric_table.h"
 #include "tests/signals/temporary_folder.h"
 
 namespace vibrissa::signals {
@@ -234,6 +235,20 @@ TEST_F(ReadRecord, NamesAResponseOrASpectrumForWhatItIs) {
       reading("frequency_hz,response_real,response_imaginary\n1,2,3\n2,2,3\n"),
       ThrowsMessage<UserError>(AllOf(HasSubstr("this is a frequency response or a spectrum"),
                                      HasSubstr("--frequency-response"))));
+}
+
+TEST(ReadTable, NamesTheTimeBesideASpectrum) {
+  std::vector<double> rising(40), times(100);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = 0.01 * double(i);
+  for (std::size_t i = 0; i < rising.size(); ++i) rising[i] = double(i);
+  formats::NumericTable table("f.mat", {{"Freq", rising},
+                                        {"H2_real", rising},
+                                        {"H2_imaginary", rising},
+                                        {"Time_domain", times},
+                                        {"Time_Sample_Rate", {100.}}});
+  EXPECT_THAT(([&] { read_recording(table, "f.mat", {.takes_all_columns = true}); }),
+              ThrowsMessage<UserError>(AllOf(HasSubstr("--response-as 'H2[UNIT]'"),
+                                             HasSubstr("--column can choose: Time_domain"))));
 }
 
 TEST_F(ReadRecord, RefusesARateThatContradictsTime) {
