@@ -201,13 +201,15 @@ TEST_F(ReadRecord, AsksForTheRateWhenThereIsNoTime) {
                                                HasSubstr("give --rate"))));
 }
 
-TEST_F(ReadRecord, SaysHowToNameAChannelThatIsMissing) {
 // A column named as a time tells where samples are lost, also when a rate is given.
 TEST_F(ReadRecord, UsesTheStampsBesideAGivenRate) {
   const auto content = [&](const double step_s) {
-    return csv("t,base_moment_N_m", [=](const std::size_t i) {
-      return to_text(step_s * double(i < 50 ? i : i + 7)) + "," + std::to_string(i % 9);
-    });
+    return csv(
+        "t,base_moment_N_m",
+        [=](const std::size_t i) {
+          return to_text(step_s * double(i < 200 ? i : i + 7)) + "," + std::to_string(i % 9);
+        },
+        400);
   };
   const test::TemporaryFolder folder;
   const ReadOptions options{.sampling_rate_hz = 100., .gaps = Gaps::pieces};
@@ -221,6 +223,7 @@ TEST_F(ReadRecord, UsesTheStampsBesideAGivenRate) {
               ThrowsMessage<UserError>(HasSubstr("gap in time")));
 }
 
+TEST_F(ReadRecord, SaysHowToNameAChannelThatIsMissing) {
   const Record record =
       read(csv("ax_g,M_mNm", [](const std::size_t i) { return std::to_string(i % 7) + ",1"; }),
            {.sampling_rate_hz = 100.});
