@@ -131,7 +131,8 @@ ChannelFacts channel_facts(const signals::Record& record, const std::string& nam
   for (const double v : x) facts.mean += v / double(x.size());
   facts.rms = diagnosis::rms_about_mean(x);
   if (!std::isfinite(facts.rms) || *low == *high) return facts;
-  find_drift(x, record.sampling_rate_hz(), facts);
+  facts.never_falls = std::ranges::is_sorted(x);
+  if (!facts.never_falls) find_drift(x, record.sampling_rate_hz(), facts);
   facts.step = step_of(x, *high - *low);
   find_hum(x, record.sampling_rate_hz(), facts);
   return facts;
@@ -141,6 +142,13 @@ void find_channel_faults(const ChannelFacts& facts, std::vector<Finding>& findin
   const auto with_unit = [&](double value) {
     return three_digits(value) + (facts.unit.empty() ? "" : " " + facts.unit);
   };
+  if (facts.never_falls && facts.lowest < facts.highest)
+    findings.push_back({FindingKind::drift, facts.name, facts.highest - facts.lowest, facts.unit,
+                        facts.name + " rises from " + with_unit(facts.lowest) + " to " +
+                            with_unit(facts.highest) +
+                            " and never falls, so it is a time or a counter: name it, as in "
+                            "--column 'time=NAME[s]', and its stamps give rate and lost samples",
+                        Severity::limits});
   if (facts.drift_per_s) {
     // Above it a model of the response explains less than it leaves (separation/verdict/verdict.h).
     const bool is_most = facts.drift_share > 0.5;

@@ -1,6 +1,9 @@
 #include "checks/check_file.h"
 
+#include <algorithm>
+
 #include "diagnosis/checks/data_checks.h"
+#include "signals/record/channel_name.h"
 
 namespace vibrissa::checks {
 namespace {
@@ -32,6 +35,12 @@ std::vector<Finding> findings_about_all(const signals::Dataset& dataset) {
   return out;
 }
 
+/// "commas, ..." of "bench/a.csv: read as: commas, ...".
+std::string words_of(const std::string& reading) {
+  const std::string before = ": read as: ";
+  return reading.substr(reading.find(before) + before.size());
+}
+
 void settle(CheckResult& result, const signals::Dataset& dataset) {
   bool has_moment = true;
   for (const signals::DatasetRecord& entry : dataset.records)
@@ -61,7 +70,7 @@ CheckResult check_dataset(const std::string& source, const signals::Dataset& dat
   for (std::size_t i = 0; i < dataset.records.size(); ++i) {
     result.records.push_back(check_record(dataset.records[i]));
     if (dataset.readings.size() == dataset.records.size())
-      result.records.back().reading = dataset.readings[i];
+      result.records.back().reading = words_of(dataset.readings[i]);
     result.samples.push_back(dataset.records[i].record);
   }
   settle(result, dataset);
@@ -86,7 +95,8 @@ CheckResult check_file(const fs::path& source, const signals::ReadOptions& optio
                          signals::read_dataset(is_description ? parent : source, options));
   }
   signals::ReadOptions used = options;
-  used.takes_all_columns = options.columns.empty();
+  used.takes_all_columns = std::ranges::all_of(
+      options.columns, [](const auto& choice) { return choice.channel == signals::time_channel; });
   const signals::Recording recording = signals::read_recording(source, used);
   if (recording.pieces.size() == 1)
     return check_one(source.string(), recording.pieces.front(), recording.words);

@@ -39,6 +39,7 @@ struct ChannelFacts {
   double lowest = 0., highest = 0., mean = 0., rms = 0.;  // rms about the mean
   std::optional<double> drift_per_s{};                    // where it is told from noise
   double drift_share = 0.;                                // of the variance
+  bool never_falls = false;                               // as a time or a counter
   std::optional<double> step{};   // of the converter, where all values lie on a grid
   std::optional<double> noise{};  // per sample; an upper bound where the drive hides it
   std::vector<HumLine> hum{};

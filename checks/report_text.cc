@@ -4,7 +4,7 @@
 
 #include "checks/numbered_reasons.h"
 #include "diagnosis/model/words.h"
-#include "signals/base/number_text.h"
+#include "signals/base/significant_digits.h"
 
 namespace vibrissa::checks {
 namespace {
@@ -59,7 +59,7 @@ std::string number_text(const std::optional<std::size_t>& number) {
 std::string record_text(const RecordReport& report, const std::size_t place,
                         const NumberedReasons& reasons) {
   std::string text =
-      wrapped(report.name + ": " + signals::to_text(report.sampling_rate_hz) + " Hz, " +
+      wrapped(report.name + ": " + signals::rate_text(report.sampling_rate_hz) + ", " +
               std::to_string(report.n_samples) + " samples, " + three_digits(report.duration_s) +
               " s, excitation " + signals::to_string(report.excitation));
   if (!report.reading.empty()) text += wrapped("  read as: " + report.reading);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "signals/record/channel_name.h"
+
 namespace vibrissa::checks {
 namespace {
 
@@ -159,6 +161,19 @@ ServesTable what_they_serve(std::span<const RecordReport> reports,
       worsen(table[command], std::min(effect_of(finding, command), of_severity(finding.severity)),
              finding.sentence);
   return table;
+}
+
+bool only_names_are_missing(std::span<const RecordReport> reports) {
+  return std::ranges::all_of(reports, [](const RecordReport& report) {
+    return std::ranges::all_of(report.findings,
+                               [](const Finding& finding) {
+                                 return finding.severity != Severity::stops ||
+                                        finding.kind == FindingKind::missing_channel;
+                               }) &&
+           std::ranges::all_of(report.channels, [](const ChannelFacts& facts) {
+             return signals::full_channel_name(facts.name).empty();
+           });
+  });
 }
 
 bool serves_all(const ServesTable& table) {

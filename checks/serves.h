@@ -30,6 +30,10 @@ ServesTable what_it_serves(const RecordReport& report);
 ServesTable what_they_serve(std::span<const RecordReport> reports,
                             const std::vector<Finding>& of_dataset);
 
+/// Whether the records stop only because none of their columns is named as a channel, so that
+/// nothing needs to be recorded. Proven by tests/checks/check_file_test.cc.
+bool only_names_are_missing(std::span<const RecordReport> reports);
+
 /// Can every command work?
 bool serves_all(const ServesTable& table);
 

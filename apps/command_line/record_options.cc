@@ -101,6 +101,14 @@ void say_how_read(const std::string& file, const std::string& words) {
   std::cerr << file << ": read as: " << words << std::endl;
 }
 
+signals::formats::FileResponse read_said_response(const std::string& file, const std::string& as,
+                                                  const CommonOptions& common) {
+  auto response = signals::formats::read_response(file, {.as = as, .may_keep_unit = true});
+  const bool is_moment = response.unit == signals::formats::moment_per_acceleration;
+  if (!common.quiet || !is_moment) say_how_read(file, response.words);
+  return response;
+}
+
 bool RecordOptions::is_quiet() const {
   const CLI::Option* const quiet =
       command_ == nullptr ? nullptr : command_->get_option_no_throw("--quiet");

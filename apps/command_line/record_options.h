@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/command_line/command.h"
 #include "signals/files/record_io.h"
+#include "signals/files/response_file.h"
 #include "signals/record/record.h"
 
 namespace vibrissa::apps {
@@ -51,6 +53,11 @@ struct RecordOptions {
 
 /// "FILE: read as: WORDS" on standard error.
 void say_how_read(const std::string& file, const std::string& words);
+
+/// A frequency response; says on standard error how its unit was found, also where quiet when its
+/// values are no moment per acceleration.
+signals::formats::FileResponse read_said_response(const std::string& file, const std::string& as,
+                                                  const CommonOptions& common);
 
 /// {"record", "samples", "sampling_rate_hz", "channels"}: what a command says of a record it wrote.
 nlohmann::json written_record_json(const std::string& file, const signals::Record& record);

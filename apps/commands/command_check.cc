@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -56,6 +57,17 @@ std::string refusals(const std::vector<checks::CheckResult>& results) {
   return text;
 }
 
+/// Columns that only lack a name need no new recording.
+std::string advice(const std::vector<checks::CheckResult>& results) {
+  const auto lacks_names = [](const checks::CheckResult& result) {
+    return checks::only_names_are_missing(result.records);
+  };
+  return std::ranges::all_of(results, lacks_names)
+             ? "; no column is named as a channel: say which is which by --column, as the lines "
+               "above show"
+             : "; the table says what to record instead";
+}
+
 void check(const CheckCommand& options) {
   report::RunFolder::refuse_taken(options.folder);
   std::vector<checks::CheckResult> results;
@@ -67,8 +79,7 @@ void check(const CheckCommand& options) {
     for (const checks::CheckResult& result : results) std::cout << checks::check_text(result);
   if (options.folder) write_results(options, results);
   if (const std::string text = refusals(results); !text.empty())
-    throw diagnosis::TooLittleData("cannot work with these data: " + text +
-                                   "; the table says what to record instead");
+    throw diagnosis::TooLittleData("cannot work with these data: " + text + advice(results));
 }
 
 }  // namespace

@@ -29,9 +29,9 @@ void convert_response(const ConvertOptions& options) {
   const std::string reason = "is for records; --frequency-response reads none";
   refuse_given(*options.command, {"--mat-version"}, reason);
   refuse_given(*options.command, record_option_names(), reason);
-  const auto response = signals::formats::read_response(options.from, {options.response_as});
-  signals::formats::write_response(options.to, response,
-                                   std::filesystem::path(options.from).stem().string());
+  const auto response = read_said_response(options.from, options.response_as, options.common);
+  signals::formats::write_response(
+      options.to, response, std::filesystem::path(options.from).stem().string(), response.unit);
   if (options.common.json)
     print_json({{"response", options.to}, {"frequencies", response.frequency_hz.size()}});
   else if (!options.common.quiet)

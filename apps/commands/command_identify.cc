@@ -85,8 +85,8 @@ void refuse_unused(const CLI::App& command, const IdentifyCommandOptions& option
 
 void identify_from_response(const IdentifyCommandOptions& options) {
   refuse_what_needs_a_record(*options.command);
-  const signals::FrequencyResponse response =
-      signals::formats::read_response(options.record_file, {options.response_as});
+  const signals::formats::FileResponse response =
+      read_said_response(options.record_file, options.response_as, options.common);
   if (response.coherence.empty() && response.standard_deviation.empty())
     std::cerr << "warning: " << options.record_file
               << ": the file has no coherence and no standard deviation, so every line has the "
@@ -95,8 +95,11 @@ void identify_from_response(const IdentifyCommandOptions& options) {
       separation::identify_response(response, {.order = options.identify.order,
                                                .max_order = options.identify.max_order,
                                                .direct_term = !options.no_direct_term});
-  const std::optional<std::string> model_file = model_file_of(options);
+  const bool is_moment = response.unit == signals::formats::moment_per_acceleration;
+  const std::optional<std::string> model_file = is_moment ? model_file_of(options) : std::nullopt;
   if (model_file) separation::write_bvrm(*model_file, {found.fit.model});
+  if (!is_moment)
+    std::cerr << "warning: no model is written: its gains would be in " << response.unit << "\n";
   const separation::Verdict verdict = separation::judge(found, response);
   if (options.common.json) {
     print_json(separation::identified_response_json(found, verdict));

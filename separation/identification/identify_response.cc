@@ -6,11 +6,13 @@
 #include <complex>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "separation/identification/frequency_problem.h"
 #include "separation/identification/identify_frequency.h"
 #include "separation/model/rational_model.h"
+#include "signals/base/error.h"
 
 namespace vibrissa::separation {
 namespace {
@@ -19,13 +21,13 @@ using signals::FrequencyResponse;
 
 constexpr std::size_t held_out_every = 3;
 
-/// Every third line, or the others; those without a finite value are in neither.
+/// Every third of the lines with a finite value, or the others of them.
 FrequencyResponse lines_of(const FrequencyResponse& response, const bool held_out) {
   FrequencyResponse part;
-  for (std::size_t i = 0; i < response.value.size(); ++i) {
-    const bool is_finite =
-        std::isfinite(response.value[i].real()) && std::isfinite(response.value[i].imag());
-    if ((i % held_out_every == 1) != held_out || !is_finite) continue;
+  for (std::size_t i = 0, finite = 0; i < response.value.size(); ++i) {
+    if (!std::isfinite(response.value[i].real()) || !std::isfinite(response.value[i].imag()))
+      continue;
+    if ((finite++ % held_out_every == 1) != held_out) continue;
     part.frequency_hz.push_back(response.frequency_hz[i]);
     part.value.push_back(response.value[i]);
     if (!response.coherence.empty()) part.coherence.push_back(response.coherence[i]);
@@ -33,6 +35,18 @@ FrequencyResponse lines_of(const FrequencyResponse& response, const bool held_ou
       part.standard_deviation.push_back(response.standard_deviation[i]);
   }
   return part;
+}
+
+void refuse_few_lines(const FrequencyResponse& response) {
+  constexpr std::size_t fewest_known = 3, fewest = fewest_known + 1;
+  const std::size_t n =
+      lines_of(response, false).value.size() + lines_of(response, true).value.size();
+  if (n < fewest)
+    throw signals::UserError("the frequency response has " + std::to_string(n) +
+                             " lines with a finite value; at least " + std::to_string(fewest) +
+                             " are needed, " + std::to_string(fewest_known) +
+                             " for a model and one that scores it: measure or export more lines "
+                             "around the resonance");
 }
 
 /// Where only the coherence g2 is known, the deviation is in proportion to |H| sqrt((1 - g2) / g2).
@@ -148,6 +162,7 @@ bool is_resolved(const ModeEstimate& mode, const FrequencyResponse& response) {
 
 IdentifiedResponse identify_response(const FrequencyResponse& response,
                                      const IdentifyResponseOptions& options) {
+  refuse_few_lines(response);
   FrequencyResponse measured = with_deviation(response);
   IdentifiedResponse found;
   found.conjugated = has_other_convention(measured, options);

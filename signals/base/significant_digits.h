@@ -25,4 +25,9 @@ inline std::string rounded(const double value, const int n_digits) {
   return to_text(with_significant_digits(value, n_digits));
 }
 
+/// "500.00002 Hz" of an estimated rate. Proven by tests/signals/base/significant_digits_test.cc.
+inline std::string rate_text(const double rate_hz) {
+  return rounded(rate_hz, 8) + " Hz";
+}
+
 }  // namespace vibrissa::signals

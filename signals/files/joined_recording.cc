@@ -7,6 +7,7 @@
 
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
+#include "signals/base/significant_digits.h"
 #include "signals/files/record_rows.h"
 #include "signals/spectra/band_limited_signal.h"
 
@@ -91,7 +92,7 @@ Recording overlap_of(const Recording& slow, const Recording& fast, const FastClo
 
 std::string joined_words(const Recording& both, const std::string& clock) {
   return "joined on the clock of " + clock + " at " +
-         to_text(both.pieces.front().sampling_rate_hz()) + " Hz, without what is above " +
+         rate_text(both.pieces.front().sampling_rate_hz()) + ", without what is above " +
          to_text(
              std::round(BandLimitedSignal::flat_share * both.pieces.front().sampling_rate_hz())) +
          " Hz: " + std::to_string(both.pieces.front().n_samples()) + " samples" +

@@ -16,6 +16,8 @@
 namespace vibrissa::signals {
 namespace {
 
+using formats::RecordTable;
+
 void remove_means(const ReadOptions& options, Record& record) {
   for (const std::string& name : options.remove_mean) {
     const std::string channel = full_channel_name(name);
@@ -38,6 +40,33 @@ std::string sizes_of(const Recording& recording, const Clock& clock) {
   return text;
 }
 
+// Stamps beside a given rate tell lost samples. Where they contradict it or cannot be read, the
+// rate alone counts, and why is said.
+std::optional<Clock> clock_beside_rate(const RecordTable& table, const std::string& name,
+                                       Sources& sources, const ReadOptions& options,
+                                       const std::size_t n_rows) {
+  if (!sources.time_is_beside_rate || options.resample_hz) return std::nullopt;
+  ReadOptions in_pieces = options;
+  in_pieces.gaps = Gaps::pieces;
+  std::optional<Clock> clock;
+  std::string reason;
+  try {
+    clock = read_clock(table, name, sources, in_pieces, n_rows);
+    if (std::ranges::none_of(clock->pieces, [](auto& p) { return p.count >= least_samples; }))
+      throw UserError(clock->words + "; no piece has " + std::to_string(least_samples) +
+                      " samples");
+  } catch (const UserError& error) {
+    reason = " as given; the stamps of '" + table.columns()[sources.time->column] +
+             "' are not used (" + error.what() + ")";
+    clock.reset();
+    sources.time.reset();
+  }
+  if (!clock || options.gaps == Gaps::refuse)
+    clock = read_clock(table, name, sources, options, n_rows);
+  clock->words += reason;
+  return clock;
+}
+
 }  // namespace
 
 std::size_t Recording::longest() const {
@@ -58,9 +87,9 @@ Recording read_recording(formats::RecordTable& table, const std::string& name,
   check(options);
   if (!table.rate_groups().empty()) return read_several_rates(table, name, options);
   for (const ColumnChoice& choice : options.columns) table.take_rows_of(choice.column);
-  const Sources sources = find_sources(table, options);
+  Sources sources = find_sources(table, options);
   const std::size_t n_rows = number_of_rows(table, options);
-  std::optional<Clock> clock;
+  std::optional<Clock> clock = clock_beside_rate(table, name, sources, options, n_rows);
   Recording recording;
   recording.pieces = read_rows(table, name, sources, options, n_rows, clock);
   for (Record& piece : recording.pieces) remove_means(options, piece);

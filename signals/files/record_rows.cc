@@ -7,6 +7,7 @@
 
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
+#include "signals/base/significant_digits.h"
 #include "signals/files/resampled_rows.h"
 #include "signals/record/time_axis.h"
 
@@ -70,8 +71,8 @@ void settle_rate(const RecordTable& file, const std::string& path, const std::st
   if (std::abs(*known - clock.sampling_rate_hz) > allowed * clock.sampling_rate_hz)
     throw UserError(path + ": the " + (is_nominal ? "stated" : "given") + " sampling rate " +
                     to_text(*known) + " Hz contradicts column '" + column + "', which gives " +
-                    to_text(clock.sampling_rate_hz) +
-                    " Hz; correct the rate (--rate, or sampling_rate_hz in dataset.json or in the "
+                    rate_text(clock.sampling_rate_hz) +
+                    "; correct the rate (--rate, or sampling_rate_hz in dataset.json or in the "
                     "file) or the column" +
                     time_unit_hint(*known / clock.sampling_rate_hz));
   if (!is_nominal) clock.sampling_rate_hz = *known;
@@ -117,7 +118,7 @@ Clock clock_without_column(const RecordTable& file, const std::string& path,
   const TimeAxis stated = file.clock().value_or(TimeAxis{0., 0.});
   Clock clock;
   clock.sampling_rate_hz = options.sampling_rate_hz.value_or(stated.sampling_rate_hz);
-  clock.words = to_text(clock.sampling_rate_hz) + " Hz";
+  clock.words = rate_text(clock.sampling_rate_hz);
   std::vector<std::size_t> starts = blocks_within(file, options.first_row, n_rows);
   if (!starts.empty() && options.gaps == Gaps::refuse)
     throw UserError(path + ": contains " + std::to_string(starts.size() + 1) +

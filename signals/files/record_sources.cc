@@ -52,7 +52,7 @@ class SourceFinder {
   Sources chosen(const std::vector<ColumnChoice>& choices, bool skips_missing) const;
   std::size_t find_column(const ColumnChoice& choice) const;
   void add_channels_by_name(Sources& sources) const;
-  void add_time_by_name(Sources& sources, bool needs_time) const;
+  void add_time_by_name(Sources& sources, bool needs_time, bool has_rate) const;
   void add_all_numbers(Sources& sources) const;
 
  private:
@@ -102,8 +102,8 @@ UnitConversion SourceFinder::conversion(const std::size_t column,
                     ", but channel " + channel + " is in " + to +
                     "; give the calibration, as in --column '" +
                     channel.substr(0, channel.size() - unit_at_the_end(channel).size() - 1) + "=" +
-                    from.bare_name + "[" + from.unit + "]*0.18[" + to + "/(" + from.unit +
-                    ")]', or the unit that is right");
+                    from.bare_name + "[" + from.unit + "]*0.18[" + unit_of_ratio(to, from.unit) +
+                    "]', or the unit that is right");
   }
 }
 
@@ -196,7 +196,8 @@ Source SourceFinder::time_source(const std::size_t column, Sources& sources) con
 
 // time_s, or without another clock the column with the name of a time; one that tells its unit
 // first.
-void SourceFinder::add_time_by_name(Sources& sources, const bool needs_time) const {
+void SourceFinder::add_time_by_name(Sources& sources, const bool needs_time,
+                                    const bool has_rate) const {
   if (sources.time) return;
   const auto is_free = [&](const std::size_t i) {
     return std::none_of(sources.channels.begin(), sources.channels.end(),
@@ -220,7 +221,9 @@ void SourceFinder::add_time_by_name(Sources& sources, const bool needs_time) con
     if (!found || tells_unit) found = i;
     if (tells_unit) break;
   }
-  if (found) sources.time = time_source(*found, sources);
+  if (!found) return;
+  sources.time = time_source(*found, sources);
+  sources.time_is_beside_rate = has_rate;
 }
 
 /// "X_Value" of "X_Value_2", the second of two columns with one name.
@@ -246,15 +249,32 @@ void SourceFinder::add_all_numbers(Sources& sources) const {
   }
 }
 
+bool rises(const formats::RecordTable& file, const std::size_t column) {
+  const auto values = file.read({{&column, 1}, 1, file.n_rows()}).columns.front();
+  return std::ranges::is_sorted(values);
+}
+
+// "H" of the columns H_real and H_imaginary.
+std::string example_of_response(const std::vector<std::string>& columns) {
+  const std::string real = "_real";
+  const auto found = std::ranges::find_if(
+      columns, [&](const std::string& column) { return column.ends_with(real); });
+  return found == columns.end() ? "NAME" : found->substr(0, found->size() - real.size());
+}
+
 void refuse_spectrum(const formats::RecordTable& file) {
   const auto frequency = std::ranges::find_if(file.columns(), is_frequency_name);
   if (frequency == file.columns().end()) return;
-  throw UserError(file.place(0) + "this is a frequency response or a spectrum, and no record: '" +
-                  *frequency +
-                  "' is its frequency, and it has no time; a response is read by 'vibrissa "
-                  "identify --frequency-response', or by --response-as where it has names of its "
-                  "own. Columns: " +
-                  listed(file.columns()));
+  // A record with a stated rate may have a measured frequency as a channel.
+  if (file.clock() && !rises(file, std::size_t(frequency - file.columns().begin()))) return;
+  const std::vector<std::string> others = file.other_columns();
+  throw UserError(
+      file.place(0) + "this is a frequency response or a spectrum, and no record: '" + *frequency +
+      "' is its frequency, and no column of its length is a time; a response is read by 'vibrissa "
+      "identify --frequency-response', with --response-as '" +
+      example_of_response(file.columns()) +
+      "[UNIT]' where it has a name of its own. Columns: " + listed(file.columns()) +
+      (others.empty() ? "" : "; of other lengths, which --column can choose: " + listed(others)));
 }
 
 }  // namespace
@@ -264,9 +284,10 @@ Sources find_sources(const formats::RecordTable& file, const ReadOptions& option
   Sources sources = finder.chosen(options.columns, options.skips_missing_columns);
   finder.add_channels_by_name(sources);
   const bool has_exact_clock = file.clock() && !file.clock_is_nominal();
-  finder.add_time_by_name(sources, !options.sampling_rate_hz && !has_exact_clock);
+  finder.add_time_by_name(sources, !has_exact_clock, options.sampling_rate_hz.has_value());
+  if (!sources.time && !options.sampling_rate_hz && (!file.clock() || sources.channels.empty()))
+    refuse_spectrum(file);
   if (sources.channels.empty() && options.takes_all_columns) finder.add_all_numbers(sources);
-  if (!sources.time && !options.sampling_rate_hz && !file.clock()) refuse_spectrum(file);
   if (sources.channels.empty())
     throw UserError(
         file.place(0) +

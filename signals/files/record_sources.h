@@ -22,6 +22,7 @@ struct Sources {
   std::vector<Source> channels;
   std::optional<Source> time;  // without it the clock is stated in the file or in the options
   bool time_unit_is_unknown = false;  // then times with fractions are in seconds
+  bool time_is_beside_rate = false;   // found by its name although a rate is given
 };
 
 /// Finds which columns of a file become which channels, and converts the units that the file

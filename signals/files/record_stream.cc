@@ -26,6 +26,7 @@ RecordStream::RecordStream(const std::filesystem::path& file, const ReadOptions&
     throw UserError("--resample needs the whole record; leave out the option of the stream");
   check(options);
   sources_ = find_sources(*table_, options_);
+  if (sources_.time_is_beside_rate) sources_.time.reset();
   n_rows_ = number_of_rows(*table_, options_);
   find_axis();
 }

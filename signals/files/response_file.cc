@@ -16,7 +16,15 @@ namespace {
 constexpr int x_direction = 1, y_axis = 5, base_node = 1;
 
 const std::string coherence_title = "coherence, 0 .. 1";
-const std::string convention = "exp(+j w t), one-sided, Hz, N m s^2/m";
+
+std::string convention_in(const std::string& unit) {
+  return "exp(+j w t), one-sided, Hz, " + unit;
+}
+
+std::string title_in(const std::string& unit) {
+  return (unit == moment_per_acceleration ? "base moment / base acceleration: " : "response: ") +
+         convention_in(unit);
+}
 
 bool is_even(const std::vector<double>& frequency_hz) {
   constexpr double share_of_a_step = 1e-6;
@@ -30,13 +38,16 @@ bool is_even(const std::vector<double>& frequency_hz) {
   return true;
 }
 
-void write_csv(const std::filesystem::path& file, const FrequencyResponse& response) {
+void write_csv(const std::filesystem::path& file, const FrequencyResponse& response,
+               const std::string& unit) {
   write_file(file, [&](std::ostream& out) {
     const bool has_coherence = !response.coherence.empty();
     const bool has_deviation = !response.standard_deviation.empty();
-    out << "# base moment / base acceleration: " << convention << "\n"
-        << "frequency_hz,response_real,response_imaginary" << (has_coherence ? ",coherence" : "")
-        << (has_deviation ? ",standard_deviation" : "") << "\n";
+    const std::string in = unit == moment_per_acceleration ? "" : " [" + unit + "]";
+    out << "# " << title_in(unit) << "\n"
+        << "frequency_hz,response_real" << in << ",response_imaginary" << in
+        << (has_coherence ? ",coherence" : "") << (has_deviation ? ",standard_deviation" : "")
+        << "\n";
     for (std::size_t i = 0; i < response.value.size(); ++i) {
       out << to_text(response.frequency_hz[i]) << "," << to_text(response.value[i].real()) << ","
           << to_text(response.value[i].imag());
@@ -69,10 +80,11 @@ Uff58Function beside(const Uff58Function& response, const Uff58FunctionType type
 
 }  // namespace
 
-std::vector<Uff58Function> uff58_of(const FrequencyResponse& response, const std::string& name) {
+std::vector<Uff58Function> uff58_of(const FrequencyResponse& response, const std::string& name,
+                                    const std::string& unit) {
   const std::vector<double>& f = response.frequency_hz;
   Uff58Function function{
-      .id_lines = {name, "base moment / base acceleration: " + convention, "", "", ""},
+      .id_lines = {name, title_in(unit), "", "", ""},
       .function_type = frequency_response,
       .response_node = base_node,
       .response_direction = y_axis,
@@ -87,6 +99,10 @@ std::vector<Uff58Function> uff58_of(const FrequencyResponse& response, const std
                         .label = "Moment",
                         .unit = "N m"},
       .denominator_axis = {.quantity = 12, .label = "Acceleration", .unit = "m/s^2"}};
+  if (unit != moment_per_acceleration) {
+    function.ordinate_axis = {.label = "Response", .unit = unit};
+    function.denominator_axis = {};
+  }
   if (!is_even(f)) {
     function.abscissa = f;
   } else if (!f.empty()) {
@@ -106,10 +122,11 @@ std::vector<Uff58Function> uff58_of(const FrequencyResponse& response, const std
 }
 
 void write_response(const std::filesystem::path& file, const FrequencyResponse& response,
-                    const std::string& name) {
-  if (format_of(file).has(universal_extension)) return write_uff58(file, uff58_of(response, name));
-  if (format_of(file).has(".mat")) return write_mat(file, response, convention);
-  if (extension_of(file) == ".csv") return write_csv(file, response);
+                    const std::string& name, const std::string& unit) {
+  if (format_of(file).has(universal_extension))
+    return write_uff58(file, uff58_of(response, name, unit));
+  if (format_of(file).has(".mat")) return write_mat(file, response, convention_in(unit));
+  if (extension_of(file) == ".csv") return write_csv(file, response, unit);
   throw UserError(file.string() +
                   ": a frequency response can be written as .uff, .unv, .uf58 (Universal File, "
                   "type 58), .mat or .csv; use one of these endings");

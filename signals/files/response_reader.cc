@@ -19,6 +19,7 @@
 #include "signals/base/unit.h"
 #include "signals/files/file_format.h"
 #include "signals/files/response_file.h"
+#include "signals/formats/response_unit.h"
 #include "signals/formats/uff58/uff58_exact.h"
 #include "signals/record/column_unit.h"
 
@@ -27,9 +28,21 @@ namespace {
 
 using Values = std::vector<double>;
 
+std::string wanted_unit(const ResponseChoice& choice) {
+  return choice.output_unit + (choice.per_acceleration ? " s^2/m" : "");
+}
+
+/// The unit that the choice gives or the file states.
+ResponseUnit unit_of_values(const bool is_given, const std::string& stated,
+                            const ResponseChoice& choice, const std::filesystem::path& file) {
+  const std::string wanted = wanted_unit(choice);
+  if (is_given) return {.unit = wanted, .words = "frequency response, unit as given"};
+  return response_unit(stated, wanted, choice.may_keep_unit, file.string());
+}
+
 ScaledName scaled_name(const std::string& text, const ResponseChoice& choice) {
   try {
-    return parse_scaled_name(text, choice.output_unit + (choice.per_acceleration ? " s2 m-1" : ""));
+    return parse_scaled_name(text, wanted_unit(choice));
   } catch (const UnitError& error) {
     const std::string quantity = choice.output_unit == "N m" ? "moment" : choice.output_unit;
     throw UserError("response '" + text + "': " + error.what() + ". The unit of a response is " +
@@ -63,6 +76,20 @@ class Columns {
                                  [&](const std::string& name) { return name.starts_with(start); });
     if (at == names.end()) return {};
     return static_cast<std::size_t>(at - names.begin());
+  }
+  /// The column with this name, with or without a unit behind it.
+  std::optional<std::size_t> find_value(const std::string& name) const {
+    if (const auto column = find(name)) return column;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (split_unit(table_.columns()[i]).name == name) return i;
+    return {};
+  }
+  /// The unit that the file states beside the name or in brackets behind it: the end of
+  /// "magnitude_n_m_s2_per_m" is no unit of its own.
+  std::string unit(const std::size_t column) const {
+    const std::string beside = table_.units()[column];
+    const bool has_brackets = name(column).ends_with(']') || name(column).ends_with(')');
+    return beside.empty() && has_brackets ? split_unit(name(column)).unit : beside;
   }
   std::size_t size() const { return table_.columns().size(); }
   const std::string& name(const std::size_t column) const { return table_.columns()[column]; }
@@ -121,14 +148,21 @@ Values frequencies(const Columns& columns) {
 
 using Complex = std::vector<std::complex<double>>;
 
-std::optional<Complex> by_parts(const Columns& columns, const std::string& real,
-                                const std::string& imaginary) {
-  const auto a = columns.find(real), b = columns.find(imaginary);
+/// Values and the unit that the file states for them.
+struct Stated {
+  Complex value{};
+  std::string unit{};
+  bool unit_is_given = false;
+};
+
+std::optional<Stated> by_parts(const Columns& columns, const std::string& real,
+                               const std::string& imaginary) {
+  const auto a = columns.find_value(real), b = columns.find_value(imaginary);
   if (!a || !b) return {};
   const Values x = columns.values(*a), y = columns.values(*b);
-  Complex value;
-  for (std::size_t i = 0; i < x.size(); ++i) value.emplace_back(x[i], y[i]);
-  return value;
+  Stated found{.unit = columns.unit(*a)};
+  for (std::size_t i = 0; i < x.size(); ++i) found.value.emplace_back(x[i], y[i]);
+  return found;
 }
 
 // A magnitude is never negative, but its logarithm is.
@@ -163,7 +197,7 @@ std::optional<std::pair<std::size_t, std::string>> column_of(
   return std::pair(*column, plain_name(chosen).unit);
 }
 
-std::optional<Complex> by_magnitude(const Columns& columns, const ResponseChoice& choice) {
+std::optional<Stated> by_magnitude(const Columns& columns, const ResponseChoice& choice) {
   const ScaledName chosen =
       choice.magnitude.empty() ? ScaledName{} : scaled_name(choice.magnitude, choice);
   const auto magnitude = column_of(columns, chosen.name, {"magnitude", "amplitude", "gain"});
@@ -176,13 +210,16 @@ std::optional<Complex> by_magnitude(const Columns& columns, const ResponseChoice
                    "' is not known; name it phase_deg or phase_rad");
   Values r = columns.values(magnitude->first);
   const Values phase = columns.values(phase_column);
+  Stated found{.unit_is_given = chosen.has_unit};
   if (in_decibels(columns, magnitude->first, magnitude->second, r, !choice.magnitude.empty()))
     for (double& value : r) value = std::pow(10., value / 20.);
-  Complex value;
+  else
+    found.unit = columns.unit(magnitude->first);
   for (std::size_t i = 0; i < r.size(); ++i)
-    value.push_back(std::polar(1., (is_in_radians ? 1. : std::numbers::pi / 180.) * phase[i]) *
-                    (chosen.scale * r[i]));
-  return value;
+    found.value.push_back(
+        std::polar(1., (is_in_radians ? 1. : std::numbers::pi / 180.) * phase[i]) *
+        (chosen.scale * r[i]));
+  return found;
 }
 
 // Names of the complex columns of the file.
@@ -190,15 +227,15 @@ std::vector<std::string> complex_names(const Columns& columns) {
   std::vector<std::string> names;
   constexpr std::string_view real = "_real";
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const std::string& name = columns.name(i);
+    const std::string name = split_unit(columns.name(i)).name;
     if (!name.ends_with(real)) continue;
     const std::string before = name.substr(0, name.size() - real.size());
-    if (columns.find(before + "_imaginary")) names.push_back(before);
+    if (columns.find_value(before + "_imaginary")) names.push_back(before);
   }
   return names;
 }
 
-Complex responses(const Columns& columns, const std::string& name, const ResponseChoice& choice) {
+Stated responses(const Columns& columns, const std::string& name, const ResponseChoice& choice) {
   if (!choice.magnitude.empty()) return *by_magnitude(columns, choice);
   std::vector<std::string> names = {"response", "frf", "H"};
   if (!name.empty()) names = {name};
@@ -232,16 +269,21 @@ Values coherence_of(const Columns& columns) {
   return values;
 }
 
-FrequencyResponse from_table(const std::filesystem::path& file, const ScaledName& name,
-                             const ResponseChoice& choice) {
+FileResponse from_table(const std::filesystem::path& file, const ScaledName& name,
+                        const ResponseChoice& choice) {
   const auto table = open_table(file);
   const Columns columns(*table);
-  FrequencyResponse response{frequencies(columns), responses(columns, name.name, choice), {}, {}};
-  for (auto& value : response.value) value *= name.scale;
+  Stated found = responses(columns, name.name, choice);
+  const ResponseUnit unit =
+      unit_of_values(name.has_unit || found.unit_is_given, found.unit, choice, file);
+  const double scale = name.scale * unit.scale;
+  FileResponse response{
+      {frequencies(columns), std::move(found.value), {}, {}}, unit.unit, unit.words};
+  for (auto& value : response.value) value *= scale;
   response.coherence = coherence_of(columns);
   if (const auto column = columns.find_start("standard_deviation")) {
     response.standard_deviation = columns.values(*column);
-    for (double& sd : response.standard_deviation) sd *= std::abs(name.scale);
+    for (double& sd : response.standard_deviation) sd *= std::abs(scale);
   }
   return response;
 }
@@ -289,21 +331,13 @@ std::size_t chosen(const std::vector<Uff58Function>& functions, const std::strin
   throw UserError(file + ": has no response '" + name + "'; " + known);
 }
 
-bool is_told(const std::string& unit) {
-  return !unit.empty() && unit != "NONE";
-}
-
-/// Factor from the units of the file to those of the choice.
-double scale_of(const Uff58Function& function, const ResponseChoice& choice,
-                const std::string& file) {
-  const std::string &above = function.ordinate_axis.unit, &below = function.denominator_axis.unit;
-  if (!is_told(above) || !is_told(below)) return 1.;
-  try {
-    return convert_unit(above, choice.output_unit).scale / convert_unit(below, "m/s2").scale;
-  } catch (const UnitError& error) {
-    throw UserError(file + ": the response is in " + above + " per " + below + ": " + error.what() +
-                    ". Give the conversion factor, as in '[uT/g]*0.18[N m/T]'");
-  }
+// "mN mm/g" of a function whose axes are told; empty: the file states none.
+std::string unit_of(const Uff58Function& function) {
+  const auto told = [](const std::string& unit) { return unit == "NONE" ? "" : unit; };
+  const std::string above = told(function.ordinate_axis.unit),
+                    below = told(function.denominator_axis.unit);
+  if (above.empty() || below.empty()) return above;
+  return unit_of_ratio(above, below);
 }
 
 std::vector<double> frequencies(const Uff58Function& function) {
@@ -337,14 +371,14 @@ std::vector<double> beside(const std::vector<Uff58Function>& functions, const st
   return {};
 }
 
-FrequencyResponse from_universal_file(const std::filesystem::path& file, const ScaledName& name,
-                                      const ResponseChoice& choice) {
+FileResponse from_universal_file(const std::filesystem::path& file, const ScaledName& name,
+                                 const ResponseChoice& choice) {
   const std::vector<Uff58Function> functions = read_uff58(file);
   const std::size_t i = chosen(functions, name.name, file.string());
   const Uff58Function& function = functions[i];
-  const double scale =
-      name.has_unit ? name.scale : name.scale * scale_of(function, choice, file.string());
-  FrequencyResponse response{frequencies(function), function.values, {}, {}};
+  const ResponseUnit unit = unit_of_values(name.has_unit, unit_of(function), choice, file);
+  const double scale = name.scale * unit.scale;
+  FileResponse response{{frequencies(function), function.values, {}, {}}, unit.unit, unit.words};
   for (auto& value : response.value) value *= scale;
   response.coherence = beside(functions, i, [](const Uff58Function& other) {
     return other.function_type == coherence_function;
@@ -414,19 +448,19 @@ FrequencyResponse rising_lines(const FrequencyResponse& response) {
 
 }  // namespace
 
-FrequencyResponse read_response(const std::filesystem::path& file, const ResponseChoice& choice) {
+FileResponse read_response(const std::filesystem::path& file, const ResponseChoice& choice) {
   constexpr std::string_view start = "conj(";
   const bool is_conjugated = choice.as.starts_with(start) && choice.as.ends_with(')');
   const std::string as = is_conjugated
                              ? choice.as.substr(start.size(), choice.as.size() - start.size() - 1)
                              : choice.as;
   const ScaledName name = scaled_name(as, choice);
-  FrequencyResponse response = format_of(file).has(universal_extension)
-                                   ? from_universal_file(file, name, choice)
-                                   : from_table(file, name, choice);
+  FileResponse response = format_of(file).has(universal_extension)
+                              ? from_universal_file(file, name, choice)
+                              : from_table(file, name, choice);
   if (choice.may_fall && falls(response.frequency_hz, file.string())) reverse(response);
   check_frequencies(response.frequency_hz, file.string());
-  FrequencyResponse lines = rising_lines(response);
+  FileResponse lines{rising_lines(response), response.unit, response.words};
   if (lines.value.empty())
     throw UserError(
         file.string() +

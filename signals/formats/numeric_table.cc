@@ -5,7 +5,6 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
 #include <iterator>
 #include <map>
 #include <set>
@@ -23,23 +22,37 @@ std::string last_part(const std::string& name) {
   return lower_case(name.substr(name.find_last_of("./") + 1));
 }
 
-bool is_among(const std::string& name, const std::initializer_list<std::string_view> all) {
-  return std::find(all.begin(), all.end(), name) != all.end();
-}
+constexpr auto rate_names = std::to_array<std::string_view>(
+    {"sampling_rate_hz", "sample_rate", "fs", "samplerate", "sampling_rate", "samplingrate",
+     "sample_rate_hz", "fs_hz", "samplingfrequency", "sampling_frequency", "abtastrate"});
+constexpr auto period_names =
+    std::to_array<std::string_view>({"dt", "ts", "dt_s", "ts_s", "sampling_interval",
+                                     "sampling_period", "sampletime", "sample_time"});
 
 // The rate that a scalar of this name gives.
 std::optional<double> rate_of(const NumericColumn& scalar) {
   const std::string name = last_part(scalar.name);
   const double value = scalar.values.front();
   std::optional<double> rate;
-  if (is_among(name, {"sampling_rate_hz", "sample_rate", "fs", "samplerate", "sampling_rate",
-                      "samplingrate", "sample_rate_hz", "fs_hz", "samplingfrequency",
-                      "sampling_frequency", "abtastrate"}))
-    rate = value;
-  if (is_among(name, {"dt", "ts", "dt_s", "ts_s", "sampling_interval", "sampling_period",
-                      "sampletime", "sample_time"}))
-    rate = 1. / value;
+  if (std::ranges::find(rate_names, name) != rate_names.end()) rate = value;
+  if (std::ranges::find(period_names, name) != period_names.end()) rate = 1. / value;
   return rate && std::isfinite(*rate) && *rate > 0. ? rate : std::nullopt;
+}
+
+// The rate of "Time_Sample_Rate"; nothing where several differ.
+std::optional<double> rate_of_longer_names(const std::vector<NumericColumn>& arrays) {
+  std::optional<double> rate;
+  for (const NumericColumn& array : arrays) {
+    const std::string name = last_part(array.name);
+    const bool ends_so = std::ranges::any_of(rate_names, [&](const std::string_view known) {
+      return name.ends_with("_" + std::string(known));
+    });
+    if (array.values.size() != 1 || !ends_so) continue;
+    const double value = array.values.front();
+    if (!(std::isfinite(value) && value > 0.) || (rate && *rate != value)) return std::nullopt;
+    rate = value;
+  }
+  return rate;
 }
 
 std::optional<TimeAxis> stated_clock(const std::string& file,
@@ -58,6 +71,7 @@ std::optional<TimeAxis> stated_clock(const std::string& file,
     rate = found;
     name = array.name;
   }
+  if (!rate) rate = rate_of_longer_names(arrays);
   if (!rate) return std::nullopt;
   return TimeAxis{start.value_or(0.), *rate};
 }
@@ -116,6 +130,12 @@ std::string NumericTable::layout_text() const {
   if (others_.empty()) return {};
   return std::to_string(columns_.size()) + " arrays of " + std::to_string(n_rows()) + " numbers; " +
          std::to_string(others_.size()) + " of other lengths are not used";
+}
+
+std::vector<std::string> NumericTable::other_columns() const {
+  std::vector<std::string> names;
+  for (const NumericColumn& other : others_) names.push_back(other.name);
+  return names;
 }
 
 std::vector<std::string> NumericTable::units() const {

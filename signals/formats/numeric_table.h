@@ -25,13 +25,15 @@ class NumericTable : public RecordTable {
   /// The columns are the arrays of the most frequent length (the longer one when two lengths are
   /// equally frequent), or of the length of the column that take_rows_of() names. A scalar with the
   /// name sampling_rate_hz, fs, sample_rate or similar gives the sampling rate, dt or Ts its
-  /// period, start_s the start; in a struct, too. Throws UserError when there is no column, a name
+  /// period, start_s the start; in a struct, too; without these a rate with more words before it,
+  /// as Time_Sample_Rate, if all such agree. Throws UserError when there is no column, a name
   /// is repeated, or two scalars give different rates.
   NumericTable(std::string file, std::vector<NumericColumn> arrays,
                std::optional<TimeAxis> clock = {});
 
   const std::vector<std::string>& columns() const override { return names_; }
   std::vector<std::string> units() const override;
+  std::vector<std::string> other_columns() const override;
   std::size_t n_rows() const override { return columns_.front().values.size(); }
   void take_rows_of(const std::string& column) override;
   std::string layout_text() const override;

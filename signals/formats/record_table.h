@@ -40,6 +40,8 @@ class RecordTable {
   virtual std::vector<std::string> units() const {
     return std::vector<std::string>(columns().size());
   }
+  /// Names of what the file holds beside these columns, in arrays of other lengths.
+  virtual std::vector<std::string> other_columns() const { return {}; }
   virtual std::size_t n_rows() const = 0;
   /// Start of a message about a row, counted from 1, or (row 0) about the names of the columns:
   /// "<file>:<line>: " or "<file>: row 7: ".

@@ -85,10 +85,22 @@ bool starts_anew(const std::vector<double>& times, const std::size_t i, const do
   return times[i] < times[i - 1] - 10. * step && std::abs(times[i] - times[0]) < 2. * step;
 }
 
-// Whether single stamps of an even grid stand twice: rows that were stored twice.
-bool holds_rows_twice(const PrintedTimes& times) {
+std::vector<double> distinct_times(const PrintedTimes& times) {
   std::vector<double> distinct(times.times_s.begin(), times.times_s.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  return distinct;
+}
+
+// Stamps that stand twice although samples are further apart than what their digits tell.
+std::string twice_words(const PrintedTimes& times, const Clock& clock, const double rounding_s) {
+  const std::size_t n = times.times_s.size() - distinct_times(times).size();
+  if (n == 0 || clock.packet > 1 || 2. * rounding_s * clock.sampling_rate_hz >= 1.) return {};
+  return "; " + std::to_string(n) + (n == 1 ? " stamp stands" : " stamps stand") + " twice";
+}
+
+// Whether single stamps of an even grid stand twice: rows that were stored twice.
+bool holds_rows_twice(const PrintedTimes& times) {
+  const std::vector<double> distinct = distinct_times(times);
   const std::size_t n_twice = times.times_s.size() - distinct.size();
   if (n_twice == 0 || 2 * n_twice > distinct.size()) return false;
   PrintedTimes single = times;
@@ -101,11 +113,12 @@ std::optional<Clock> clock_of_one(const PrintedTimes& times) {
   if (const auto axis = uniform_axis(times))
     return Clock{.sampling_rate_hz = axis->sampling_rate_hz,
                  .pieces = {{0, times.times_s.size(), axis->start_s}},
-                 .words = to_text(axis->sampling_rate_hz) + " Hz from '" + times.column + "'"};
+                 .words = rate_text(axis->sampling_rate_hz) + " from '" + times.column + "'"};
   const double rounding = rounding_of(times, times.times_s.size() - 1);
   auto clock = regress_stamps(times.times_s, rounding);
   if (!clock) return {};
-  clock->words = words_of(*clock, times.times_s.size(), times.column) + lost_words(*clock);
+  clock->words = words_of(*clock, times.times_s.size(), times.column) + lost_words(*clock) +
+                 twice_words(times, *clock, rounding);
   return clock;
 }
 
@@ -178,8 +191,8 @@ Clock find_clock(const PrintedTimes& printed, const std::vector<std::size_t>& bl
   for (const Clock& clock : clocks)
     if (std::abs(clock.sampling_rate_hz / all.sampling_rate_hz - 1.) > 1e-2)
       throw UserError(times.file + ": the recordings in the file have different rates (" +
-                      to_text(clock.sampling_rate_hz) + " Hz and " + to_text(all.sampling_rate_hz) +
-                      " Hz on average); choose one by --rows");
+                      rate_text(clock.sampling_rate_hz) + " and " +
+                      rate_text(all.sampling_rate_hz) + " on average); choose one by --rows");
   all.words = before + rounded(all.sampling_rate_hz, 7) + " Hz from '" + times.column + "'; " +
               std::to_string(clocks.size()) + " recordings in the file" + lost_words(all);
   return all;

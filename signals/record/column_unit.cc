@@ -40,6 +40,11 @@ NamedUnit split_unit(const std::string& column) {
   return {column, ""};
 }
 
+std::string unit_of_ratio(const std::string& above, const std::string& below) {
+  const bool is_word = below.find_first_of(" .*/") == std::string::npos;
+  return above + (is_word ? "/" + below : "/(" + below + ")");
+}
+
 bool is_frequency_name(const std::string& column) {
   return lower_case(std::string(trimmed(column))).starts_with("freq");
 }

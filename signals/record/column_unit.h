@@ -13,6 +13,9 @@ struct NamedUnit {
 /// behind the stroke must be a unit. Proven by tests/signals/record/column_unit_test.cc.
 NamedUnit split_unit(const std::string& column);
 
+/// The unit of a ratio: "N m/g", "N m/(m/s2)". Proven by tests/signals/record/column_unit_test.cc.
+std::string unit_of_ratio(const std::string& above, const std::string& below);
+
 /// Whether a name is that of a time column of a logger: "t", "Time (s)", "timestamp", "millis",
 /// "Zeit [s]", "X_Value".
 bool is_time_name(const std::string& column);

@@ -6,8 +6,20 @@
 
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
+#include "signals/record/channel_name.h"
 
 namespace vibrissa::signals {
+namespace {
+
+std::string column_hint(const std::string& name) {
+  const std::string channel = full_channel_name(name);
+  if (channel.empty()) return "";
+  const std::string short_name =
+      channel.substr(0, channel.size() - unit_at_the_end(channel).size() - 1);
+  return "; say which column is " + short_name + ", as in --column '" + short_name + "=NAME[unit]'";
+}
+
+}  // namespace
 
 Record::Record(const double sampling_rate_hz, const std::size_t n_samples, const double start_s)
     : sampling_rate_hz_(sampling_rate_hz), n_samples_(n_samples), start_s_(start_s) {
@@ -20,7 +32,8 @@ Record::Record(const double sampling_rate_hz, const std::size_t n_samples, const
 
 std::span<const double> Record::channel(const std::string& name) const {
   const auto found = channels_.find(name);
-  if (found == channels_.end()) throw UserError(unknown_name("channel", name, channel_names()));
+  if (found == channels_.end())
+    throw UserError(unknown_name("channel", name, channel_names()) + column_hint(name));
   return found->second;
 }
 

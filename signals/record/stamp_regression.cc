@@ -238,6 +238,10 @@ std::optional<Clock> regress_stamps(const std::span<const double> times_s,
               .is_from_bursts = is_burst,
               .packet = events.packet};
   set_pieces(events, lost, lines, times_s.size(), clock);
+  // A stamp that stands twice is a sample without a step of time, and what follows seems lost.
+  const double room = std::ceil((times_s.back() - times_s.front()) / lines.period_s) + 1. -
+                      static_cast<double>(times_s.size());
+  clock.n_lost = std::min(clock.n_lost, static_cast<std::size_t>(std::max(0., room)));
   return clock;
 }
 

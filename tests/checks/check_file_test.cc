@@ -9,6 +9,7 @@
 #include "checks/numbered_reasons.h"
 #include "checks/report_json.h"
 #include "checks/report_text.h"
+#include "signals/record/channel_name.h"
 #include "tests/checks/record_generator.h"
 #include "tests/signals/temporary_folder.h"
 
@@ -76,6 +77,33 @@ TEST(CheckFile, ReadsColumnsThatAreNoChannelsUnderTheirNames) {
   for (std::size_t command = 0; command < 4; ++command)
     EXPECT_EQ(serves(result, command), Serves::no);
   EXPECT_THAT(check_text(result), HasSubstr("no column is base_moment_N_m"));
+  EXPECT_TRUE(only_names_are_missing(result.records));
+}
+
+/// Time and two signals without names; the time has a gap.
+std::string unnamed_columns() {
+  std::string text;
+  for (int i = 0; i < 400; ++i)
+    text += std::to_string(0.01 * (i < 200 ? i : i + 7)) + "," + std::to_string(i % 7) + "," +
+            std::to_string(i % 5) + "\n";
+  return text;
+}
+
+TEST(CheckFile, ListsColumnsWithoutNamesWhereOnlyTheTimeIsChosen) {
+  const TemporaryFolder folder;
+  const CheckResult result = check_file(folder.file("unnamed.csv", unnamed_columns()),
+                                        {.columns = {{signals::time_channel, "column_1"}}});
+  EXPECT_THAT(result.records, SizeIs(2)) << "two pieces";
+  EXPECT_THAT(result.records[0].channels, SizeIs(2));
+  EXPECT_TRUE(only_names_are_missing(result.records));
+}
+
+TEST(CheckFile, CallsAColumnThatNeverFallsATimeAndNoDrift) {
+  const TemporaryFolder folder;
+  const std::string text = check_text(
+      check_file(folder.file("unnamed.csv", unnamed_columns()), {.sampling_rate_hz = 100.}));
+  EXPECT_THAT(text, testing::AllOf(HasSubstr("column_1 rises from 0 to 4.06 and never falls"),
+                                   testing::Not(HasSubstr("warm the electronics"))));
 }
 
 TEST(CheckFile, TakesAllRecordsOfADatasetTogether) {
@@ -90,6 +118,7 @@ TEST(CheckFile, TakesAllRecordsOfADatasetTogether) {
   ASSERT_THAT(result.records, SizeIs(2));
   EXPECT_EQ(serves(result, 0), Serves::good) << "one record is enough";
   EXPECT_EQ(serves(result, 2), Serves::no) << "diagnose refuses a constant channel";
+  EXPECT_EQ(n_times(check_text(result), "read as: "), 2u) << check_text(result);
 }
 
 TEST(CheckFile, HasAJsonDocumentWithTheSameVerdicts) {

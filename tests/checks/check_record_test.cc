@@ -86,6 +86,26 @@ TEST(CheckRecord, AWhiteDriveUpToHalfTheRateIsNotAliased) {
   }
 }
 
+/// 60 s at 25 Hz of a mode of 0.3 Hz that decays in a minute: no segment resolves it.
+signals::Record narrow_record(const std::uint64_t seed) {
+  constexpr double rate_hz = 25.;
+  const separation::Bvrm sensor{.modes = {separation::make_modal_term(0.3, 0.008, -1.)}};
+  const auto a = separation::test::white_noise(1500, 0.3, seed);
+  const auto m = separation::simulate(sensor, a, rate_hz, separation::Hold::zero_order);
+  signals::Record record(rate_hz, a.size());
+  record.set_channel(signals::channel::base_acceleration, a);
+  record.set_channel(signals::channel::base_moment,
+                     separation::test::plus_noise(m, 0.02 * separation::test::rms(m), seed + 1));
+  return record;
+}
+
+TEST(CheckRecord, AResonanceNarrowerThanTheLinesFollows) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    const RecordReport report = check_record(narrow_record(seed));
+    EXPECT_NE(what_it_serves(report)[0].serves, Serves::no) << seed << words_of(report);
+  }
+}
+
 // The seeds are the numbers of the records: none was chosen.
 TEST(CheckRecord, IsRightOnGoodAndBadRecords) {
   EXPECT_LE(n_wrong_of_120(1000), most_wrong);

@@ -7,7 +7,7 @@
 #include "checks/numbered_reasons.h"
 #include "diagnosis/model/words.h"
 #include "separation/verdict/coherence.h"
-#include "signals/base/number_text.h"
+#include "signals/base/significant_digits.h"
 #include "signals/record/channel_name.h"
 #include "signals/record/unusable_channel.h"
 #include "signals/spectra/frequency_response.h"
@@ -131,7 +131,7 @@ report::Table finding_table(const checks::RecordReport& record, const std::size_
 report::PageSection section_of(const checks::RecordReport& record, const std::size_t place,
                                const checks::NumberedReasons& reasons, const std::size_t number) {
   report::PageSection section{.heading = record.name,
-                              .text = {signals::to_text(record.sampling_rate_hz) + " Hz, " +
+                              .text = {signals::rate_text(record.sampling_rate_hz) + ", " +
                                        std::to_string(record.n_samples) + " samples, " +
                                        diagnosis::three_digits(record.duration_s) +
                                        " s, excitation " + signals::to_string(record.excitation) +

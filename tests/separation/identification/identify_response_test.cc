@@ -49,6 +49,20 @@ TEST_P(IdentifyResponse, FindsOrderAndModesWithinTheDeviationsItStates) {
   }
 }
 
+// One of the lines is held out, and the message counts all that are in the file.
+TEST(IdentifyResponse, CountsTheFiniteLinesAndSaysHowManyItNeeds) {
+  FrequencyResponse measured;
+  measured.frequency_hz = {5., 5.25, 5.5, 5.75, 6., 6.25, 6.5};
+  measured.value = response(test::sensor(1, 0.), measured.frequency_hz);
+  for (const std::size_t i : {1, 3, 4, 5}) measured.value[i] = std::nan("");
+  EXPECT_THAT(
+      [&] { identify_response(measured, {.order = 2}); },
+      testing::ThrowsMessage<signals::UserError>(testing::AllOf(
+          HasSubstr("has 3 lines with a finite value; at least 4"), HasSubstr("more lines"))));
+  measured.value[4] = measured.value[0];
+  EXPECT_NO_THROW(identify_response(measured, {.order = 2, .direct_term = false}));
+}
+
 // Above the drive's band a measured response is noise, as its coherence says.
 TEST(IdentifyResponse, GoesByCoherenceWhereThereIsNoDeviation) {
   const Bvrm truth = test::sensor(1, 0.);

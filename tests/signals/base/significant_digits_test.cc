@@ -19,6 +19,8 @@ TEST(SignificantDigits, AreTheDigitsOfTheText) {
   EXPECT_EQ(rounded(123456., 3), "123000");
   EXPECT_EQ(rounded(0.1 + 0.2, 4), "0.3");
   EXPECT_EQ(rounded(-1. / 3., 2), "-0.33");
+  EXPECT_EQ(rate_text(500.00002344255614), "500.00002 Hz");
+  EXPECT_EQ(rate_text(48000.), "48000 Hz");
 }
 
 }  // namespace

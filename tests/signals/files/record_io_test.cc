@@ -13,6 +13,7 @@
 
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
+#include "signals/formats/numeric_table.h"
 #include "tests/signals/temporary_folder.h"
 
 namespace vibrissa::signals {
@@ -200,11 +201,57 @@ TEST_F(ReadRecord, AsksForTheRateWhenThereIsNoTime) {
                                                HasSubstr("give --rate"))));
 }
 
+// A column named as a time tells where samples are lost, also when a rate is given.
+TEST_F(ReadRecord, UsesTheStampsBesideAGivenRate) {
+  const auto content = [&](const double step_s) {
+    return csv(
+        "t,base_moment_N_m",
+        [=](const std::size_t i) {
+          return to_text(step_s * double(i < 200 ? i : i + 7)) + "," + std::to_string(i % 9);
+        },
+        400);
+  };
+  const test::TemporaryFolder folder;
+  const ReadOptions options{.sampling_rate_hz = 100., .gaps = Gaps::pieces};
+  EXPECT_EQ(read_recording(folder.file("r.csv", content(0.01)), options).pieces.size(), 2u);
+  const Recording other = read_recording(folder.file("s.csv", content(0.02)), options);
+  EXPECT_EQ(other.pieces.size(), 1u);
+  EXPECT_EQ(other.pieces.front().sampling_rate_hz(), 100.);
+  EXPECT_THAT(other.words,
+              AllOf(HasSubstr("100 Hz as given"), HasSubstr("contradicts column 't'")));
+  EXPECT_THAT(reading(content(0.01), {.sampling_rate_hz = 100., .gaps = Gaps::refuse}),
+              ThrowsMessage<UserError>(HasSubstr("gap in time")));
+}
+
+TEST_F(ReadRecord, SaysHowToNameAChannelThatIsMissing) {
+  const Record record =
+      read(csv("ax_g,M_mNm", [](const std::size_t i) { return std::to_string(i % 7) + ",1"; }),
+           {.sampling_rate_hz = 100.});
+  EXPECT_THAT(
+      [&] { static_cast<void>(record.channel(channel::base_acceleration)); },
+      ThrowsMessage<UserError>(AllOf(HasSubstr("Known: M_mNm, ax_g"),
+                                     HasSubstr("--column 'base_acceleration=NAME[unit]'"))));
+}
+
 TEST_F(ReadRecord, NamesAResponseOrASpectrumForWhatItIs) {
   EXPECT_THAT(
       reading("frequency_hz,response_real,response_imaginary\n1,2,3\n2,2,3\n"),
       ThrowsMessage<UserError>(AllOf(HasSubstr("this is a frequency response or a spectrum"),
                                      HasSubstr("--frequency-response"))));
+}
+
+TEST(ReadTable, NamesTheTimeBesideASpectrum) {
+  std::vector<double> rising(40), times(100);
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = 0.01 * double(i);
+  for (std::size_t i = 0; i < rising.size(); ++i) rising[i] = double(i);
+  formats::NumericTable table("f.mat", {{"Freq", rising},
+                                        {"H2_real", rising},
+                                        {"H2_imaginary", rising},
+                                        {"Time_domain", times},
+                                        {"Time_Sample_Rate", {100.}}});
+  EXPECT_THAT(([&] { read_recording(table, "f.mat", {.takes_all_columns = true}); }),
+              ThrowsMessage<UserError>(AllOf(HasSubstr("--response-as 'H2[UNIT]'"),
+                                             HasSubstr("--column can choose: Time_domain"))));
 }
 
 TEST_F(ReadRecord, RefusesARateThatContradictsTime) {

@@ -33,6 +33,18 @@ TEST(NumericTable, AScalarRateIsTheClock) {
   EXPECT_FALSE(NumericTable("f.mat", {column("a", 100), column("fs", 1, -1.)}).clock());
 }
 
+TEST(NumericTable, ARateWithMoreWordsIsTheClockWhereAllAgree) {
+  const NumericTable table("f.mat", {column("a", 100), column("Time_Sample_Rate", 1, 1280.)});
+  ASSERT_TRUE(table.clock());
+  EXPECT_EQ(table.clock()->sampling_rate_hz, 1280.);
+  const NumericTable exact(
+      "f.mat", {column("a", 100), column("Video_Sample_Rate", 1, 30.), column("fs", 1, 1000.)});
+  EXPECT_EQ(exact.clock()->sampling_rate_hz, 1000.);
+  EXPECT_FALSE(NumericTable("f.mat", {column("a", 100), column("x_sample_rate", 1, 30.),
+                                      column("y_sample_rate", 1, 1000.)})
+                   .clock());
+}
+
 TEST(NumericTable, RefusesFilesWithoutColumnsAndRepeatedNames) {
   EXPECT_THAT([] { NumericTable("f.h5", {column("a", 1)}); },
               ThrowsMessage<UserError>(HasSubstr("f.h5: contains no column")));

@@ -118,6 +118,39 @@ TEST_F(ResponseReader, ConvertsUnitsOfTheFileAndThoseThatAreGiven) {
   EXPECT_LT(std::abs(tip - 0.36 * expected), 1e-12 * std::abs(expected));
 }
 
+// 3 mN mm/g is 3e-6/9.80665 N m s^2/m, whatever the format that states it.
+TEST_F(ResponseReader, ConvertsTheUnitThatATableStates) {
+  for (const std::string head : {"f,H_real [mN mm/g],H_imaginary [mN mm/g]\n",
+                                 "f,H_real,H_imaginary\nHz,mN mm/g,mN mm/g\n"}) {
+    const auto found = read_response(write("u.csv", head + "1,3,0\n2,3,0\n3,3,0\n"), {"H"});
+    EXPECT_NEAR(found.value[0].real(), 3e-6 / 9.80665, 1e-18) << head;
+    EXPECT_EQ(found.unit, moment_per_acceleration);
+    EXPECT_THAT(found.words, AllOf(HasSubstr("mN mm/g"), HasSubstr("converted to N m s^2/m")));
+  }
+  const auto magnitude =
+      read_response(write("m.csv", "f,Magnitude [mN mm/g],Phase [deg]\n1,3,0\n2,3,0\n"));
+  EXPECT_NEAR(magnitude.value[0].real(), 3e-6 / 9.80665, 1e-18);
+  EXPECT_THAT(read_response(write("n.csv", "f,real,imaginary\n1,3,0\n")).words,
+              HasSubstr("states no unit: taken as N m s^2/m"));
+}
+
+TEST_F(ResponseReader, KeepsAUnitOfAnotherQuantityThroughEveryFileThatStatesIt) {
+  Uff58Function function = uff58_of(sensor_response(), "hammer").front();
+  function.ordinate_axis.unit = "(1/N)*(m/s2)";
+  function.denominator_axis.unit = "NONE";
+  write_uff58(file("hammer.uff"), {function});
+  expect_refusal(file("hammer.uff"), {}, "the response is in (1/N)*(m/s2)", "conversion factor");
+  const ResponseChoice keep{.may_keep_unit = true};
+  const FileResponse response = read_response(file("hammer.uff"), keep);
+  for (const std::string name : {"again.csv", "again.uff"}) {
+    write_response(file(name), response, "hammer", response.unit);
+    const FileResponse found = read_response(file(name), keep);
+    EXPECT_EQ(found.unit, "(1/N)*(m/s2)") << name;
+    EXPECT_THAT(found.words, HasSubstr("not converted"));
+    EXPECT_LT(std::abs(found.value[0] - sensor_response().value[0]), 1e-16);
+  }
+}
+
 TEST_F(ResponseReader, RefusesWhatItCannotChooseOrConvert) {
   const auto source = two_functions();
   expect_refusal(source, {}, "1 'at the base', 2 'at the tip'", "choose one");
@@ -126,7 +159,7 @@ TEST_F(ResponseReader, RefusesWhatItCannotChooseOrConvert) {
   Uff58Function bare = uff58_of(sensor_response(), "in teslas").front();
   bare.ordinate_axis.unit = "T";
   write_uff58(file("t.uff"), {bare});
-  expect_refusal(file("t.uff"), {}, "in T per m/s^2", "0.18[N m/T]");
+  expect_refusal(file("t.uff"), {}, "in T/(m/s^2)", "0.18[N m/T]");
   expect_refusal(write("a.csv", "time_s,x\n0,1\n1,2\n"), {}, "a.csv",
                  "columns of the file: time_s, x");
   expect_refusal(write("b.csv", "f,x\n1,1\n2,2\n"), {}, "no response", "columns of the file: f, x");

@@ -211,6 +211,25 @@ TEST(Clock, SeparatesRecordingsThatBeginAnew) {
   EXPECT_EQ(clock.n_lost, 0u);
 }
 
+// 25 Hz; every 100th stamp is that of the sample before it, and the stamps catch up four samples
+// later; 1000 samples are lost in the middle.
+TEST(Clock, NamesStampsThatStandTwiceAndLosesNoMoreThanTheSpanHolds) {
+  Stamps stamps;
+  const std::size_t n = 4000;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t k = i + (i < n / 2 ? 0 : 1000);
+    const bool is_late = i % 100 >= 50 && i % 100 < 54;
+    char text[40];
+    std::snprintf(text, sizeof text, "%.2f", 0.04 * double(is_late ? k - 1 : k));
+    stamps.digits.see(text);
+    stamps.times_s.push_back(std::stod(text));
+  }
+  const Clock clock = clock_of(stamps, 1.);
+  EXPECT_LE(clock.n_lost, 1001u);
+  EXPECT_GE(clock.n_lost, 999u);
+  EXPECT_THAT(clock.words, HasSubstr("; 40 stamps stand twice"));
+}
+
 TEST(Clock, RefusesSamplingThatIsNotEven) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<> uniform(0.5, 1.5);

@@ -31,6 +31,11 @@ TEST(SplitUnit, LeavesOtherNamesWhole) {
     expect_parts(name, name, "");
 }
 
+TEST(UnitOfRatio, BracketsAUnitOfSeveralParts) {
+  EXPECT_EQ(unit_of_ratio("N m", "g"), "N m/g");
+  EXPECT_EQ(unit_of_ratio("N m", "m/s2"), "N m/(m/s2)");
+}
+
 TEST(TimeName, IsKnownWithAndWithoutAUnit) {
   for (const std::string name :
        {"t", "Time (s)", "Zeit [s]", "timestamp (-0700)", "millis", "X_Value", "t_ms", "epoc (ms)"})
