@@ -110,6 +110,7 @@ class ResponseCheck {
     findings_.push_back({kind, name, value, unit, sentence, severity});
   }
   bool check_coherence();
+  bool is_driven_at_coherent_lines() const;
   bool follows_by_model();
   void check_gain();
   void check_sign();
@@ -142,17 +143,27 @@ PartModel model_of_part(const signals::Record& record) {
   return {std::move(found), std::move(verdict), part.duration_s()};
 }
 
-/// A resonance that is narrower than Welch's lines leaks over them. A model of hum explains hum, so
-/// it is asked only where no line but that of the mean is coherent.
+/// Do the coherent lines hold most of the drive? Then they are the drive's own: tones.
+bool ResponseCheck::is_driven_at_coherent_lines() const {
+  const signals::PowerSpectrum drive = signals::welch_spectrum(
+      record_.channel(channel::base_acceleration), record_.sampling_rate_hz(),
+      {.segment_samples = 2 * (found_.response.value.size() + 1)});
+  double coherent = 0.;
+  for (const std::size_t i : found_.lines) coherent += drive.density[i + 1];  // without zero
+  return coherent > 0.5 * std::accumulate(drive.density.begin(), drive.density.end(), 0.);
+}
+
+/// A resonance that is narrower than Welch's lines leaks over them, and few or none are coherent,
+/// though the drive is wide. A model of tones would explain tones.
 bool ResponseCheck::follows_by_model() {
-  if (std::ranges::any_of(found_.lines, [](const std::size_t i) { return i > 0; })) return false;
+  if (is_driven_at_coherent_lines()) return false;
   try {
     const PartModel model = model_of_part(record_);
     if (!model.verdict.usable) return false;
     const double share = model.found.held_out_vaf_percent / 100.;
     facts_.coherent_share = separation::Estimate{share, 0.};
     add(FindingKind::no_coherence, channel::base_moment, share, "1",
-        "no line of the averaged spectra is coherent, because the resonance is narrower than the "
+        "the averaged spectra are hardly coherent, because the resonance is narrower than their "
         "lines (" +
             three_digits(found_.response.frequency_hz.front()) + " Hz apart); a model explains " +
             percent(share) + " of the variance of unseen data",
@@ -346,8 +357,17 @@ ResponseFacts ResponseCheck::run(const ChannelHum& hum) {
   lines_ = telling_lines(found_, record_, hum);
   facts_.n_lines = found_.response.value.size();
   facts_.n_coherent = lines_.size();
-  if (lines_.empty() && follows_by_model()) return facts_;
-  if (!check_coherence()) return facts_;
+  const auto n_before = std::ssize(findings_);
+  const bool has_lines = check_coherence();
+  const auto n_coherence = std::ssize(findings_);
+  const bool stops =
+      std::any_of(findings_.begin() + n_before, findings_.end(),
+                  [](const Finding& finding) { return finding.severity == Severity::stops; });
+  if (stops && follows_by_model()) {
+    findings_.erase(findings_.begin() + n_before, findings_.begin() + n_coherence);
+    return facts_;
+  }
+  if (!has_lines) return facts_;
   check_gain();
   check_sign();
   check_aliasing();

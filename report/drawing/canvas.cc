@@ -129,8 +129,8 @@ void Canvas::picture(const Pixels& pixels, const Box& box) {
   for (int y = 0; y < pixels.height; ++y) {
     auto* const row =
         reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface) + y * stride);
-    const std::uint8_t* rgb =
-        pixels.rgb.data() + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(pixels.width);
+    const std::uint8_t* rgb = pixels.rgb.data() + 3 * static_cast<std::size_t>(y) *
+                                                      static_cast<std::size_t>(pixels.width);
     for (int x = 0; x < pixels.width; ++x, rgb += 3)
       row[x] = static_cast<std::uint32_t>(rgb[0]) << 16 | static_cast<std::uint32_t>(rgb[1]) << 8 |
                rgb[2];

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
 #include "separation/identification/order_selection.h"
+#include "separation/model/simulation.h"
 #include "separation/verdict/coherence.h"
 #include "separation/verdict/peak_phase.h"
 #include "signals/base/significant_digits.h"
@@ -134,11 +136,36 @@ void set_frequencies_apart(const FittedBvrm& fit, const signals::FrequencyRespon
   verdict.undetermined = std::move(others);
 }
 
+/// A resonance that is narrower than Welch's lines leaks over them and is coherent at none: the
+/// lines count, too, at which a model without a lasting mode explains more of the moment than it
+/// leaves.
+Band told_band(const Identification& identification, const signals::Record& fitted) {
+  Band band = coherent_band(fitted);
+  const std::optional<CoherentLines> welch = coherent_lines(fitted);
+  if (!welch || identification.n_hits > 0 ||
+      !lasting_modes_hz(identification.fit.model, identification.duration_s).empty())
+    return band;
+  const auto moment = fitted.channel(signals::channel::base_moment);
+  std::vector<double> left =
+      simulate_like(identification.fit.model, fitted.channel(signals::channel::base_acceleration),
+                    moment, fitted.sampling_rate_hz(), identification.hold);
+  std::ranges::transform(moment, left, left.begin(), std::minus<>());
+  const signals::WelchOptions options{.segment_samples = 2 * (welch->response.value.size() + 1)};
+  const auto whole = signals::welch_spectrum(moment, fitted.sampling_rate_hz(), options),
+             rest = signals::welch_spectrum(left, fitted.sampling_rate_hz(), options);
+  for (std::size_t i = 1; i < whole.density.size(); ++i) {
+    if (!(rest.density[i] < 0.5 * whole.density[i])) continue;
+    band.low_hz = std::min(band.low_hz, whole.frequency_hz[i]);
+    band.high_hz = std::max(band.high_hz, whole.frequency_hz[i]);
+  }
+  return band;
+}
+
 }  // namespace
 
 Verdict judge(const Identification& identification, const signals::Record& fitted) {
   Verdict verdict;
-  verdict.band = coherent_band(fitted);
+  verdict.band = told_band(identification, fitted);
   const FittedBvrm& fit = identification.fit;
   sort_modes(
       fit,

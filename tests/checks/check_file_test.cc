@@ -91,8 +91,9 @@ std::string unnamed_columns() {
 
 TEST(CheckFile, ListsColumnsWithoutNamesWhereOnlyTheTimeIsChosen) {
   const TemporaryFolder folder;
-  const CheckResult result = check_file(folder.file("unnamed.csv", unnamed_columns()),
-                                        {.columns = {{signals::time_channel, "column_1"}}});
+  const CheckResult result =
+      check_file(folder.file("unnamed.csv", unnamed_columns()),
+                 {.columns = {{signals::time_channel, "column_1"}}, .gaps = signals::Gaps::pieces});
   EXPECT_THAT(result.records, SizeIs(2)) << "two pieces";
   EXPECT_THAT(result.records[0].channels, SizeIs(2));
   EXPECT_TRUE(only_names_are_missing(result.records));

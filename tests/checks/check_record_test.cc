@@ -86,10 +86,10 @@ TEST(CheckRecord, AWhiteDriveUpToHalfTheRateIsNotAliased) {
   }
 }
 
-/// 60 s at 25 Hz of a mode of 0.3 Hz that decays in a minute: no segment resolves it.
+/// 60 s at 25 Hz of a mode of 0.32 Hz that decays by e in 50 s: no segment resolves it.
 signals::Record narrow_record(const std::uint64_t seed) {
   constexpr double rate_hz = 25.;
-  const separation::Bvrm sensor{.modes = {separation::make_modal_term(0.3, 0.008, -1.)}};
+  const separation::Bvrm sensor{.modes = {separation::make_modal_term(0.32, 0.01, -1.)}};
   const auto a = separation::test::white_noise(1500, 0.3, seed);
   const auto m = separation::simulate(sensor, a, rate_hz, separation::Hold::zero_order);
   signals::Record record(rate_hz, a.size());

@@ -11,8 +11,8 @@ signals::ReducedModel solve_case(const std::string& file, bool show_progress) {
   const sensor_case::Case parameters = sensor_case::CaseFile(file).read();
   sensor_case::refuse_gravity(parameters, "the reduced model");
   const fem::SolverSession session;
-  return sensor_case::make_reduced_model(fem::Sensor(parameters.sensor),
-                                                   parameters.sensor, show_progress);
+  return sensor_case::make_reduced_model(fem::Sensor(parameters.sensor), parameters.sensor,
+                                         show_progress);
 }
 
 }  // namespace vibrissa::apps

@@ -67,6 +67,7 @@ TEST(Verdict, TellsAModeThatDecaysWithinTheWholeRecord) {
 TEST(Verdict, AsksForASecondHitToScoreTheModel) {
   Signal hit(4096, 0.);
   for (std::size_t i = 0; i < 5; ++i) hit[85 + i] = 40. * std::sin(0.5 * (1. + double(i)));
+  hit = test::plus_noise(hit, 1e-3, 14);
   const signals::Record record = noisy_record(hit, test::sensor(1), 0.01, 13);
   const Verdict verdict = judge(identify_record(record), record);
   EXPECT_THAT(verdict.sentence, HasSubstr("record a second hit to score the model"));
