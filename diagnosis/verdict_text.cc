@@ -170,7 +170,10 @@ std::string separation_line(const Diagnosis& diagnosis) {
   if (const auto& wind = diagnosis.wind_speed_error_m_s)
     parts.push_back("rms error of the wind speed " +
                     change_of(three_digits(wind->before), three_digits(wind->after), "m/s"));
-  return titled("Wind separated from vibration, without -> with the correction: ", parts);
+  return titled(std::string(diagnosis.wind_speed_error_m_s ? "Wind separated from vibration"
+                                                           : "Vibration removed from the moment") +
+                    ", without -> with the correction: ",
+                parts);
 }
 
 std::string in_column(const std::string& text, const std::size_t width) {

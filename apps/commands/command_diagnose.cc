@@ -168,8 +168,9 @@ void add_diagnose_command(CLI::App& app) {
       "The simulation as records: one file, or a folder of records with dataset.json; this or "
       "--model");
   command->add_option("--real", options->real,
-                      "Records of the real sensor: one file (--column, --rate, --rows and "
-                      "--remove-mean are for it), or a folder of records with dataset.json");
+                      "Records of the real sensor: one file, or a folder of records with "
+                      "dataset.json. --column and --rate say how its files are read, and those of "
+                      "--sim where they lack the channels' names");
   options->record.add_to(*command);
   options->figures.add_to(*command);
   command->add_option(

@@ -204,7 +204,7 @@ NextExperiment next_experiment(const std::vector<Candidate>& candidates,
   }
   if (best == nullptr) {
     out.why = answers.size() < 2
-                  ? "nothing is needed, only one answer remains"
+                  ? "nothing: no other known cause is left to be told apart"
                   : "no experiment that vibrissa knows tells the remaining answers apart";
     return out;
   }

@@ -50,6 +50,7 @@ class Reduction {
   /// The calibration parameters that close a part of the gap and are not dispensable (nominal, all
   /// else fitted again).
   std::vector<std::string> needed_calibrations(const std::size_t whole) {
+    if (const auto found = needed_.find(whole); found != needed_.end()) return found->second;
     const Attribution& all = attribution(whole);
     std::vector<std::string> kept = named_calibrations(all, experiment_.simulation_accuracy);
     std::vector<std::string> tried = kept, nominal = result_.fits[whole].nominal_calibrations();
@@ -66,7 +67,7 @@ class Reduction {
       else
         nominal.pop_back();
     }
-    return kept;
+    return needed_[whole] = std::move(kept);
   }
 
   const Attribution& attribution(std::size_t fit) {
@@ -217,6 +218,7 @@ class Reduction {
   std::map<std::string, std::size_t> known_;  // hypothesis -> index of its fit
   std::map<std::pair<std::size_t, const Experiment*>, double> power_;
   std::map<std::size_t, Attribution> attributions_;
+  std::map<std::size_t, std::vector<std::string>> needed_;     // calibrations of a fit
   std::map<const Experiment*, double> floor_, nominal_power_;  // of the fit that was scored last
 };
 

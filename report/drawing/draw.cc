@@ -47,16 +47,23 @@ class PanelPainter {
     paint_grid(false);
     {
       const Canvas::Clip inside(canvas_, placed_.plot);
-      for (std::size_t c = 0; c < panel_.curves.size(); ++c)
-        if (panel_.curves[c].style == CurveStyle::band) paint_band(c);
-      for (std::size_t c = 0; c < panel_.curves.size(); ++c)
-        if (panel_.curves[c].style != CurveStyle::band) paint_curve(c);
+      for_each(CurveStyle::band, [&](std::size_t c) { paint_band(c); });
+      for (const CurveStyle style : {CurveStyle::line, CurveStyle::dashed})
+        for_each(style, [&](std::size_t c) { paint_line(c); });
     }
     paint_frame();
+    // A point on the frame is seen whole.
+    for_each(CurveStyle::points, [&](std::size_t c) { paint_points(c); });
     for (const LegendSample& sample : placed_.legend) paint_sample(sample);
   }
 
  private:
+  template <typename Paint>
+  void for_each(const CurveStyle style, const Paint& paint) {
+    for (std::size_t c = 0; c < panel_.curves.size(); ++c)
+      if (panel_.curves[c].style == style) paint(c);
+  }
+
   void paint_grid(const bool fine) {
     const Pen pen{.colour = fine ? fine_grid_colour : grid_colour, .width = strokes_.thin};
     for (const Tick& mark : placed_.x.ticks.marks)
@@ -82,23 +89,23 @@ class PanelPainter {
     canvas_.area(band, tint(colour(c), band_tint));
   }
 
-  /// A value without x becomes a gap.
-  void paint_curve(const std::size_t c) {
-    const Curve& curve = panel_.curves[c];
-    Polyline line{x_pixels(curve.x), y_pixels(curve.y)};
-    for (std::size_t i = 0; i < line.x.size(); ++i)
-      if (!std::isfinite(line.x[i])) line.y[i] = std::numeric_limits<double>::quiet_NaN();
+  void paint_line(const std::size_t c) {
+    Polyline line = on_page(panel_.curves[c]);
     const bool many = line.x.size() > many_points;
-    if (curve.style == CurveStyle::points) {
-      const Range rows{placed_.plot.bottom, placed_.plot.top()};
-      if (many)
-        line = one_point_a_pixel(line, x_window(), rows, n_columns(),
-                                 static_cast<std::size_t>(placed_.plot.height));
-      canvas_.points(line, colour(c), strokes_.point);
-      return;
-    }
     if (many) line = envelope(line, x_window(), n_columns());
     canvas_.polyline(line, pen_of(c, many));
+  }
+
+  void paint_points(const std::size_t c) {
+    Polyline points = on_page(panel_.curves[c]);
+    const Range x = x_window(), y{placed_.plot.bottom, placed_.plot.top()};
+    if (points.x.size() > many_points)
+      points = one_point_a_pixel(points, x, y, n_columns(),
+                                 static_cast<std::size_t>(placed_.plot.height));
+    for (std::size_t i = 0; i < points.x.size(); ++i)
+      if (!x.contains(points.x[i]) || !y.contains(points.y[i]))
+        points.y[i] = std::numeric_limits<double>::quiet_NaN();
+    canvas_.points(points, colour(c), strokes_.point);
   }
 
   void paint_sample(const LegendSample& sample) {
@@ -128,6 +135,13 @@ class PanelPainter {
   }
   Colour colour(const std::size_t c) const { return palette_colour(colour_number(panel_, c)); }
 
+  /// A value without x becomes a gap.
+  Polyline on_page(const Curve& curve) const {
+    Polyline line{x_pixels(curve.x), y_pixels(curve.y)};
+    for (std::size_t i = 0; i < line.x.size(); ++i)
+      if (!std::isfinite(line.x[i])) line.y[i] = std::numeric_limits<double>::quiet_NaN();
+    return line;
+  }
   std::vector<double> x_pixels(const std::vector<double>& values) const {
     return pixels(placed_.x, values, placed_.plot.left, placed_.plot.width);
   }
