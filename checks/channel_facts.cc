@@ -142,7 +142,7 @@ void find_channel_faults(const ChannelFacts& facts, std::vector<Finding>& findin
   const auto with_unit = [&](double value) {
     return three_digits(value) + (facts.unit.empty() ? "" : " " + facts.unit);
   };
-  if (facts.never_falls && facts.lowest < facts.highest)
+  if (facts.never_falls)
     findings.push_back({FindingKind::drift, facts.name, facts.highest - facts.lowest, facts.unit,
                         facts.name + " rises from " + with_unit(facts.lowest) + " to " +
                             with_unit(facts.highest) +

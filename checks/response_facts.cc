@@ -146,8 +146,7 @@ PartModel model_of_part(const signals::Record& record) {
 /// Do the coherent lines hold most of the drive? Then they are the drive's own: tones.
 bool ResponseCheck::is_driven_at_coherent_lines() const {
   const signals::PowerSpectrum drive = signals::welch_spectrum(
-      record_.channel(channel::base_acceleration), record_.sampling_rate_hz(),
-      {.segment_samples = 2 * (found_.response.value.size() + 1)});
+      record_.channel(channel::base_acceleration), record_.sampling_rate_hz(), found_.welch);
   double coherent = 0.;
   for (const std::size_t i : found_.lines) coherent += drive.density[i + 1];  // without zero
   return coherent > 0.5 * std::accumulate(drive.density.begin(), drive.density.end(), 0.);
@@ -351,7 +350,7 @@ void ResponseCheck::check_change() {
 
 ResponseFacts ResponseCheck::run(const ChannelHum& hum) {
   const auto found = separation::coherent_lines(record_);
-  facts_.band = separation::coherent_band(record_);
+  facts_.band = separation::coherent_band(record_, found);
   if (!found) return facts_;
   found_ = *found;
   lines_ = telling_lines(found_, record_, hum);

@@ -20,11 +20,10 @@ std::optional<CoherentLines> coherent_lines(const signals::Record& record) {
   constexpr std::size_t shortest = 32, longest = 2048;
   const std::size_t segment = std::clamp(std::bit_floor(input.size() / 8), shortest, longest);
   if (input.size() < 2 * segment) return std::nullopt;
-  const signals::WelchOptions options{.segment_samples = segment};
-  CoherentLines out;
+  CoherentLines out{.welch = {.segment_samples = segment}};
   out.response = signals::welch_response(input, record.channel(signals::channel::base_moment),
-                                         record.sampling_rate_hz(), options);
-  out.averages = signals::welch_averages(input.size(), options);
+                                         record.sampling_rate_hz(), out.welch);
+  out.averages = signals::welch_averages(input.size(), out.welch);
   out.limit = coherence_limit(out.response.value.size(), out.averages);
   for (std::size_t i = 0; i < out.response.value.size(); ++i)
     if (out.response.coherence[i] > out.limit) out.lines.push_back(i);
@@ -51,9 +50,8 @@ std::optional<Band> hit_band(const signals::Record& record) {
   return Band{step, static_cast<double>(k - 1) * step};
 }
 
-Band coherent_band(const signals::Record& record) {
+Band coherent_band(const signals::Record& record, const std::optional<CoherentLines>& found) {
   if (const auto hit = hit_band(record)) return *hit;
-  const auto found = coherent_lines(record);
   if (!found || found->lines.empty()) return {0., record.sampling_rate_hz() / 2.};
   const std::vector<double>& frequency_hz = found->response.frequency_hz;
   return {frequency_hz[found->lines.front()], frequency_hz[found->lines.back()]};

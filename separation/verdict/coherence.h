@@ -16,10 +16,11 @@ double coherence_limit(std::size_t n_lines, double averages);
 
 /// Welch's response from base acceleration to base moment, with the lines where both are related.
 struct CoherentLines {
-  signals::FrequencyResponse response;
+  signals::FrequencyResponse response{};
+  signals::WelchOptions welch{};  // by which it was estimated
   double averages = 0.;
-  double limit = 1.;               // coherence_limit()
-  std::vector<std::size_t> lines;  // places in the response whose coherence is above the limit
+  double limit = 1.;                 // coherence_limit()
+  std::vector<std::size_t> lines{};  // places in the response whose coherence is above the limit
 };
 
 /// Nothing for a record shorter than two segments (an eighth of the record, 32 to 2048 samples).
@@ -30,8 +31,11 @@ std::optional<CoherentLines> coherent_lines(const signals::Record& record);
 /// largest amplitude, as usual in impact testing (20 dB). Nothing when the input is no hit.
 std::optional<Band> hit_band(const signals::Record& record);
 
-/// The band of the hit, or the band between the lowest and the highest coherent line; the whole
-/// band when there is none.
-Band coherent_band(const signals::Record& record);
+/// found: coherent_lines() of the record. The band of the hit, or the band between the lowest and
+/// the highest coherent line; the whole band when there is none.
+Band coherent_band(const signals::Record& record, const std::optional<CoherentLines>& found);
+inline Band coherent_band(const signals::Record& record) {
+  return coherent_band(record, coherent_lines(record));
+}
 
 }  // namespace vibrissa::separation

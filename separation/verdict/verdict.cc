@@ -140,9 +140,9 @@ void set_frequencies_apart(const FittedBvrm& fit, const signals::FrequencyRespon
 /// lines count, too, at which a model without a lasting mode explains more of the moment than it
 /// leaves.
 Band told_band(const Identification& identification, const signals::Record& fitted) {
-  Band band = coherent_band(fitted);
-  const std::optional<CoherentLines> welch = coherent_lines(fitted);
-  if (!welch || identification.n_hits > 0 ||
+  const std::optional<CoherentLines> found = coherent_lines(fitted);
+  Band band = coherent_band(fitted, found);
+  if (!found || identification.n_hits > 0 ||
       !lasting_modes_hz(identification.fit.model, identification.duration_s).empty())
     return band;
   const auto moment = fitted.channel(signals::channel::base_moment);
@@ -150,9 +150,8 @@ Band told_band(const Identification& identification, const signals::Record& fitt
       simulate_like(identification.fit.model, fitted.channel(signals::channel::base_acceleration),
                     moment, fitted.sampling_rate_hz(), identification.hold);
   std::ranges::transform(moment, left, left.begin(), std::minus<>());
-  const signals::WelchOptions options{.segment_samples = 2 * (welch->response.value.size() + 1)};
-  const auto whole = signals::welch_spectrum(moment, fitted.sampling_rate_hz(), options),
-             rest = signals::welch_spectrum(left, fitted.sampling_rate_hz(), options);
+  const auto whole = signals::welch_spectrum(moment, fitted.sampling_rate_hz(), found->welch),
+             rest = signals::welch_spectrum(left, fitted.sampling_rate_hz(), found->welch);
   for (std::size_t i = 1; i < whole.density.size(); ++i) {
     if (!(rest.density[i] < 0.5 * whole.density[i])) continue;
     band.low_hz = std::min(band.low_hz, whole.frequency_hz[i]);
