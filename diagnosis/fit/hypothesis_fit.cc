@@ -236,23 +236,20 @@ class Attempts {
         options_(options),
         posterior_(experiment, fit_parameters, hypothesis) {}
 
-  /// First with the parameters held as in held (and the usual discrepancy), then with all free.
-  void from(const std::vector<Eigen::VectorXd>& starts, const std::vector<FitParameter>& held) {
-    if (best_ && options_.is_late()) return;
-    const std::vector<FitParameter> first = with_usual_discrepancy(held);
-    FitPosterior of_first(experiment_, first, hypothesis_);
-    // Held parameters keep the posterior low, which does not make the basin hopeless. Only the
-    // basin matters here, not its optimum.
-    FitOptions patient = options_;
-    patient.to_beat = -std::numeric_limits<double>::infinity();
-    patient.tolerance = 1.;
-    OptimiserState state = best_start(of_first, first, starts, patient);
-    optimise(of_first, first, state, n_held_iterations, patient);
-    state.ended = false;
-    state.derivatives.reset();
-    go_on(std::move(state));
+  /// First with the usual discrepancy, then with all parameters free.
+  void from(const std::vector<Eigen::VectorXd>& starts) {
+    // Free levels of the errors gain at most the squares of the whitened errors, one for each bin.
+    double n_bins = 0.;
+    for (const PreparedRecord& record : experiment_.records)
+      n_bins += static_cast<double>(record.n_bins());
+    from(starts, fit_parameters_, options_.to_beat - n_bins);
   }
-  void from(const std::vector<Eigen::VectorXd>& starts) { from(starts, fit_parameters_); }
+  /// First with calibration parameters at their nominal values, too. They keep the posterior low,
+  /// which does not make the basin hopeless.
+  void from_nominal(const std::vector<Eigen::VectorXd>& starts) {
+    from(starts, with_nominal_calibrations(fit_parameters_),
+         -std::numeric_limits<double>::infinity());
+  }
   /// From the best of the starts after a pattern search over the joint's share and the first
   /// parameters of the hypothesis's effects, of the damping and of the stiffness. A joint with all
   /// the compliance is tried, too: with less its laws saturate.
@@ -292,6 +289,22 @@ class Attempts {
   OptimiserState& best() { return *best_; }
 
  private:
+  void from(const std::vector<Eigen::VectorXd>& starts, const std::vector<FitParameter>& held,
+            const double to_beat) {
+    if (best_ && options_.is_late()) return;
+    const std::vector<FitParameter> first = with_usual_discrepancy(held);
+    FitPosterior of_first(experiment_, first, hypothesis_);
+    // Only the basin matters here, not its optimum.
+    FitOptions of_basin = options_;
+    of_basin.to_beat = to_beat;
+    of_basin.tolerance = 1.;
+    OptimiserState state = best_start(of_first, first, starts, of_basin);
+    optimise(of_first, first, state, n_held_iterations, of_basin);
+    state.ended = false;
+    state.derivatives.reset();
+    go_on(std::move(state));
+  }
+
   void go_on(OptimiserState state) {
     // A start that stays hopelessly below a previous one is given up.
     FitOptions of_all = options_;
@@ -375,12 +388,15 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   Attempts attempts(experiment, hypothesis, fit.fit_parameters, options);
   const std::vector<Eigen::VectorXd> nominal =
       start_vectors(experiment, fit.fit_parameters, hypothesis, start, /*nominal_nuisances=*/true);
-  if (const auto x = near_start(hypothesis, fit.fit_parameters, start, options))
+  if (const auto x = near_start(hypothesis, fit.fit_parameters, start, options)) {
     attempts.from_near(*x);
-  else if (start != nullptr)
-    attempts.from(start_vectors(experiment, fit.fit_parameters, hypothesis, start, false));
-  else
+  } else if (start != nullptr) {
+    auto starts = start_vectors(experiment, fit.fit_parameters, hypothesis, start, false);
+    if (further) starts.push_back(further_start(experiment, fit.fit_parameters, *further));
+    attempts.from(starts);
+  } else {
     attempts.from(with_shifted_resonances(experiment, fit.fit_parameters, hypothesis, nominal));
+  }
   // A narrow resonance far from where it is measured tells a fit little.
   if (moves_in_responses(experiment, hypothesis))
     if (const auto measured = at_measured_modes(experiment, fit.fit_parameters,
@@ -391,13 +407,11 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   // them held.
   const bool is_refit = start != nullptr && start->hypothesis.name() == hypothesis.name();
   if (start != nullptr && has_recalibrated(*start) && !is_refit)
-    attempts.from(hypothesis.contains("mass")
-                      ? with_shifted_resonances(experiment, fit.fit_parameters, hypothesis, nominal)
-                      : nominal,
-                  with_nominal_calibrations(fit.fit_parameters));
-  if (start == nullptr && !hypothesis.effects().empty())
-    attempts.from(nominal, with_nominal_calibrations(fit.fit_parameters));
-  if (further) attempts.from({further_start(experiment, fit.fit_parameters, *further)});
+    attempts.from_nominal(
+        hypothesis.contains("mass")
+            ? with_shifted_resonances(experiment, fit.fit_parameters, hypothesis, nominal)
+            : nominal);
+  if (start == nullptr && !hypothesis.effects().empty()) attempts.from_nominal(nominal);
   set_at(fit, experiment, attempts.posterior(), attempts.best());
   return fit;
 }

@@ -8,6 +8,14 @@
 namespace vibrissa::diagnosis {
 namespace {
 
+/// Fisher scoring in the logarithm of a standard deviation steps by half of what the mean square
+/// error exceeds the variance, relative to it: ever the same half where the errors are far smaller.
+/// The step to the variance that the errors have follows from it.
+double level_step(const double scored) {
+  constexpr double least_ratio = 1e-3;
+  return 0.5 * std::log(std::max(1. + 2. * scored, least_ratio));
+}
+
 /// Step of the parameters that are not at a bound.
 Eigen::VectorXd damped_step(const std::vector<FitParameter>& fit_parameters,
                             const Eigen::VectorXd& x, const Eigen::VectorXd& gradient,
@@ -28,6 +36,11 @@ Eigen::VectorXd damped_step(const std::vector<FitParameter>& fit_parameters,
       scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * gradient(free));
   Eigen::VectorXd step = Eigen::VectorXd::Zero(x.size());
   for (std::size_t i = 0; i < free.size(); ++i) step(free[i]) = part(static_cast<Eigen::Index>(i));
+  for (const std::size_t level :
+       {index_of_moment_noise, index_of_acceleration_noise, index_of_incoherence}) {
+    double& own = step(static_cast<Eigen::Index>(level));
+    own = level_step(own);
+  }
   // Far from the optimum, Fisher scoring overshoots in logarithms.
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const Parameter& parameter = fit_parameters[static_cast<std::size_t>(i)].description;

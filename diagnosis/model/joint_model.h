@@ -27,21 +27,27 @@ struct JointModel {
 
   /// Inertial moment divided by w^2 theta. The poles are where its product with the compliance of
   /// joint and whisker in series, share / stiffness_ratio + 1 - share, is -1.
-  Complex inertia(Complex s) const {
-    const Complex x = s / frequency_rad_s;
+  template <typename C>  // Complex or ComplexLanes
+  C inertia(const C& s) const {
+    const C x = s / frequency_rad_s;
     return x * x + 2. * damping * x;
   }
   /// The same model with changed factors.
-  Complex changed_inertia(Complex s) const {
-    const Complex x = s / frequency_rad_s;
+  template <typename C>
+  C changed_inertia(const C& s) const {
+    const C x = s / frequency_rad_s;
     return change.inertia * (x * x + 2. * change.rest_damping * damping * x);
   }
   /// With the factors of spring and damper, relative to the nominal elastic moment.
-  Complex changed_stiffness_ratio(Complex s) const {
+  template <typename C>
+  C changed_stiffness_ratio(const C& s) const {
     return change.spring + change.damper * (loss * s / frequency_rad_s);
   }
   /// Total moment of the joint's spring and damper divided by the elastic one, 1 + rho s / w.
-  Complex stiffness_ratio(Complex s) const { return 1. + loss * s / frequency_rad_s; }
+  template <typename C>
+  C stiffness_ratio(const C& s) const {
+    return 1. + loss * s / frequency_rad_s;
+  }
 
   /// The model that JointIntegrator integrates: with some flexibility of the whisker and some loss
   /// of the joint.

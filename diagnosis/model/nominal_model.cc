@@ -24,16 +24,6 @@ Complex StructuralMode::wind_response(const Complex s) const {
   return (wind_gain + wind_rate * x) * compliance(*this, x);
 }
 
-NominalModel::Responses NominalModel::responses(const Complex s) const {
-  Responses sum{.base = base_direct, .wind = wind_direct};
-  for (const StructuralMode& mode : modes) {
-    const Complex x = s * (1. / mode.frequency_rad_s), c = compliance(mode, x);
-    sum.base += (mode.base_gain + mode.base_rate * x) * c;
-    sum.wind += (mode.wind_gain + mode.wind_rate * x) * c;
-  }
-  return sum;
-}
-
 double spring_ratio(const double ratio, const double share) {
   constexpr double least_compliance = 1e-3;
   return share / std::max(least_compliance, 1. / ratio - 1. + share);

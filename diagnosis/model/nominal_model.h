@@ -84,11 +84,22 @@ struct NominalModel {
 
   Complex base_response(Complex s) const { return responses(s).base; }
   Complex wind_response(Complex s) const { return responses(s).wind; }
-  /// Misfit of both paths together.
+  template <typename C>
   struct Responses {
-    Complex base, wind;
+    C base, wind;
   };
-  Responses responses(Complex s) const;
+  /// Both paths at s, a Complex or ComplexLanes.
+  template <typename C>
+  Responses<C> responses(const C& s) const {
+    Responses<C> sum{.base = base_direct, .wind = wind_direct};
+    for (const StructuralMode& mode : modes) {
+      const C x = s / mode.frequency_rad_s,
+              compliance = 1. / (x * x + 2. * mode.damping_ratio * x + 1.);
+      sum.base += (mode.base_gain + mode.base_rate * x) * compliance;
+      sum.wind += (mode.wind_gain + mode.wind_rate * x) * compliance;
+    }
+    return sum;
+  }
 
   /// The sensitivities to a parameter; nullptr when they are unknown or the first mode does not
   /// depend on it.

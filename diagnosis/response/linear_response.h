@@ -14,13 +14,15 @@ namespace vibrissa::diagnosis {
 
 /// Transfer functions of the chain at one frequency. The quantity before the sensor is the base
 /// moment, or with the readout rotation k_nominal times the joint's rotation.
-struct LinearPart {
-  Complex base;     // reading of the accelerometer -> before the sensor
-  Complex wind;     // u |u| -> before the sensor
-  Complex elastic;  // before the sensor -> elastic moment of the joint
-  Complex cross;    // transverse acceleration -> before the sensor
-  Complex sensor;   // before the sensor -> reading
+template <typename C>
+struct LinearParts {
+  C base;     // reading of the accelerometer -> before the sensor
+  C wind;     // u |u| -> before the sensor
+  C elastic;  // before the sensor -> elastic moment of the joint
+  C cross;    // transverse acceleration -> before the sensor
+  C sensor;   // before the sensor -> reading
 };
+using LinearPart = LinearParts<Complex>;
 
 /// The linear part of a chain at the lines of records; records of one length share it. For a joint
 /// K(s) (1 + D(s)) instead of K(s), with H = K B / (1 + K G) for the whisker pinned at its base (B,
@@ -38,9 +40,12 @@ class LinearResponse {
   const std::optional<JointModel>& joint() const { return joint_; }
 
  private:
+  template <typename C>
+  LinearParts<C> parts(const C& s, signals::Readout readout, bool magnet) const;
+
   const Chain& chain_;
   std::optional<JointModel> joint_;
-  Complex per_static_response_ = 1.;
+  double per_static_response_ = 1.;
   /// Cache by length, sampling rate, readout and magnet; a response by its number, too.
   using Kind = std::tuple<std::size_t, double, signals::Readout, bool, std::size_t>;
   std::map<Kind, std::vector<LinearPart>> lines_;

@@ -38,20 +38,23 @@ struct Others {
   double log_evidence = 0.;
 };
 
-/// Recalibrated, or the best answer of all records. Fits that stay below to_beat end early: a log
+/// The best answer of all records, or recalibrated. Fits that stay below to_beat end early: a log
 /// posterior lies above its log evidence.
-Others answer_of_others(const Experiment& others, const SearchResult& result,
-                        const double to_beat) {
+Others answer_of_others(const Experiment& others, const SearchResult& result, double to_beat) {
   const Candidate& best = result.candidates.front();
   const HypothesisFit& of_all = result.fits[best.fit];
-  Others out{.fit = fit_hypothesis(others, Hypothesis{}, nullptr, {.to_beat = to_beat})};
-  out.log_evidence = out.fit.log_evidence;
-  if (of_all.hypothesis.effects().empty()) return out;
-  const double prior = best.log_posterior - of_all.log_evidence;
-  Others same{.fit =
-                  fit_hypothesis(others, of_all.hypothesis, &of_all, {.to_beat = to_beat - prior})};
-  same.log_evidence = same.fit.log_evidence + prior;
-  return same.log_evidence > out.log_evidence ? same : out;
+  std::optional<Others> same;
+  if (!of_all.hypothesis.effects().empty()) {
+    const double prior = best.log_posterior - of_all.log_evidence;
+    same = {.fit =
+                fit_hypothesis(others, of_all.hypothesis, &of_all, {.to_beat = to_beat - prior})};
+    same->log_evidence = same->fit.log_evidence + prior;
+    to_beat = std::max(to_beat, same->log_evidence);
+  }
+  Others recalibrated{.fit = fit_hypothesis(others, Hypothesis{}, nullptr, {.to_beat = to_beat})};
+  recalibrated.log_evidence = recalibrated.fit.log_evidence;
+  return same && same->log_evidence > recalibrated.log_evidence ? std::move(*same)
+                                                                : std::move(recalibrated);
 }
 
 /// Power of a prediction's error [(N m)^2 of unscaled bins].

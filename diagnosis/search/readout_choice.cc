@@ -53,8 +53,9 @@ bool is_rotation(const SimulationAndRecords& given, const Experiment& experiment
   reread.measured_modes = experiment.measured_modes;
   const HypothesisFit& as_moment = result.fits[nonlinear->fit];
   const double prior = nonlinear->log_posterior - as_moment.log_evidence;
-  return fit_hypothesis(reread, as_moment.hypothesis).log_evidence + prior >
-         result.candidates.front().log_posterior + believed_nats;
+  const double to_beat = result.candidates.front().log_posterior + believed_nats - prior;
+  return fit_hypothesis(reread, as_moment.hypothesis, nullptr, {.to_beat = to_beat}).log_evidence >
+         to_beat;
 }
 
 }  // namespace vibrissa::diagnosis

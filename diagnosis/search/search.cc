@@ -71,6 +71,12 @@ bool has_same_parameters(const HypothesisFit& part, const HypothesisFit& whole) 
   return true;
 }
 
+/// Has one fit of a hypothesis a better optimum than another? The evidence of a fit that was given
+/// up says nothing.
+bool is_better(const HypothesisFit& fit, const HypothesisFit& than) {
+  return fit.log_evidence > than.log_evidence && fit.log_posterior > than.log_posterior;
+}
+
 class Searcher {
  public:
   Searcher(const Experiment& experiment, const SearchOptions& options)
@@ -246,7 +252,7 @@ class Searcher {
       const auto [found, is_new] = known_.try_emplace(again[i].first.name(), fits_.size());
       if (is_new)
         fits_.push_back(std::move(refined[i]));
-      else if (refined[i].log_evidence > fits_[found->second].log_evidence)
+      else if (is_better(refined[i], fits_[found->second]))
         fits_[found->second] = std::move(refined[i]);
     }
   }

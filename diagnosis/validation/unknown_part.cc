@@ -10,16 +10,19 @@ namespace vibrissa::diagnosis {
 namespace {
 
 /// Terms for what a fit leaves; nothing where a random effect explains it, nor, in an answer that
-/// is not outside the catalogue, where noise or the usual error of a simulation does.
+/// is not outside the catalogue, where noise or the usual error of a simulation does, or where it
+/// is too small a share of the gap.
 std::optional<UnknownCause> left_by(const HypothesisFit& fit, const Experiment& experiment,
                                     const Experiment& scored, const bool is_outside,
                                     const std::size_t n_threads) {
   const HeldOutScore score = score_held_out(experiment, scored, fit, {.n_resamples = 0});
-  const double noise = score.overall.noise_floor * score.overall.noise_floor,
-               left = score.overall.nrmse_after * score.overall.nrmse_after - noise,
-               least = is_outside
-                           ? 0.
-                           : std::max(power_without_cause(experiment.simulation_accuracy), noise);
+  const auto power = [](const double relative_rms) { return relative_rms * relative_rms; };
+  const double noise = power(score.overall.noise_floor),
+               gap = power(score.overall.nrmse_before) - noise,
+               left = power(score.overall.nrmse_after) - noise,
+               least = is_outside ? 0.
+                                  : std::max({power_without_cause(experiment.simulation_accuracy),
+                                              noise, least_share * gap});
   if (!score.not_predictable.empty() || !(left > least)) return std::nullopt;
   return describe_unknown(experiment, scored, fit, noise / (noise + left), n_threads);
 }
