@@ -270,8 +270,6 @@ void FitPosterior::set_derivative(const Eigen::VectorXd& x, const std::vector<Pr
 
 Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
                                       const std::vector<Prediction>& at) const {
-  // More chains at a time exceed the caches.
-  constexpr std::size_t n_together = 4;
   const BinVariances s = variances(x, at, acceleration_variance(x));
   const auto n_columns = static_cast<Eigen::Index>(of_chain_.size());
   Derivatives out{.mean = Eigen::MatrixXd(2 * discrepancy_.n_rows(), n_columns),

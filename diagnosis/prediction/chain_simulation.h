@@ -74,6 +74,9 @@ class ChainSimulator {
   std::map<std::size_t, std::shared_ptr<const SweepStates>> sweeps_{};  // by number of the record
 };
 
+/// Number of chains from which on more at a time exceed the caches.
+inline constexpr std::size_t n_together = 4;
+
 /// Predictions of each chain, as ChainSimulator::predict but faster. near: predictions of a chain
 /// that hardly differs, whose branches responses stay on; may be empty.
 std::vector<std::vector<Prediction>> predict_together(std::span<const Chain> chains,

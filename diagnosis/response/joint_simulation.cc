@@ -30,11 +30,14 @@ std::vector<double> all_steps(const PreparedRecord& record, std::span<const Comp
   return out;
 }
 
-/// One lane per record.
-std::vector<Lanes> interleaved(std::vector<std::vector<double>> of_lanes, std::size_t n_steps) {
-  of_lanes.resize(n_lanes, std::vector<double>(n_steps, 0.));
+/// One lane per record; zero where it has no signal.
+std::vector<Lanes> interleaved(const std::vector<std::vector<double>>& of_lanes,
+                               std::size_t n_steps) {
+  const std::vector<double> none(n_steps, 0.);
   std::array<const double*, n_lanes> x{};
-  for (std::size_t lane = 0; lane < n_lanes; ++lane) x[lane] = of_lanes[lane].data();
+  x.fill(none.data());
+  for (std::size_t lane = 0; lane < of_lanes.size(); ++lane)
+    if (!of_lanes[lane].empty()) x[lane] = of_lanes[lane].data();
   std::vector<Lanes> out(n_steps);
   // An inner loop over the lanes would be compiled to slow scattered stores.
   for (std::size_t i = 0; i < n_steps; ++i)
@@ -71,20 +74,20 @@ FineSignals fine_signals(const Chain& chain, std::span<const ElasticMoment> elas
     std::vector<Complex> rate = elastic[lane].spectrum;
     for (std::size_t k = 0; k < rate.size(); ++k) rate[k] *= record.line_s(k);
     y_rate.push_back(fine(rate));
-    wind.emplace_back(n_steps, 0.);
-    base.emplace_back(n_steps, 0.);
+    wind.emplace_back();
+    base.emplace_back();
     if (!chain.relative_wind.on || record.wind.empty()) continue;
     any_wind = true;
     wind_share(static_cast<Eigen::Index>(lane)) = record.wind_share;
     wind.back() = fine(spectrum_of(record.wind));
     base.back() = fine(base_velocity(record));
   }
-  FineSignals out{.y = interleaved(std::move(y), n_steps),
-                  .y_rate = interleaved(std::move(y_rate), n_steps),
+  FineSignals out{.y = interleaved(y, n_steps),
+                  .y_rate = interleaved(y_rate, n_steps),
                   .wind_share = wind_share};
   if (any_wind) {
-    out.wind = interleaved(std::move(wind), n_steps);
-    out.base_velocity = interleaved(std::move(base), n_steps);
+    out.wind = interleaved(wind, n_steps);
+    out.base_velocity = interleaved(base, n_steps);
   }
   return out;
 }

@@ -41,9 +41,9 @@ bool is_rotation(const SimulationAndRecords& given, const Experiment& experiment
   });
   if (nonlinear - result.candidates.begin() >= std::min(n_probable, std::ssize(result.candidates)))
     return false;
-  // One effect that leaves nothing is simpler than another readout.
+  // One effect or none that leaves nothing is simpler than another readout.
   const HypothesisFit& best = result.fits[result.candidates.front().fit];
-  if (best.hypothesis.effects().size() == 1 &&
+  if (best.hypothesis.effects().size() <= 1 &&
       largest_error_left(experiment, best) < std::pow(experiment.simulation_accuracy, 2))
     return false;
   const SimulationAndRecords other = read_as_rotation(given);

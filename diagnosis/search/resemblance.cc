@@ -124,10 +124,19 @@ struct FitResidual::State {
     return {score * score * unknown.variance, information * unknown.variance};
   }
 
-  Overlap overlap(const Effect& effect, const std::vector<double>& values) const {
-    Chain extended = chain;
-    effect.extend(extended, values, experiment.scales);
-    const std::vector<Prediction> moved = ChainSimulator(extended).predict(experiment.records);
+  /// The overlaps with an effect at each of these values.
+  std::vector<Overlap> overlaps(const Effect& effect,
+                                const std::span<const std::vector<double>> tried) const {
+    std::vector<Chain> extended;
+    for (const std::vector<double>& values : tried)
+      effect.extend(extended.emplace_back(chain), values, experiment.scales);
+    const auto moved = predict_together(extended, experiment.records);
+    std::vector<Overlap> out;
+    for (std::size_t i = 0; i < extended.size(); ++i) out.push_back(overlap(extended[i], moved[i]));
+    return out;
+  }
+
+  Overlap overlap(const Chain& extended, const std::vector<Prediction>& moved) const {
     Eigen::VectorXcd change(mean.size());
     Overlap out;
     Eigen::Index row = 0;
@@ -164,14 +173,18 @@ FitResidual::~FitResidual() = default;
 Resemblance FitResidual::resemblance(const Effect& effect,
                                      const std::vector<std::vector<double>>& tried) const {
   Resemblance best;
-  for (const std::vector<double>& values : tried) {
-    const Overlap sum = state_->overlap(effect, values);
+  std::vector<Overlap> sums;
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    if (i % n_together == 0)
+      sums = state_->overlaps(effect,
+                              std::span(tried).subspan(i, std::min(n_together, tried.size() - i)));
+    const Overlap& sum = sums[i % n_together];
     const double multiple = sum.best_multiple(), of_mean = sum.of_mean(),
                  of_noise = sum.of_noise(multiple), gain = std::max(of_mean, of_noise);
     if (!(gain > best.gain)) continue;
     // Changes of variances are proportional to the square of an effect's size.
     const double factor = of_mean > of_noise ? sum.cross / sum.own : std::sqrt(multiple);
-    best = {gain, resized(effect, values, factor)};
+    best = {gain, resized(effect, tried[i], factor)};
   }
   return best;
 }
