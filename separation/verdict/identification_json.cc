@@ -65,6 +65,9 @@ void add_verdict(const Verdict& verdict, nlohmann::json& document) {
     for (const UndeterminedMode& entry : entries) {
       list.push_back(all[entry.mode]);
       list.back()["reason"] = entry.reason;
+      if (!entry.peak_hz) continue;
+      list.back()["frequency_hz"] = entry.peak_hz->value;
+      list.back()["frequency_sd_hz"] = entry.peak_hz->standard_deviation;
     }
     return list;
   };

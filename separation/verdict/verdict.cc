@@ -72,7 +72,7 @@ void conclude(const FittedBvrm& fit, double explained_percent, const std::string
   }
   if (verdict.determined.empty() && !verdict.frequency_only.empty()) {
     verdict.sentence =
-        "Usable for the frequencies of resonances, not as a model: no damping is resolved.";
+        "Usable for the frequencies of peaks, not as a model: no damping is resolved.";
     return;
   }
   verdict.sentence = "Not usable: ";
@@ -107,9 +107,10 @@ std::optional<std::string> reason_of_lines(const FittedBvrm& fit, const std::siz
   const double half_width = mode.damping_ratio.value * f, step = line_spacing_hz(response, f);
   if (!is_resolved(mode, response)) {
     if (phase_rises(response, f))
-      return "the phase rises through this peak, and falls through a resonance of a sensor: the "
-             "moment vibrates there by itself or by another source; where the moment was recorded "
-             "in time, --output-only gives its frequency";
+      return "the frequency is that of the amplitude: the phase rises through this peak, and falls "
+             "through a resonance that answers its base, so the moment vibrates there by itself or "
+             "by another source; where the moment was recorded in time, --output-only may tell its "
+             "damping";
     return "the damping is not resolved: the peak is " + rounded(2. * half_width, 2) +
            " Hz wide at half power, the lines are " + rounded(step, 3) + " Hz apart";
   }
@@ -121,16 +122,23 @@ std::optional<std::string> reason_of_lines(const FittedBvrm& fit, const std::siz
   return std::nullopt;
 }
 
-/// Takes the resonances whose frequency is told from those that are not determined.
+/// Its deviation is that of an equal distribution over one line.
+Estimate amplitude_peak(const signals::FrequencyResponse& response, const double at_hz) {
+  return {amplitude_peak_hz(response, at_hz), line_spacing_hz(response, at_hz) / std::sqrt(12.)};
+}
+
+/// Takes the peaks whose frequency is told from those that are not determined.
 void set_frequencies_apart(const FittedBvrm& fit, const signals::FrequencyResponse& response,
                            Verdict& verdict) {
   std::vector<UndeterminedMode> others;
   for (UndeterminedMode& entry : verdict.undetermined) {
     const ModeEstimate& mode = fit.modes[entry.mode];
     const Estimate& f = mode.frequency_hz;
-    const bool is_told = !reason_of_place(mode, verdict.band) && !is_resolved(mode, response) &&
-                         f.standard_deviation < line_spacing_hz(response, f.value) &&
-                         !phase_rises(response, f.value);
+    const bool is_narrow = !reason_of_place(mode, verdict.band) && !is_resolved(mode, response);
+    if (is_narrow && phase_rises(response, f.value))
+      entry.peak_hz = amplitude_peak(response, f.value);
+    const bool is_told =
+        is_narrow && (entry.peak_hz || f.standard_deviation < line_spacing_hz(response, f.value));
     (is_told ? verdict.frequency_only : others).push_back(std::move(entry));
   }
   verdict.undetermined = std::move(others);
@@ -161,6 +169,10 @@ Band told_band(const Identification& identification, const signals::Record& fitt
 }
 
 }  // namespace
+
+const Estimate& frequency_of(const UndeterminedMode& entry, const FittedBvrm& fit) {
+  return entry.peak_hz ? *entry.peak_hz : fit.modes[entry.mode].frequency_hz;
+}
 
 Verdict judge(const Identification& identification, const signals::Record& fitted) {
   Verdict verdict;

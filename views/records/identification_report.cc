@@ -56,8 +56,8 @@ std::string verdict_text(const separation::FittedBvrm& fit, const separation::Ve
   std::string text = verdict.sentence + "\n";
   if (!modes.empty()) text += table_of(modes).to_text();
   for (const auto& entry : verdict.frequency_only)
-    text += "frequency only: " + frequency_text(fit.modes[entry.mode].frequency_hz) + ": " +
-            entry.reason + "\n";
+    text +=
+        "frequency only: " + frequency_text(frequency_of(entry, fit)) + ": " + entry.reason + "\n";
   for (const auto& entry : verdict.undetermined) {
     const auto& mode = fit.modes[entry.mode];
     text += "not determined: " + frequency_text(mode.frequency_hz) + ", damping ratio " +

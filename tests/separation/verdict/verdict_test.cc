@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "separation/model/simulation.h"
@@ -132,7 +133,7 @@ TEST(Verdict, TakesThePeakBetweenTwoLinesForAFrequencyWithoutDamping) {
 
 // A machine's tone that is in the moment alone: a ratio of spectra has a peak there, which is no
 // answer to the base.
-TEST(Verdict, TakesAPeakWhosePhaseRisesForNoResonance) {
+TEST(Verdict, GivesAPeakWhosePhaseRisesTheFrequencyOfItsAmplitude) {
   const Bvrm sensor{.modes = {make_modal_term(150., 0.02, 1.)}};
   const Bvrm other{.modes = {make_modal_term(192.6, 2e-4, 0.05)}};
   std::mt19937_64 random(11);
@@ -151,9 +152,11 @@ TEST(Verdict, TakesAPeakWhosePhaseRisesForNoResonance) {
   EXPECT_FALSE(phase_rises(falling, 192.6));
   const Verdict verdict = judge(identify_response(rising, {.order = 4}), rising);
   EXPECT_EQ(verdict.determined.size(), 1u);
-  EXPECT_TRUE(verdict.frequency_only.empty());
-  ASSERT_EQ(verdict.undetermined.size(), 1u);
-  EXPECT_THAT(verdict.undetermined[0].reason, HasSubstr("the phase rises"));
+  EXPECT_TRUE(verdict.undetermined.empty());
+  ASSERT_EQ(verdict.frequency_only.size(), 1u);
+  EXPECT_THAT(verdict.frequency_only[0].reason, HasSubstr("the phase rises"));
+  ASSERT_TRUE(verdict.frequency_only[0].peak_hz);
+  EXPECT_NEAR(verdict.frequency_only[0].peak_hz->value, 192.6, 0.1);
   EXPECT_TRUE(verdict.usable) << verdict.sentence;
   // The sign convention of the file changes nothing.
   for (const auto& response : {falling, conjugate_of(falling)}) {
@@ -163,6 +166,27 @@ TEST(Verdict, TakesAPeakWhosePhaseRisesForNoResonance) {
     EXPECT_TRUE(of_falling.undetermined.empty());
     EXPECT_THAT(of_falling.sentence, StartsWith("Usable from"));
   }
+}
+
+// The moment moves by itself, and the ratio to the noise of a still base has phases of its own.
+TEST(Verdict, FindsThePeakOfLinesWithoutAPhase) {
+  constexpr double peak_hz = 192.594, half_width_hz = 0.2;
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> phase(-std::numbers::pi, std::numbers::pi);
+  signals::FrequencyResponse response = at_lines_of_an_analyser({});
+  for (std::size_t i = 0; i < response.value.size(); ++i)
+    response.value[i] = std::polar(
+        1. / std::hypot(response.frequency_hz[i] - peak_hz, half_width_hz), phase(random));
+  EXPECT_NEAR(amplitude_peak_hz(response, 192.3), peak_hz, 0.01);
+}
+
+TEST(Verdict, WritesTheFrequencyOfTheAmplitudeIntoItsJson) {
+  Verdict verdict;
+  verdict.frequency_only = {{.mode = 0, .reason = "why", .peak_hz = Estimate{192.6, 0.09}}};
+  nlohmann::json document = fitted_json(known_fit({make_modal_term(192.4, 2e-4, 1.)}, 0.1));
+  add_verdict(verdict, document);
+  EXPECT_EQ(document["frequency_only"][0]["frequency_hz"], 192.6);
+  EXPECT_EQ(document["frequency_only"][0]["frequency_sd_hz"], 0.09);
 }
 
 // An analyser's Hann window makes the lines beside a narrow peak, which looks like a second mode.
