@@ -28,19 +28,21 @@ nlohmann::json plane_json(const std::vector<PlaneEstimate>& points) {
 
 }  // namespace
 
-nlohmann::json fitted_json(const FittedBvrm& fit) {
+nlohmann::json fitted_json(const FittedBvrm& fit, const std::string& gain_unit) {
+  const std::string of_unit = gain_unit == moment_gain_unit ? "_kg_m" : "";
   nlohmann::json modes = nlohmann::json::array();
   for (const auto& mode : fit.modes) {
     modes.push_back({{"frequency_hz", mode.frequency_hz.value},
                      {"frequency_sd_hz", mode.frequency_hz.standard_deviation},
                      {"damping_ratio", mode.damping_ratio.value},
                      {"damping_sd", mode.damping_ratio.standard_deviation},
-                     {"static_gain_kg_m", mode.static_gain_kg_m.value},
-                     {"static_gain_sd_kg_m", mode.static_gain_kg_m.standard_deviation}});
+                     {"static_gain" + of_unit, mode.static_gain_kg_m.value},
+                     {"static_gain_sd" + of_unit, mode.static_gain_kg_m.standard_deviation}});
   }
   return {{"modes", modes},
           {"direct_term", fit.direct_term_kg_m.value},
           {"direct_term_sd", fit.direct_term_kg_m.standard_deviation},
+          {"gain_unit", gain_unit},
           {"order", fit.model.order()},
           {"end", to_string(fit.end)}};
 }
@@ -77,8 +79,8 @@ void add_verdict(const Verdict& verdict, nlohmann::json& document) {
 }
 
 nlohmann::json identified_response_json(const IdentifiedResponse& identified,
-                                        const Verdict& verdict) {
-  nlohmann::json document = fitted_json(identified.fit);
+                                        const Verdict& verdict, const std::string& gain_unit) {
+  nlohmann::json document = fitted_json(identified.fit, gain_unit);
   add_verdict(verdict, document);
   document["fit_percent"] = identified.held_out_fit_percent;
   document["conjugated"] = identified.conjugated;

@@ -13,13 +13,18 @@
 
 namespace vibrissa::separation {
 
+/// Unit of the gains of a moment per acceleration.
+inline const std::string moment_gain_unit = "kg m";
+
 /// {"modes": [{"frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd",
-/// "static_gain_kg_m", "static_gain_sd_kg_m"}], "direct_term", "direct_term_sd", "order", "end"}.
-nlohmann::json fitted_json(const FittedBvrm& fit);
+/// "static_gain_kg_m", "static_gain_sd_kg_m"}], "direct_term", "direct_term_sd", "gain_unit",
+/// "order", "end"}; in another unit than kg m the gains are "static_gain" and "static_gain_sd".
+nlohmann::json fitted_json(const FittedBvrm& fit, const std::string& gain_unit = moment_gain_unit);
 /// The document of `vibrissa identify --frequency-response --json`: the same and that of
 /// add_verdict(), with "fit_percent" of the held-out lines and "conjugated".
 nlohmann::json identified_response_json(const IdentifiedResponse& identified,
-                                        const Verdict& verdict);
+                                        const Verdict& verdict,
+                                        const std::string& gain_unit = moment_gain_unit);
 /// The same with "fit_percent" and "vaf_percent" of the held-out record, and "hold".
 nlohmann::json identification_json(const Identification& identification);
 

@@ -19,14 +19,15 @@ std::string plane_text(const std::vector<separation::PlaneEstimate>& points) {
   return text.empty() ? "none" : text;
 }
 
-report::Table table_of(const std::vector<separation::ModeEstimate>& modes) {
+report::Table table_of(const std::vector<separation::ModeEstimate>& modes,
+                       const std::string& gain_unit) {
   report::Table table({{"mode", ""},
                        {"frequency", "Hz", 6},
                        {"± sd", "Hz", 2},
                        {"damping ratio", ""},
                        {"± sd", "", 2},
-                       {"static gain", "kg m"},
-                       {"± sd", "kg m", 2}});
+                       {"static gain", gain_unit},
+                       {"± sd", gain_unit, 2}});
   std::size_t number = 0;
   for (const auto& mode : modes) {
     table.add_row({++number, mode.frequency_hz.value, mode.frequency_hz.standard_deviation,
@@ -47,14 +48,15 @@ std::string frequency_text(const separation::Estimate& frequency_hz) {
 }  // namespace
 
 report::Table identification_table(const separation::FittedBvrm& fit) {
-  return table_of(fit.modes);
+  return table_of(fit.modes, separation::moment_gain_unit);
 }
 
-std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict) {
+std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict,
+                         const std::string& gain_unit) {
   std::vector<separation::ModeEstimate> modes;
   for (const std::size_t k : verdict.determined) modes.push_back(fit.modes[k]);
   std::string text = verdict.sentence + "\n";
-  if (!modes.empty()) text += table_of(modes).to_text();
+  if (!modes.empty()) text += table_of(modes, gain_unit).to_text();
   for (const auto& entry : verdict.frequency_only)
     text +=
         "frequency only: " + frequency_text(frequency_of(entry, fit)) + ": " + entry.reason + "\n";

@@ -12,7 +12,8 @@ report::Table identification_table(const separation::FittedBvrm& fit);
 
 /// The sentence of the verdict, the table of the determined modes, a line for each resonance of
 /// which only the frequency is told and for each pair of poles that is not determined.
-std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict);
+std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict,
+                         const std::string& gain_unit = separation::moment_gain_unit);
 
 /// One row per mode, and one row without damping for each undamped line.
 report::Table output_only_table(const separation::OutputOnlyIdentification& found);
