@@ -125,7 +125,7 @@ ModelEvidence examine(const Identification& identification, const signals::Recor
     return evidence;
   }
   // Between two hits that were glued the record is no answer to its input.
-  if (identification.n_hits > 1) return evidence;
+  if (identification.n_hits > 1 || !evidence.verdict.usable) return evidence;
   const std::array<Segment, 1> segments = {
       {{fitted.channel(base_acceleration), fitted.channel(base_moment)}}};
   SrivcOptions told;
@@ -150,7 +150,7 @@ nlohmann::json identification_report(const Identification& identification,
   document.update(evidence_json(evidence));
   add_verdict(evidence.verdict, document);
   document["order_words"] = identification.order_words;
-  if (identification.found_delay_s) {
+  if (evidence.verdict.usable && identification.found_delay_s) {
     document["delay_s"] = identification.found_delay_s->value;
     document["delay_sd_s"] = identification.found_delay_s->standard_deviation;
   }

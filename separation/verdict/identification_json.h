@@ -45,8 +45,9 @@ struct ModelEvidence {
   Verdict verdict;
 };
 
-/// Tests the residual of the scored model on the held-out record, and the hold on the fitted
-/// record. An error below exact_share of the moment accuses neither delay nor order nor hold.
+/// Tests the residual of the scored model on the held-out record, and the hold of a usable model on
+/// the fitted record. An error below exact_share of the moment accuses neither delay nor order nor
+/// hold.
 ModelEvidence examine(const Identification& identification, const signals::Record& fitted,
                       const signals::Record& held_out);
 
@@ -56,7 +57,7 @@ nlohmann::json evidence_json(const ModelEvidence& evidence);
 
 /// The document of `vibrissa identify --json`: identification_json(), evidence_json(),
 /// add_verdict(), and "order_words", "scatter_words", "method"; with "delay_s" and
-/// "delay_sd_s" when a delay between the channels was found.
+/// "delay_sd_s" when a usable model has a delay between the channels.
 nlohmann::json identification_report(const Identification& identification,
                                      const ModelEvidence& evidence, const std::string& method);
 

@@ -23,13 +23,20 @@ std::string hertz(double value) {
   return rounded(value, 4) + " Hz";
 }
 
+/// What the band of a verdict is, in words.
+std::string band_of_record(const Identification& identification) {
+  return identification.n_hits > 0 ? "the band that the hit excites"
+                                   : "the band in which the moment follows the base acceleration";
+}
+const std::string band_of_response = "the lines of the response";
+
 /// Why this pair of poles cannot be a mode of the band; nothing when it can.
-std::optional<std::string> reason_of_place(const ModeEstimate& mode, const Band& band) {
+std::optional<std::string> reason_of_place(const ModeEstimate& mode, const Band& band,
+                                           const std::string& band_words) {
   const double f = mode.frequency_hz.value, zeta = mode.damping_ratio.value;
   if (zeta >= 1.) return "two real poles, no oscillation";
   if (f * (1. + zeta) < band.low_hz || f * (1. - zeta) > band.high_hz)
-    return "outside the band that was excited, " + hertz(band.low_hz) + " to " +
-           hertz(band.high_hz);
+    return "outside " + band_words + ", " + hertz(band.low_hz) + " to " + hertz(band.high_hz);
   return std::nullopt;
 }
 
@@ -44,9 +51,10 @@ std::optional<std::string> reason_of_damping(const ModeEstimate& mode) {
 }
 
 template <typename FurtherReason>
-void sort_modes(const FittedBvrm& fit, const FurtherReason& further, Verdict& verdict) {
+void sort_modes(const FittedBvrm& fit, const std::string& band_words, const FurtherReason& further,
+                Verdict& verdict) {
   for (std::size_t k = 0; k < fit.modes.size(); ++k) {
-    std::optional<std::string> reason = reason_of_place(fit.modes[k], verdict.band);
+    std::optional<std::string> reason = reason_of_place(fit.modes[k], verdict.band, band_words);
     if (!reason) reason = further(k);
     if (!reason) reason = reason_of_damping(fit.modes[k]);
     // A mode at the border of stability ends a fit as unstable; it is not told from zero damping.
@@ -134,7 +142,8 @@ void set_frequencies_apart(const FittedBvrm& fit, const signals::FrequencyRespon
   for (UndeterminedMode& entry : verdict.undetermined) {
     const ModeEstimate& mode = fit.modes[entry.mode];
     const Estimate& f = mode.frequency_hz;
-    const bool is_narrow = !reason_of_place(mode, verdict.band) && !is_resolved(mode, response);
+    const bool is_narrow =
+        !reason_of_place(mode, verdict.band, band_of_response) && !is_resolved(mode, response);
     if (is_narrow && phase_rises(response, f.value))
       entry.peak_hz = amplitude_peak(response, f.value);
     const bool is_told =
@@ -179,7 +188,7 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
   verdict.band = told_band(identification, fitted);
   const FittedBvrm& fit = identification.fit;
   sort_modes(
-      fit,
+      fit, band_of_record(identification),
       [&](std::size_t k) -> std::optional<std::string> {
         Bvrm alone;
         alone.modes = {fit.model.modes[k]};
@@ -194,7 +203,7 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
                  "score the model"
                : "the variance of data that it has not seen (free simulation)",
            verdict);
-  if (identification.found_delay_s)
+  if (verdict.usable && identification.found_delay_s)
     verdict.sentence = delay_sentence(*identification.found_delay_s, fitted.sampling_rate_hz()) +
                        " " + verdict.sentence;
   return verdict;
@@ -207,7 +216,7 @@ Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResp
   const bool exact = identified.held_out_fit_percent > 100. * (1. - exact_share);
   const FittedBvrm& fit = identified.fit;
   sort_modes(
-      fit,
+      fit, band_of_response,
       [&](std::size_t k) -> std::optional<std::string> {
         if (exact) return std::nullopt;
         return reason_of_lines(fit, k, response);

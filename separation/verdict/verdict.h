@@ -26,9 +26,10 @@ const Estimate& frequency_of(const UndeterminedMode& entry, const FittedBvrm& fi
 /// Whether a result can be believed.
 struct Verdict {
   bool usable = false;
-  std::string sentence;                 // usable or not, for what band, how good on unseen data
-  Band band;                            // where the data tell the model
-  std::vector<std::size_t> determined;  // places in the fit
+  /// Usable or not, for what band, how good on unseen data; the delay of a usable model.
+  std::string sentence;
+  Band band;                                     // where the data tell the model
+  std::vector<std::size_t> determined;           // places in the fit
   std::vector<UndeterminedMode> frequency_only;  // peaks whose damping the lines do not tell
   std::vector<UndeterminedMode> undetermined;
 };

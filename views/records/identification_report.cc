@@ -105,9 +105,10 @@ report::Table ring_down_table(const separation::RingDown& found) {
 }
 
 std::string evidence_text(const separation::ModelEvidence& evidence) {
-  return "poles [rad/s]: " + plane_text(evidence.poles_zeros.poles) +
-         "\nzeros [rad/s]: " + plane_text(evidence.poles_zeros.zeros) +
-         "\nresidual on held-out data: " + evidence.residual.words +
+  const std::string poles = "poles [rad/s]: " + plane_text(evidence.poles_zeros.poles) +
+                            "\nzeros [rad/s]: " + plane_text(evidence.poles_zeros.zeros) + "\n";
+  return (evidence.verdict.usable ? poles : "") +
+         "residual on held-out data: " + evidence.residual.words +
          (evidence.hold.words.empty() ? "" : "\n" + evidence.hold.words) + "\n";
 }
 

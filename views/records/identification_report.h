@@ -21,7 +21,7 @@ report::Table output_only_table(const separation::OutputOnlyIdentification& foun
 /// One row for each point: those of the fitted law, and those that were measured without a law.
 report::Table ring_down_table(const separation::RingDown& found);
 
-/// Poles, zeros and the residual test of the model, as text.
+/// The residual test of the model, as text; of a usable model also poles and zeros.
 std::string evidence_text(const separation::ModelEvidence& evidence);
 
 }  // namespace vibrissa::views

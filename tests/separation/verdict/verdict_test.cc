@@ -101,12 +101,38 @@ TEST(Verdict, SetsPolesApartThatTheDataDoNotTell) {
     return verdict.undetermined.empty() ? std::string() : verdict.undetermined[0].reason;
   };
   EXPECT_EQ(reasons_of(make_modal_term(40., 0.02, 1e-6), 0.01), "");
-  EXPECT_THAT(reasons_of(make_modal_term(150., 0.02, 1e-6), 0.01), HasSubstr("outside the band"));
+  EXPECT_THAT(reasons_of(make_modal_term(150., 0.02, 1e-6), 0.01),
+              HasSubstr("outside the band in which the moment follows the base acceleration, "));
   EXPECT_THAT(reasons_of(make_modal_term(40., 3., 1e-6), 0.01), HasSubstr("two real poles"));
   EXPECT_THAT(reasons_of(make_modal_term(40., 1e-6, 1e-6), 0.01), HasSubstr("does not decay"));
   EXPECT_THAT(reasons_of(make_modal_term(40., 0.02, 1e-6), 0.8), HasSubstr("not told from zero"));
   found.fit.end = FitEnd::step_limit;
   EXPECT_TRUE(judge(found, record).determined.empty());
+}
+
+TEST(Verdict, SaysADelayOfAUsableModelOnly) {
+  const signals::Record record = noisy_record(slow_motion(8000, 7), test::sensor(1), 0.05, 8);
+  Identification found;
+  found.duration_s = record.duration_s();
+  found.found_delay_s = Estimate{-0.02, 1e-4};
+  found.fit = known_fit({make_modal_term(30., 0.02, 1e-6)}, 0.01);
+  ModelEvidence evidence;
+  for (const bool usable : {true, false}) {
+    found.held_out_vaf_percent = usable ? 99. : 30.;
+    evidence.verdict = judge(found, record);
+    EXPECT_THAT(evidence.verdict.sentence, StartsWith(usable ? "The moment leads" : "Not usable"));
+    EXPECT_EQ(identification_report(found, evidence, "").contains("delay_s"), usable);
+  }
+}
+
+TEST(Verdict, TestsTheHoldOfAUsableModelOnly) {
+  const signals::Record record =
+      noisy_record(test::white_noise(4000, 3., 15), test::sensor(1), 0.05, 16);
+  Identification found = identify_record(record);
+  const auto [fit, held_out] = hold_out_last_third(record);
+  EXPECT_FALSE(examine(found, fit, held_out).hold.trials.empty());
+  found.held_out_vaf_percent = 30.;
+  EXPECT_TRUE(examine(found, fit, held_out).hold.trials.empty());
 }
 
 signals::FrequencyResponse at_lines_of_an_analyser(const Bvrm& model) {
@@ -129,6 +155,23 @@ TEST(Verdict, TakesThePeakBetweenTwoLinesForAFrequencyWithoutDamping) {
   EXPECT_TRUE(verdict.undetermined.empty());
   EXPECT_FALSE(verdict.usable);
   EXPECT_THAT(verdict.sentence, StartsWith("Usable for the frequencies"));
+}
+
+TEST(Verdict, NamesTheBandOfAHitAndTheLinesOfAResponse) {
+  const signals::FrequencyResponse response =
+      at_lines_of_an_analyser({.modes = {make_modal_term(212., 0.02, 30.)}});
+  IdentifiedResponse of_lines;
+  of_lines.fit = known_fit({make_modal_term(400., 0.02, 30.)}, 0.01);
+  EXPECT_THAT(judge(of_lines, response).undetermined.at(0).reason,
+              HasSubstr("outside the lines of the response, 100 Hz to "));
+  Signal hit(4096, 0.);
+  for (std::size_t i = 0; i < 50; ++i) hit[85 + i] = std::sin(0.0628 * (0.5 + double(i)));
+  const signals::Record record = noisy_record(hit, test::sensor(1), 0.01, 17);
+  Identification of_hit;
+  of_hit.n_hits = 1;
+  of_hit.fit = known_fit({make_modal_term(200., 0.02, 1e-6)}, 0.01);
+  EXPECT_THAT(judge(of_hit, record).undetermined.at(0).reason,
+              HasSubstr("outside the band that the hit excites, "));
 }
 
 // A machine's tone that is in the moment alone: a ratio of spectra has a peak there, which is no
