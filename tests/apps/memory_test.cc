@@ -44,8 +44,7 @@ TEST(Memory, OfALongRecordIsThreeTimesItsNumbersAtMost) {
   const Folder folder;
   const double at_start = peak_bytes(folder, jittering_csv(folder, "short.csv", 200));
   const double numbers = 1. * n_rows * n_columns * sizeof(double);
-  EXPECT_LT(peak_bytes(folder, jittering_csv(folder, "long.csv", n_rows)) - at_start,
-            3. * numbers);
+  EXPECT_LT(peak_bytes(folder, jittering_csv(folder, "long.csv", n_rows)) - at_start, 3. * numbers);
 }
 
 }  // namespace
