@@ -35,12 +35,6 @@ std::vector<Finding> findings_about_all(const signals::Dataset& dataset) {
   return out;
 }
 
-/// "commas, ..." of "bench/a.csv: read as: commas, ...".
-std::string words_of(const std::string& reading) {
-  const std::string before = ": read as: ";
-  return reading.substr(reading.find(before) + before.size());
-}
-
 void settle(CheckResult& result, const signals::Dataset& dataset) {
   bool has_moment = true;
   for (const signals::DatasetRecord& entry : dataset.records)
@@ -70,7 +64,7 @@ CheckResult check_dataset(const std::string& source, const signals::Dataset& dat
   for (std::size_t i = 0; i < dataset.records.size(); ++i) {
     result.records.push_back(check_record(dataset.records[i]));
     if (dataset.readings.size() == dataset.records.size())
-      result.records.back().reading = words_of(dataset.readings[i]);
+      result.records.back().reading = dataset.readings[i].words;
     result.samples.push_back(dataset.records[i].record);
   }
   settle(result, dataset);

@@ -325,7 +325,7 @@ void ResponseCheck::report_delay(const separation::Estimate& delay_s) {
 void ResponseCheck::check_model() {
   try {
     const auto& [found, verdict, duration_s] = model_of_part(record_);
-    if (found.found_delay_s) report_delay(*found.found_delay_s);
+    if (verdict.usable && found.found_delay_s) report_delay(*found.found_delay_s);
     if (!verdict.usable)
       add(FindingKind::no_usable_model, channel::base_moment, found.held_out_vaf_percent, "%",
           "a model of up to three modes of " + three_digits(duration_s) + " s is not usable: " +

@@ -98,7 +98,7 @@ signals::formats::TextOptions text_options(const RecordOptions& options) {
 }  // namespace
 
 void say_how_read(const std::string& file, const std::string& words) {
-  std::cerr << file << ": read as: " << words << std::endl;
+  std::cerr << to_string(signals::FileReading{file, words}) << std::endl;
 }
 
 signals::formats::FileResponse read_said_response(const std::string& file, const std::string& as,

@@ -101,14 +101,16 @@ void identify_from_response(const IdentifyCommandOptions& options) {
   if (!is_moment)
     std::cerr << "warning: no model is written: its gains would be in " << response.unit << "\n";
   const separation::Verdict verdict = separation::judge(found, response);
+  const std::string gain_unit = is_moment ? separation::moment_gain_unit : response.unit;
   if (options.common.json) {
-    print_json(separation::identified_response_json(found, verdict));
+    print_json(separation::identified_response_json(found, verdict, gain_unit));
     return;
   }
-  std::cout << views::verdict_text(found.fit, verdict) << "direct term "
-            << found.fit.direct_term_kg_m.value << " kg m; order " << found.order << ", "
-            << response.value.size() << " lines from " << response.frequency_hz.front() << " to "
-            << response.frequency_hz.back() << " Hz, " << separation::to_string(found.fit.end)
+  std::cout << views::verdict_text(found.fit, verdict, gain_unit) << "direct term "
+            << found.fit.direct_term_kg_m.value << " " << gain_unit << "; order " << found.order
+            << ", " << response.value.size() << " lines from " << response.frequency_hz.front()
+            << " to " << response.frequency_hz.back() << " Hz, "
+            << separation::to_string(found.fit.end)
             << "\nfit of every third line by a model of the others: " << found.held_out_fit_percent
             << " %\n"
             << (found.order_words.empty() ? "" : "order: " + found.order_words + "\n");

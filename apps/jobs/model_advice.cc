@@ -4,24 +4,21 @@
 #include <cmath>
 #include <limits>
 
-#include "report/figures/table.h"
 #include "separation/identification/identify.h"
 #include "separation/model/simulation.h"
 #include "signals/base/error.h"
+#include "signals/base/significant_digits.h"
 
 namespace vibrissa::apps {
 namespace {
 
 namespace channel = signals::channel;
+using signals::rounded;
 
 double rms(std::span<const double> x) {
   double sum = 0.;
   for (const double value : x) sum += value * value;
   return std::sqrt(sum / static_cast<double>(x.size()));
-}
-
-std::string rounded(double value) {
-  return report::Cell(value).rounded(3);
 }
 
 }  // namespace
@@ -70,8 +67,8 @@ std::string advice_words(const ModelAdvice& advice,
     const double ms = 1e3 * advice.delay_s->value;
     words =
         std::string("the moment ") + (ms < 0. ? "leads" : "lags behind") +
-        " the base acceleration by " + rounded(std::abs(ms)) + " ms (" +
-        rounded(std::abs(ms) * 1e-3 * sampling_rate_hz) + " samples)" +
+        " the base acceleration by " + rounded(std::abs(ms), 3) + " ms (" +
+        rounded(std::abs(ms) * 1e-3 * sampling_rate_hz, 3) + " samples)" +
         (ms < 0. ? ": two clocks; the acceleration was moved by it for the adaptive filters" : "");
   }
   const views::SeparatedSignal* best = nullptr;
@@ -90,12 +87,12 @@ std::string advice_words(const ModelAdvice& advice,
   const bool calm = advice.left_rms_n_m < calm_share * advice.moment_rms_n_m;
   if (!best || !calm || !(advice.left_rms_n_m < clearly * least)) return words;
   return words + (words.empty() ? "" : "; ") + "without wind from " +
-         rounded(static_cast<double>(advice.first) / sampling_rate_hz) + " to " +
-         rounded(static_cast<double>(advice.end) / sampling_rate_hz) + " s, " + best->name +
-         " leaves " + rounded(100. * least / advice.moment_rms_n_m) +
+         rounded(static_cast<double>(advice.first) / sampling_rate_hz, 4) + " to " +
+         rounded(static_cast<double>(advice.end) / sampling_rate_hz, 4) + " s, " + best->name +
+         " leaves " + rounded(100. * least / advice.moment_rms_n_m, 3) +
          " % of the moment; a model of the earlier part ('vibrissa identify', then --model) "
          "leaves " +
-         rounded(100. * advice.left_rms_n_m / advice.moment_rms_n_m) + " %";
+         rounded(100. * advice.left_rms_n_m / advice.moment_rms_n_m, 3) + " %";
 }
 
 }  // namespace vibrissa::apps

@@ -28,19 +28,21 @@ nlohmann::json plane_json(const std::vector<PlaneEstimate>& points) {
 
 }  // namespace
 
-nlohmann::json fitted_json(const FittedBvrm& fit) {
+nlohmann::json fitted_json(const FittedBvrm& fit, const std::string& gain_unit) {
+  const std::string of_unit = gain_unit == moment_gain_unit ? "_kg_m" : "";
   nlohmann::json modes = nlohmann::json::array();
   for (const auto& mode : fit.modes) {
     modes.push_back({{"frequency_hz", mode.frequency_hz.value},
                      {"frequency_sd_hz", mode.frequency_hz.standard_deviation},
                      {"damping_ratio", mode.damping_ratio.value},
                      {"damping_sd", mode.damping_ratio.standard_deviation},
-                     {"static_gain_kg_m", mode.static_gain_kg_m.value},
-                     {"static_gain_sd_kg_m", mode.static_gain_kg_m.standard_deviation}});
+                     {"static_gain" + of_unit, mode.static_gain_kg_m.value},
+                     {"static_gain_sd" + of_unit, mode.static_gain_kg_m.standard_deviation}});
   }
   return {{"modes", modes},
           {"direct_term", fit.direct_term_kg_m.value},
           {"direct_term_sd", fit.direct_term_kg_m.standard_deviation},
+          {"gain_unit", gain_unit},
           {"order", fit.model.order()},
           {"end", to_string(fit.end)}};
 }
@@ -65,6 +67,9 @@ void add_verdict(const Verdict& verdict, nlohmann::json& document) {
     for (const UndeterminedMode& entry : entries) {
       list.push_back(all[entry.mode]);
       list.back()["reason"] = entry.reason;
+      if (!entry.peak_hz) continue;
+      list.back()["frequency_hz"] = entry.peak_hz->value;
+      list.back()["frequency_sd_hz"] = entry.peak_hz->standard_deviation;
     }
     return list;
   };
@@ -74,8 +79,8 @@ void add_verdict(const Verdict& verdict, nlohmann::json& document) {
 }
 
 nlohmann::json identified_response_json(const IdentifiedResponse& identified,
-                                        const Verdict& verdict) {
-  nlohmann::json document = fitted_json(identified.fit);
+                                        const Verdict& verdict, const std::string& gain_unit) {
+  nlohmann::json document = fitted_json(identified.fit, gain_unit);
   add_verdict(verdict, document);
   document["fit_percent"] = identified.held_out_fit_percent;
   document["conjugated"] = identified.conjugated;
@@ -120,7 +125,7 @@ ModelEvidence examine(const Identification& identification, const signals::Recor
     return evidence;
   }
   // Between two hits that were glued the record is no answer to its input.
-  if (identification.n_hits > 1) return evidence;
+  if (identification.n_hits > 1 || !evidence.verdict.usable) return evidence;
   const std::array<Segment, 1> segments = {
       {{fitted.channel(base_acceleration), fitted.channel(base_moment)}}};
   SrivcOptions told;
@@ -145,7 +150,7 @@ nlohmann::json identification_report(const Identification& identification,
   document.update(evidence_json(evidence));
   add_verdict(evidence.verdict, document);
   document["order_words"] = identification.order_words;
-  if (identification.found_delay_s) {
+  if (evidence.verdict.usable && identification.found_delay_s) {
     document["delay_s"] = identification.found_delay_s->value;
     document["delay_sd_s"] = identification.found_delay_s->standard_deviation;
   }

@@ -13,13 +13,18 @@
 
 namespace vibrissa::separation {
 
+/// Unit of the gains of a moment per acceleration.
+inline const std::string moment_gain_unit = "kg m";
+
 /// {"modes": [{"frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd",
-/// "static_gain_kg_m", "static_gain_sd_kg_m"}], "direct_term", "direct_term_sd", "order", "end"}.
-nlohmann::json fitted_json(const FittedBvrm& fit);
+/// "static_gain_kg_m", "static_gain_sd_kg_m"}], "direct_term", "direct_term_sd", "gain_unit",
+/// "order", "end"}; in another unit than kg m the gains are "static_gain" and "static_gain_sd".
+nlohmann::json fitted_json(const FittedBvrm& fit, const std::string& gain_unit = moment_gain_unit);
 /// The document of `vibrissa identify --frequency-response --json`: the same and that of
 /// add_verdict(), with "fit_percent" of the held-out lines and "conjugated".
 nlohmann::json identified_response_json(const IdentifiedResponse& identified,
-                                        const Verdict& verdict);
+                                        const Verdict& verdict,
+                                        const std::string& gain_unit = moment_gain_unit);
 /// The same with "fit_percent" and "vaf_percent" of the held-out record, and "hold".
 nlohmann::json identification_json(const Identification& identification);
 
@@ -40,8 +45,9 @@ struct ModelEvidence {
   Verdict verdict;
 };
 
-/// Tests the residual of the scored model on the held-out record, and the hold on the fitted
-/// record. An error below exact_share of the moment accuses neither delay nor order nor hold.
+/// Tests the residual of the scored model on the held-out record, and the hold of a usable model on
+/// the fitted record. An error below exact_share of the moment accuses neither delay nor order nor
+/// hold.
 ModelEvidence examine(const Identification& identification, const signals::Record& fitted,
                       const signals::Record& held_out);
 
@@ -51,7 +57,7 @@ nlohmann::json evidence_json(const ModelEvidence& evidence);
 
 /// The document of `vibrissa identify --json`: identification_json(), evidence_json(),
 /// add_verdict(), and "order_words", "scatter_words", "method"; with "delay_s" and
-/// "delay_sd_s" when a delay between the channels was found.
+/// "delay_sd_s" when a usable model has a delay between the channels.
 nlohmann::json identification_report(const Identification& identification,
                                      const ModelEvidence& evidence, const std::string& method);
 

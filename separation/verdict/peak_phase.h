@@ -11,4 +11,9 @@ namespace vibrissa::separation {
 /// that are narrower than the lines. Proven by tests/separation/verdict/verdict_test.cc.
 bool phase_rises(const signals::FrequencyResponse& response, double at_hz);
 
+/// The frequency [Hz] of a peak from its amplitude alone: least squares of the amplitude of an
+/// oscillator, for a peak whose phase tells nothing. The same where the lines about it are fewer
+/// than half of those that are used, or not finite.
+double amplitude_peak_hz(const signals::FrequencyResponse& response, double at_hz);
+
 }  // namespace vibrissa::separation

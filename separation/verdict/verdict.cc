@@ -23,13 +23,20 @@ std::string hertz(double value) {
   return rounded(value, 4) + " Hz";
 }
 
+/// What the band of a verdict is, in words.
+std::string band_of_record(const Identification& identification) {
+  return identification.n_hits > 0 ? "the band that the hit excites"
+                                   : "the band in which the moment follows the base acceleration";
+}
+const std::string band_of_response = "the lines of the response";
+
 /// Why this pair of poles cannot be a mode of the band; nothing when it can.
-std::optional<std::string> reason_of_place(const ModeEstimate& mode, const Band& band) {
+std::optional<std::string> reason_of_place(const ModeEstimate& mode, const Band& band,
+                                           const std::string& band_words) {
   const double f = mode.frequency_hz.value, zeta = mode.damping_ratio.value;
   if (zeta >= 1.) return "two real poles, no oscillation";
   if (f * (1. + zeta) < band.low_hz || f * (1. - zeta) > band.high_hz)
-    return "outside the band that was excited, " + hertz(band.low_hz) + " to " +
-           hertz(band.high_hz);
+    return "outside " + band_words + ", " + hertz(band.low_hz) + " to " + hertz(band.high_hz);
   return std::nullopt;
 }
 
@@ -44,9 +51,10 @@ std::optional<std::string> reason_of_damping(const ModeEstimate& mode) {
 }
 
 template <typename FurtherReason>
-void sort_modes(const FittedBvrm& fit, const FurtherReason& further, Verdict& verdict) {
+void sort_modes(const FittedBvrm& fit, const std::string& band_words, const FurtherReason& further,
+                Verdict& verdict) {
   for (std::size_t k = 0; k < fit.modes.size(); ++k) {
-    std::optional<std::string> reason = reason_of_place(fit.modes[k], verdict.band);
+    std::optional<std::string> reason = reason_of_place(fit.modes[k], verdict.band, band_words);
     if (!reason) reason = further(k);
     if (!reason) reason = reason_of_damping(fit.modes[k]);
     // A mode at the border of stability ends a fit as unstable; it is not told from zero damping.
@@ -72,7 +80,7 @@ void conclude(const FittedBvrm& fit, double explained_percent, const std::string
   }
   if (verdict.determined.empty() && !verdict.frequency_only.empty()) {
     verdict.sentence =
-        "Usable for the frequencies of resonances, not as a model: no damping is resolved.";
+        "Usable for the frequencies of peaks, not as a model: no damping is resolved.";
     return;
   }
   verdict.sentence = "Not usable: ";
@@ -107,9 +115,10 @@ std::optional<std::string> reason_of_lines(const FittedBvrm& fit, const std::siz
   const double half_width = mode.damping_ratio.value * f, step = line_spacing_hz(response, f);
   if (!is_resolved(mode, response)) {
     if (phase_rises(response, f))
-      return "the phase rises through this peak, and falls through a resonance of a sensor: the "
-             "moment vibrates there by itself or by another source; where the moment was recorded "
-             "in time, --output-only gives its frequency";
+      return "the frequency is that of the amplitude: the phase rises through this peak, and falls "
+             "through a resonance that answers its base, so the moment vibrates there by itself or "
+             "by another source; where the moment was recorded in time, --output-only may tell its "
+             "damping";
     return "the damping is not resolved: the peak is " + rounded(2. * half_width, 2) +
            " Hz wide at half power, the lines are " + rounded(step, 3) + " Hz apart";
   }
@@ -121,16 +130,24 @@ std::optional<std::string> reason_of_lines(const FittedBvrm& fit, const std::siz
   return std::nullopt;
 }
 
-/// Takes the resonances whose frequency is told from those that are not determined.
+/// Its deviation is that of an equal distribution over one line.
+Estimate amplitude_peak(const signals::FrequencyResponse& response, const double at_hz) {
+  return {amplitude_peak_hz(response, at_hz), line_spacing_hz(response, at_hz) / std::sqrt(12.)};
+}
+
+/// Takes the peaks whose frequency is told from those that are not determined.
 void set_frequencies_apart(const FittedBvrm& fit, const signals::FrequencyResponse& response,
                            Verdict& verdict) {
   std::vector<UndeterminedMode> others;
   for (UndeterminedMode& entry : verdict.undetermined) {
     const ModeEstimate& mode = fit.modes[entry.mode];
     const Estimate& f = mode.frequency_hz;
-    const bool is_told = !reason_of_place(mode, verdict.band) && !is_resolved(mode, response) &&
-                         f.standard_deviation < line_spacing_hz(response, f.value) &&
-                         !phase_rises(response, f.value);
+    const bool is_narrow =
+        !reason_of_place(mode, verdict.band, band_of_response) && !is_resolved(mode, response);
+    if (is_narrow && phase_rises(response, f.value))
+      entry.peak_hz = amplitude_peak(response, f.value);
+    const bool is_told =
+        is_narrow && (entry.peak_hz || f.standard_deviation < line_spacing_hz(response, f.value));
     (is_told ? verdict.frequency_only : others).push_back(std::move(entry));
   }
   verdict.undetermined = std::move(others);
@@ -162,12 +179,16 @@ Band told_band(const Identification& identification, const signals::Record& fitt
 
 }  // namespace
 
+const Estimate& frequency_of(const UndeterminedMode& entry, const FittedBvrm& fit) {
+  return entry.peak_hz ? *entry.peak_hz : fit.modes[entry.mode].frequency_hz;
+}
+
 Verdict judge(const Identification& identification, const signals::Record& fitted) {
   Verdict verdict;
   verdict.band = told_band(identification, fitted);
   const FittedBvrm& fit = identification.fit;
   sort_modes(
-      fit,
+      fit, band_of_record(identification),
       [&](std::size_t k) -> std::optional<std::string> {
         Bvrm alone;
         alone.modes = {fit.model.modes[k]};
@@ -182,7 +203,7 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
                  "score the model"
                : "the variance of data that it has not seen (free simulation)",
            verdict);
-  if (identification.found_delay_s)
+  if (verdict.usable && identification.found_delay_s)
     verdict.sentence = delay_sentence(*identification.found_delay_s, fitted.sampling_rate_hz()) +
                        " " + verdict.sentence;
   return verdict;
@@ -195,7 +216,7 @@ Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResp
   const bool exact = identified.held_out_fit_percent > 100. * (1. - exact_share);
   const FittedBvrm& fit = identified.fit;
   sort_modes(
-      fit,
+      fit, band_of_response,
       [&](std::size_t k) -> std::optional<std::string> {
         if (exact) return std::nullopt;
         return reason_of_lines(fit, k, response);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,15 +15,22 @@ namespace vibrissa::separation {
 struct UndeterminedMode {
   std::size_t mode = 0;  // place in the fit
   std::string reason;
+  /// Of the peak, where the phase of the response contradicts the mode and the amplitude alone
+  /// tells its frequency.
+  std::optional<Estimate> peak_hz = std::nullopt;
 };
+
+/// The frequency [Hz] of such a pair of poles.
+const Estimate& frequency_of(const UndeterminedMode& entry, const FittedBvrm& fit);
 
 /// Whether a result can be believed.
 struct Verdict {
   bool usable = false;
-  std::string sentence;                 // usable or not, for what band, how good on unseen data
-  Band band;                            // where the data tell the model
-  std::vector<std::size_t> determined;  // places in the fit
-  std::vector<UndeterminedMode> frequency_only;  // resonances whose damping the lines do not tell
+  /// Usable or not, for what band, how good on unseen data; the delay of a usable model.
+  std::string sentence;
+  Band band;                                     // where the data tell the model
+  std::vector<std::size_t> determined;           // places in the fit
+  std::vector<UndeterminedMode> frequency_only;  // peaks whose damping the lines do not tell
   std::vector<UndeterminedMode> undetermined;
 };
 
@@ -34,8 +42,9 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
 
 /// The same for a frequency response, whose band is that of its lines. A resonance with less than
 /// two lines within its half-power width 2 zeta f has no damping that the lines tell, unless the
-/// model is exact; its frequency is told where the noise moves it by less than the lines are apart,
-/// and where its phase falls (phase_rises()).
+/// model is exact; its frequency is told where the noise moves it by less than the lines are apart.
+/// A peak whose phase rises (phase_rises()) is no answer to the base; it has the frequency of its
+/// amplitude.
 Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& measured);
 
 }  // namespace vibrissa::separation

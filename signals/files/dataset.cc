@@ -162,7 +162,7 @@ void read_entry(const fs::path& folder, const json& document, const json& entry,
   refuse_unknown_entries(entry, record_keys, where);
   const std::string file = file_of(entry, where);
   Recording recording = read_recording(folder / file, options_of(document, entry, where, given));
-  dataset.readings.push_back((folder / file).string() + ": read as: " + recording.words);
+  dataset.readings.push_back({(folder / file).string(), recording.words});
   const bool is_one = recording.pieces.size() == 1;
   const double start_s = recording.pieces.front().time_s(0);
   const std::size_t longest = recording.pieces[recording.longest()].n_samples();
@@ -300,7 +300,7 @@ Dataset guess(const std::vector<fs::path>& files, const ReadOptions& options) {
   Dataset dataset;
   for (const fs::path& file : files) {
     const Recording recording = read_recording(file, options);
-    dataset.readings.push_back(file.string() + ": read as: " + recording.words);
+    dataset.readings.push_back({file.string(), recording.words});
     const bool is_one = recording.pieces.size() == 1;
     const double start_s = recording.pieces.front().time_s(0);
     for (std::size_t i = 0; i < recording.pieces.size(); ++i) {
@@ -327,22 +327,24 @@ std::string to_string(const Excitation& excitation) {
   return excitation.wind ? "wind" : "none";
 }
 
-std::vector<std::string> short_readings(const std::vector<std::string>& readings) {
-  const std::string read_as = ": read as: ";
+std::vector<std::string> short_readings(const std::vector<FileReading>& readings) {
   // Without the part "4096 samples, 8.192 s".
-  const auto layout_of = [&](const std::string& reading) {
-    std::string words = reading.substr(std::min(reading.size(), reading.find(read_as)));
+  const auto layout_of = [](const FileReading& reading) {
+    const std::string& words = reading.words;
     const std::size_t at = words.find(" samples, ");
     if (at == std::string::npos) return words;
     const std::size_t begin = words.rfind("; ", at), end = words.find("; ", at);
     return words.substr(0, begin) + (end == std::string::npos ? "" : words.substr(end));
   };
-  if (readings.size() < 2) return readings;
-  const std::string layout = layout_of(readings.front());
-  for (const std::string& reading : readings)
-    if (layout_of(reading) != layout) return readings;
-  const std::string first = readings.front().substr(0, readings.front().find(read_as));
-  return {std::to_string(readings.size()) + " files (" + first + ", ...)" + layout.substr(1)};
+  const auto is_alike = [&](const FileReading& reading) {
+    return layout_of(reading) == layout_of(readings.front());
+  };
+  std::vector<std::string> lines;
+  if (readings.size() > 1 && std::ranges::all_of(readings, is_alike))
+    return {std::to_string(readings.size()) + " files (" + readings.front().file +
+            ", ...) read as: " + layout_of(readings.front())};
+  for (const FileReading& reading : readings) lines.push_back(to_string(reading));
+  return lines;
 }
 
 Dataset read_dataset(const fs::path& source, const ReadOptions& options) {

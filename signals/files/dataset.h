@@ -45,18 +45,17 @@ struct Dataset {
   std::vector<DatasetResponse> responses{};
   /// Assumptions about what the folder does not state; empty when it states everything.
   std::vector<std::string> guesses{};
-  /// How each file was read: "bench.csv: read as: ..."
-  std::vector<std::string> readings = {};
+  std::vector<FileReading> readings = {};  // of each file
 };
 
 /// What excited the sensor, as far as the channels tell: base or wind whose channel varies, where a
 /// white acceleration below 0.1 m/s2 rms is noise. Proven by tests/signals/files/dataset_test.cc.
 Excitation guessed_excitation(const Record& record);
 
-/// The readings of a dataset, in one line where all files were read alike but for their lengths:
-/// "8 files (bench/a.csv, ...) read as: commas, ...". Proven by
+/// The readings of a dataset as text, in one line where all files were read alike but for their
+/// lengths: "8 files (bench/a.csv, ...) read as: commas, ...". Proven by
 /// tests/signals/files/dataset_test.cc.
-std::vector<std::string> short_readings(const std::vector<std::string>& readings);
+std::vector<std::string> short_readings(const std::vector<FileReading>& readings);
 
 /// Reads FOLDER/dataset.json ("vibrissa-dataset-1") and its records. Without dataset.json it reads
 /// every record file of the folder, or the one given file; the excitation is guessed from the

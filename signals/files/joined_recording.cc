@@ -120,7 +120,7 @@ ClockedSignal longest_of(const Recording& recording, const std::string& channel)
   return {piece.channel(channel), piece.sampling_rate_hz(), piece.time_s(0)};
 }
 
-std::string rounded(const double value, const double deviation) {
+std::string with_deviation(const double value, const double deviation) {
   // Two digits of the deviation.
   const int digits =
       deviation > 0. ? std::clamp(1 - int(std::floor(std::log10(deviation))), 0, 9) : 9;
@@ -174,9 +174,10 @@ ClockRelation clocks_of(const Recording& one, const std::string& channel_of_one,
 
 std::string clock_words(const ClockRelation& clocks) {
   const double ppm = 1e6 * clocks.drift;
-  return "time 0 of the second file is at " + rounded(clocks.offset_s, clocks.offset_deviation_s) +
+  return "time 0 of the second file is at " +
+         with_deviation(clocks.offset_s, clocks.offset_deviation_s) +
          " s of the first, and its clock runs " +
-         rounded(std::abs(ppm), 1e6 * clocks.drift_deviation) + " ppm " +
+         with_deviation(std::abs(ppm), 1e6 * clocks.drift_deviation) + " ppm " +
          (ppm > 0. ? "slow" : "fast") +
          (clocks.is_opposite ? "; the channel in both has opposite signs" : "");
 }

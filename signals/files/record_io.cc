@@ -61,13 +61,18 @@ std::optional<Clock> clock_beside_rate(const RecordTable& table, const std::stri
     clock.reset();
     sources.time.reset();
   }
-  if (!clock || options.gaps == Gaps::refuse)
-    clock = read_clock(table, name, sources, options, n_rows);
+  // Names the first loss.
+  const bool refuses = clock && options.gaps == Gaps::refuse && clock->pieces.size() > 1;
+  if (!clock || refuses) clock = read_clock(table, name, sources, options, n_rows);
   clock->words += reason;
   return clock;
 }
 
 }  // namespace
+
+std::string to_string(const FileReading& reading) {
+  return reading.file + ": read as: " + reading.words;
+}
 
 std::size_t Recording::longest() const {
   const auto shorter = [](const Record& a, const Record& b) {

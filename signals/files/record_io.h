@@ -33,6 +33,13 @@ struct ReadOptions {
   bool takes_responses = false;
 };
 
+/// How a file was read, in the words of Recording.
+struct FileReading {
+  std::string file, words;
+};
+/// "bench.csv: read as: commas, ..."
+std::string to_string(const FileReading& reading);
+
 /// The records of a file and how it was read.
 struct Recording {
   std::vector<Record> pieces;  // in the order of the file; one where nothing is lost

@@ -17,8 +17,9 @@
 namespace vibrissa::signals {
 namespace {
 
-double usual_step_of(const std::vector<double>& times) {
+double usual_step_of(const std::span<const double> times) {
   std::vector<double> steps;
+  steps.reserve(times.size());
   for (std::size_t i = 1; i < times.size(); ++i)
     if (times[i] > times[i - 1]) steps.push_back(times[i] - times[i - 1]);
   return steps.empty() ? 0. : median(std::move(steps));
@@ -81,28 +82,30 @@ std::string lost_words(const Clock& clock) {
 }
 
 // Before a further recording in the file time starts anew.
-bool starts_anew(const std::vector<double>& times, const std::size_t i, const double step) {
+bool starts_anew(const std::span<const double> times, const std::size_t i, const double step) {
   return times[i] < times[i - 1] - 10. * step && std::abs(times[i] - times[0]) < 2. * step;
 }
 
-std::vector<double> distinct_times(const PrintedTimes& times) {
-  std::vector<double> distinct(times.times_s.begin(), times.times_s.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  return distinct;
+std::size_t n_twice(const std::span<const double> times_s) {
+  std::size_t n = 0;
+  for (std::size_t i = 1; i < times_s.size(); ++i)
+    if (times_s[i] == times_s[i - 1]) ++n;
+  return n;
 }
 
 // Stamps that stand twice although samples are further apart than what their digits tell.
 std::string twice_words(const PrintedTimes& times, const Clock& clock, const double rounding_s) {
-  const std::size_t n = times.times_s.size() - distinct_times(times).size();
+  const std::size_t n = n_twice(times.times_s);
   if (n == 0 || clock.packet > 1 || 2. * rounding_s * clock.sampling_rate_hz >= 1.) return {};
   return "; " + std::to_string(n) + (n == 1 ? " stamp stands" : " stamps stand") + " twice";
 }
 
 // Whether single stamps of an even grid stand twice: rows that were stored twice.
 bool holds_rows_twice(const PrintedTimes& times) {
-  const std::vector<double> distinct = distinct_times(times);
-  const std::size_t n_twice = times.times_s.size() - distinct.size();
-  if (n_twice == 0 || 2 * n_twice > distinct.size()) return false;
+  const std::size_t n = n_twice(times.times_s);
+  if (n == 0 || 3 * n > times.times_s.size()) return false;
+  std::vector<double> distinct(times.times_s.begin(), times.times_s.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   PrintedTimes single = times;
   single.times_s = distinct;
   return uniform_axis(single).has_value();
@@ -154,29 +157,41 @@ PrintedTimes part_of(const PrintedTimes& times, const std::size_t first, const s
   return part;
 }
 
+/// Makes times of intervals, or of a counter that wraps around; what was done, in words.
+std::string undo_intervals_and_wraps(const PrintedTimes& printed, std::vector<double>& times_s,
+                                     PrintedTimes& times) {
+  if (are_intervals(times_s)) {
+    for (std::size_t i = 1; i < times_s.size(); ++i) times_s[i] += times_s[i - 1];
+    return "'" + times.column + "' holds intervals: ";
+  }
+  const std::size_t n = unwrap(times.unit_s, times_s);
+  if (n == 0) return {};
+  times.fixed_rounding_s = rounding_of(printed, printed.times_s.size() - 1);
+  return "the counter '" + times.column + "' wraps around " + std::to_string(n) +
+         (n == 1 ? " time: " : " times: ");
+}
+
 }  // namespace
 
 Clock find_clock(const PrintedTimes& printed, const std::vector<std::size_t>& block_starts) {
-  std::vector<double> times_s(printed.times_s.begin(), printed.times_s.end());
   PrintedTimes times = printed;
-  times.times_s = times_s;
+  std::vector<double> summed;
   std::string before;
-  if (are_intervals(times_s)) {
-    for (std::size_t i = 1; i < times_s.size(); ++i) times_s[i] += times_s[i - 1];
-    before = "'" + times.column + "' holds intervals: ";
-  } else if (const std::size_t n = unwrap(times.unit_s, times_s); n > 0) {
-    times.fixed_rounding_s = rounding_of(printed, printed.times_s.size() - 1);
-    before = "the counter '" + times.column + "' wraps around " + std::to_string(n) +
-             (n == 1 ? " time: " : " times: ");
+  std::vector<std::size_t> starts = block_starts;
+  // Most times only rise, and a long record needs no copy of them.
+  if (!std::ranges::is_sorted(printed.times_s)) {
+    summed.assign(printed.times_s.begin(), printed.times_s.end());
+    before = undo_intervals_and_wraps(printed, summed, times);
+    times.times_s = summed;
+    const double step = usual_step_of(summed);
+    for (std::size_t i = 1; i < summed.size(); ++i)
+      if (starts_anew(summed, i, step)) starts.push_back(i);
   }
-  std::vector<std::size_t> starts{0};
-  const double step = usual_step_of(times_s);
-  for (std::size_t i = 1; i < times_s.size(); ++i)
-    if (starts_anew(times_s, i, step) ||
-        std::binary_search(block_starts.begin(), block_starts.end(), i))
-      starts.push_back(i);
+  starts.push_back(0);
+  starts.push_back(times.times_s.size());
+  std::ranges::sort(starts);
+  starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
   std::vector<Clock> clocks;
-  starts.push_back(times_s.size());
   for (std::size_t b = 0; b + 1 < starts.size(); ++b) {
     const PrintedTimes part = part_of(times, starts[b], starts[b + 1]);
     auto clock = clock_of_one(part);

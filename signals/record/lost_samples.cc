@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <map>
 
 namespace vibrissa::signals {
 namespace {
@@ -58,6 +58,34 @@ struct Candidate {
   Decision decision;
 };
 
+/// The decisions of all paths at all stamps. A record has millions, so each takes two bytes; the
+/// few long losses stand beside them.
+class Decisions {
+ public:
+  explicit Decisions(const std::size_t n_stamps) : all_(n_stamps * n_paths) {}
+
+  void set(const std::size_t stamp, const std::size_t path, const Decision& decision) {
+    const std::size_t i = stamp * n_paths + path;
+    all_[i] = {.lost = static_cast<std::uint16_t>(std::min(decision.lost, is_long) & is_long),
+               .parent = static_cast<std::uint16_t>(decision.parent & 7)};
+    if (decision.lost >= is_long) long_losses_[i] = decision.lost;
+  }
+  Decision at(const std::size_t stamp, const std::size_t path) const {
+    const std::size_t i = stamp * n_paths + path;
+    const Short& found = all_[i];
+    return {found.lost == is_long ? long_losses_.at(i) : found.lost,
+            static_cast<std::uint8_t>(found.parent)};
+  }
+
+ private:
+  static constexpr std::uint32_t is_long = (1 << 13) - 1;
+  struct Short {
+    std::uint16_t lost : 13, parent : 3;
+  };
+  std::vector<Short> all_;
+  std::map<std::size_t, std::uint32_t> long_losses_;
+};
+
 // Of the paths with the same number of losses the best one; of these the best few.
 void keep_best(std::vector<Candidate>& candidates) {
   std::sort(candidates.begin(), candidates.end(),
@@ -75,10 +103,10 @@ void keep_best(std::vector<Candidate>& candidates) {
 
 }  // namespace
 
-std::vector<std::size_t> lost_before_each(const JitteringStamps& stamps) {
+std::vector<std::uint32_t> lost_before_each(const JitteringStamps& stamps) {
   const std::size_t n = stamps.times_s.size();
   std::vector<Path> paths{{0., stamps.times_s[0], stamps.period_s, 0.}};
-  std::vector<Decision> decisions(n * n_paths);
+  Decisions decisions(n);
   std::vector<Candidate> candidates;
   for (std::size_t i = 1; i < n; ++i) {
     candidates.clear();
@@ -90,13 +118,13 @@ std::vector<std::size_t> lost_before_each(const JitteringStamps& stamps) {
     paths.clear();
     for (std::size_t p = 0; p < candidates.size(); ++p) {
       paths.push_back(candidates[p].path);
-      decisions[i * n_paths + p] = candidates[p].decision;
+      decisions.set(i, p, candidates[p].decision);
     }
   }
-  std::vector<std::size_t> lost(n);
+  std::vector<std::uint32_t> lost(n);
   std::size_t path = 0;
   for (std::size_t i = n; i-- > 1;) {
-    const Decision& decision = decisions[i * n_paths + path];
+    const Decision decision = decisions.at(i, path);
     lost[i] = decision.lost;
     path = decision.parent;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,6 @@ struct JitteringStamps {
 /// Viterbi search over the number of losses with a tracker for each path, Raheli, Polydoros and
 /// Tzou, IEEE Transactions on Communications 43, 1995). A single late stamp is no loss. Proven by
 /// tests/signals/record/clock_test.cc.
-std::vector<std::size_t> lost_before_each(const JitteringStamps& stamps);
+std::vector<std::uint32_t> lost_before_each(const JitteringStamps& stamps);
 
 }  // namespace vibrissa::signals

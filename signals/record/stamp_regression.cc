@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <numeric>
 #include <vector>
@@ -18,21 +19,23 @@ constexpr double most_lost = 0.05;
 // Samples with one stamp are one event, at the mean of their numbers.
 struct Events {
   std::vector<double> times_s, samples;
-  std::vector<std::size_t> first;  // first row of each event
-  std::size_t packet = 1;          // number of samples of most events
+  std::vector<std::uint32_t> first;  // first row of each event
+  std::size_t packet = 1;            // number of samples of most events
 };
 
 Events events_of(const std::span<const double> times_s) {
   Events events;
-  std::vector<std::size_t> sizes;
+  std::vector<std::uint32_t> sizes;
+  for (auto* values : {&events.times_s, &events.samples}) values->reserve(times_s.size());
+  for (auto* values : {&events.first, &sizes}) values->reserve(times_s.size());
   for (std::size_t i = 0, next; i < times_s.size(); i = next) {
     for (next = i + 1; next < times_s.size() && times_s[next] == times_s[i];) ++next;
     events.times_s.push_back(times_s[i]);
     events.samples.push_back(0.5 * static_cast<double>(i + next - 1));
-    events.first.push_back(i);
-    sizes.push_back(next - i);
+    events.first.push_back(static_cast<std::uint32_t>(i));
+    sizes.push_back(static_cast<std::uint32_t>(next - i));
   }
-  std::vector<std::size_t> sorted = sizes;
+  std::vector<std::uint32_t> sorted = sizes;
   std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
                    sorted.end());
   const std::size_t usual = sorted[sorted.size() / 2];
@@ -48,6 +51,7 @@ double first_period(const Events& events) {
   const std::size_t n = events.times_s.size();
   const std::size_t lag = std::clamp<std::size_t>(n / 8, 2, 24);
   std::vector<double> slopes;
+  slopes.reserve(n);
   for (std::size_t i = 0; i + lag < n; ++i)
     slopes.push_back((events.times_s[i + lag] - events.times_s[i]) /
                      (events.samples[i + lag] - events.samples[i]));
@@ -56,6 +60,7 @@ double first_period(const Events& events) {
 
 double local_jitter(const Events& events, const double period_s) {
   std::vector<double> changes;
+  changes.reserve(events.times_s.size());
   for (std::size_t i = 1; i < events.times_s.size(); ++i)
     changes.push_back(std::abs(events.times_s[i] - events.times_s[i - 1] -
                                period_s * (events.samples[i] - events.samples[i - 1])));
@@ -75,37 +80,43 @@ bool runs_backward(const std::span<const double> times_s, const double jitter_s,
 // One line for each run of events between which the number of lost samples is certain; the lines
 // have one slope.
 struct Lines {
-  std::vector<std::size_t> run;  // of each event
-  std::vector<double> samples;   // of each event, with those that are lost
-  std::vector<double> start_s;   // of each run: time of its sample 0
+  std::vector<std::uint32_t> run;  // of each event
+  std::vector<double> samples;     // of each event, with those that are lost
+  std::vector<double> start_s;     // of each run: time of its sample 0
   double period_s = 0., period_error_s = 0., deviation_s = 0.;
-  std::vector<double> residuals_s;
+
+  double residual_s(const Events& events, const std::size_t i) const {
+    return events.times_s[i] - start_s[run[i]] - period_s * samples[i];
+  }
 };
 
 constexpr std::size_t most_certain = 20;  // a longer loss is not counted exactly
 
 // Standard deviation of the sum of correlated residuals over that of independent ones, squared.
-double correlation_factor(const std::vector<double>& residuals) {
-  const std::size_t n_blocks = 30, length = residuals.size() / n_blocks;
+double correlation_factor(const Events& events, const Lines& lines) {
+  const std::size_t n_blocks = 30, length = lines.samples.size() / n_blocks;
   if (length < 2) return 1.;
   double power = 0., of_means = 0.;
   for (std::size_t b = 0; b < n_blocks; ++b) {
     double sum = 0.;
     for (std::size_t i = b * length; i < (b + 1) * length; ++i) {
-      sum += residuals[i];
-      power += residuals[i] * residuals[i];
+      const double residual = lines.residual_s(events, i);
+      sum += residual;
+      power += residual * residual;
     }
     of_means += sum * sum / double(length);
   }
   return power > 0. ? std::max(1., of_means / power * double(length)) : 1.;
 }
 
-Lines fitted_lines(const Events& events, const std::vector<std::size_t>& lost,
+Lines fitted_lines(const Events& events, const std::vector<std::uint32_t>& lost,
                    const double rounding_s) {
   const std::size_t n = events.times_s.size();
   Lines lines;
+  lines.run.reserve(n);
+  lines.samples.reserve(n);
   double n_lost = 0.;
-  std::size_t run = 0;
+  std::uint32_t run = 0;
   for (std::size_t i = 0; i < n; ++i) {
     n_lost += double(lost[i]);
     if (lost[i] > most_certain) ++run;
@@ -129,14 +140,10 @@ Lines fitted_lines(const Events& events, const std::vector<std::size_t>& lost,
   for (std::size_t r = 0; r <= run; ++r)
     lines.start_s.push_back(events.times_s[0] + mean_t[r] - lines.period_s * mean_x[r]);
   double power = 0.;
-  for (std::size_t i = 0; i < n; ++i) {
-    lines.residuals_s.push_back(events.times_s[i] - lines.start_s[lines.run[i]] -
-                                lines.period_s * lines.samples[i]);
-    power += lines.residuals_s.back() * lines.residuals_s.back();
-  }
+  for (std::size_t i = 0; i < n; ++i) power += std::pow(lines.residual_s(events, i), 2);
   lines.deviation_s = std::sqrt(power / double(n));
   const double spread = std::max(lines.deviation_s, rounding_s / std::sqrt(3.));
-  lines.period_error_s = spread * std::sqrt(correlation_factor(lines.residuals_s) / xx);
+  lines.period_error_s = spread * std::sqrt(correlation_factor(events, lines) / xx);
   return lines;
 }
 
@@ -153,16 +160,17 @@ Lines mean_line(const Events& events, Lines lines) {
 
 // Whether the stamps leave every grid: their difference to it grows with the lag, as the sum of
 // uneven steps does. Slow drift of a clock does not count.
-bool wander(const Lines& lines) {
-  const auto& r = lines.residuals_s;
+bool wander(const Events& events, const Lines& lines) {
+  const std::size_t n = lines.samples.size();
+  const auto r = [&](const std::size_t i) { return lines.residual_s(events, i); };
   constexpr std::size_t long_lag = 32;
-  if (r.size() < 4 * long_lag) return lines.deviation_s > lines.period_s;
+  if (n < 4 * long_lag) return lines.deviation_s > lines.period_s;
   const auto power_at = [&](const std::size_t lag) {
     // Second differences remove drift of the period.
     double sum = 0.;
-    for (std::size_t i = 0; i + 2 * lag < r.size(); ++i)
-      sum += std::pow(r[i] - 2. * r[i + lag] + r[i + 2 * lag], 2);
-    return sum / double(r.size() - 2 * lag);
+    for (std::size_t i = 0; i + 2 * lag < n; ++i)
+      sum += std::pow(r(i) - 2. * r(i + lag) + r(i + 2 * lag), 2);
+    return sum / double(n - 2 * lag);
   };
   constexpr double grows = 4., matters_periods = 0.5;
   const double at_long = power_at(long_lag);
@@ -172,6 +180,7 @@ bool wander(const Lines& lines) {
 // Whether nearly all steps have one of three lengths, most of them the shortest.
 bool come_in_bursts(const std::span<const double> times_s, const double rounding_s) {
   std::vector<double> steps;
+  steps.reserve(times_s.size());
   for (std::size_t i = 1; i < times_s.size(); ++i) steps.push_back(times_s[i] - times_s[i - 1]);
   std::sort(steps.begin(), steps.end());
   constexpr std::size_t most_lengths = 3;
@@ -185,7 +194,7 @@ bool come_in_bursts(const std::span<const double> times_s, const double rounding
   return n_lengths > 1 && n_lengths <= most_lengths && 2 * n_short > steps.size();
 }
 
-void set_pieces(const Events& events, const std::vector<std::size_t>& lost, const Lines& lines,
+void set_pieces(const Events& events, const std::vector<std::uint32_t>& lost, const Lines& lines,
                 const std::size_t n_rows, Clock& clock) {
   std::vector<std::size_t> firsts;
   for (std::size_t i = 0; i < lost.size(); ++i) {
@@ -211,10 +220,12 @@ std::optional<Clock> regress_stamps(const std::span<const double> times_s,
   double period_s = first_period(events);
   if (!(period_s > 0.)) return {};
   if (runs_backward(times_s, local_jitter(events, period_s), rounding_s)) return {};
-  std::vector<std::size_t> lost;
+  std::vector<std::uint32_t> lost;
   Lines lines;
   constexpr int n_rounds = 3;
   for (int round = 0; round < n_rounds; ++round) {
+    lines = {};  // Of a long record these are large.
+    lost = {};
     constexpr double least_jitter_periods = 0.03;
     const double jitter_s =
         std::max({local_jitter(events, period_s), rounding_s, least_jitter_periods * period_s});
@@ -229,7 +240,7 @@ std::optional<Clock> regress_stamps(const std::span<const double> times_s,
   if (is_burst) {
     std::fill(lost.begin(), lost.end(), 0);
     lines = mean_line(events, fitted_lines(events, lost, rounding_s));
-  } else if (wander(lines) || double(n_losses) > most_lost * double(lost.size())) {
+  } else if (wander(events, lines) || double(n_losses) > most_lost * double(lost.size())) {
     return {};
   }
   Clock clock{.sampling_rate_hz = 1. / lines.period_s,

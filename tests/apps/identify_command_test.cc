@@ -17,7 +17,9 @@ namespace vibrissa::apps {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 using signals::test::rate_hz;
@@ -77,7 +79,7 @@ TEST(Identify, BeginsWithWhetherTheResultCanBeBelieved) {
   unrelated.set_channel(signals::channel::base_moment, {other.end() - 3000, other.end()});
   signals::write_record(noise, unrelated);
   EXPECT_THAT(vibrissa("identify '" + noise + "' -o '" + folder.file("n.json") + "'").output,
-              StartsWith("Not usable: "));
+              AllOf(StartsWith("Not usable: "), HasSubstr("residual on"), Not(HasSubstr("poles"))));
 }
 
 TEST(Identify, NamesTwoClocksFirst) {
@@ -182,6 +184,38 @@ void write_moment_alone(const std::string& file, std::size_t n_samples) {
   const auto m = both.channel(signals::channel::base_moment);
   moment_alone.set_channel(signals::channel::base_moment, {m.begin(), m.end()});
   signals::write_record(file, moment_alone);
+}
+
+/// A response of one mode that states this unit.
+std::string response_csv(const std::string& unit) {
+  const separation::Bvrm truth{.modes = {separation::make_modal_term(31., 0.05, 2.)}};
+  std::ostringstream csv;
+  csv << "frequency_hz,response_real [" << unit << "],response_imaginary [" << unit << "]\n";
+  for (int k = 1; k <= 200; ++k) {
+    const std::vector<double> f = {0.5 * k};
+    const auto value = separation::response(truth, f)[0];
+    csv << f[0] << "," << value.real() << "," << value.imag() << "\n";
+  }
+  return csv.str();
+}
+
+TEST(Identify, GivesGainsInTheUnitOfTheResponse) {
+  const Folder folder;
+  const auto identified = [&](const std::string& unit, const std::string& options) {
+    const std::string file = folder.write("h.csv", response_csv(unit));
+    return vibrissa("identify '" + file + "' --order 2 --frequency-response " + options + " -o '" +
+                    folder.file("m.json") + "'");
+  };
+  const auto rotation = identified("rad/(m/s^2)", "");
+  ASSERT_EQ(rotation.status, 0) << rotation.errors;
+  EXPECT_THAT(rotation.output, AllOf(HasSubstr("static gain [rad/(m/s^2)]"),
+                                     HasSubstr(" rad/(m/s^2); order 2"), Not(HasSubstr("kg m"))));
+  const json found = identified("rad/(m/s^2)", "--json").json();
+  EXPECT_EQ(found["gain_unit"], "rad/(m/s^2)");
+  EXPECT_NEAR(found["modes"][0]["static_gain"].get<double>(), 2., 1e-3);
+  EXPECT_FALSE(found["modes"][0].contains("static_gain_kg_m"));
+  EXPECT_THAT(identified("N m s^2/m", "").output, HasSubstr("static gain [kg m]"));
+  EXPECT_EQ(identified("N m s^2/m", "--json").json()["gain_unit"], "kg m");
 }
 
 TEST(Identify, FindsResonanceAndDampingWithoutAnyInputChannel) {

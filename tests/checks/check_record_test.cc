@@ -12,6 +12,7 @@
 namespace vibrissa::checks {
 namespace {
 
+using diagnosis::FindingKind;
 using test::Drive;
 using test::Fault;
 
@@ -103,6 +104,30 @@ TEST(CheckRecord, AResonanceNarrowerThanTheLinesFollows) {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     const RecordReport report = check_record(narrow_record(seed));
     EXPECT_NE(what_it_serves(report)[0].serves, Serves::no) << seed << words_of(report);
+  }
+}
+
+/// The moment leads by 20 ms; its noise is this share of it.
+signals::Record leading_record(const double noise) {
+  separation::Bvrm sensor = separation::test::sensor(1);
+  sensor.delay_s = -0.02;
+  const auto a = separation::test::white_noise(15000, 3., 4);
+  const auto m = separation::simulate(sensor, a, separation::test::rate_hz);
+  signals::Record record(separation::test::rate_hz, a.size());
+  record.set_channel(signals::channel::base_acceleration, a);
+  record.set_channel(signals::channel::base_moment,
+                     separation::test::plus_noise(m, noise * separation::test::rms(m), 5));
+  return record;
+}
+
+TEST(CheckRecord, SaysADelayOfAUsableModelOnly) {
+  for (const double noise : {0.05, 1.4}) {
+    const RecordReport report = check_record(leading_record(noise));
+    const auto has = [&](const FindingKind kind) {
+      return std::ranges::any_of(report.findings, [&](const Finding& f) { return f.kind == kind; });
+    };
+    EXPECT_EQ(has(FindingKind::channel_delay), noise < 1.) << words_of(report);
+    EXPECT_EQ(has(FindingKind::no_usable_model), noise > 1.) << words_of(report);
   }
 }
 

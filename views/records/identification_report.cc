@@ -19,14 +19,15 @@ std::string plane_text(const std::vector<separation::PlaneEstimate>& points) {
   return text.empty() ? "none" : text;
 }
 
-report::Table table_of(const std::vector<separation::ModeEstimate>& modes) {
+report::Table table_of(const std::vector<separation::ModeEstimate>& modes,
+                       const std::string& gain_unit) {
   report::Table table({{"mode", ""},
                        {"frequency", "Hz", 6},
                        {"± sd", "Hz", 2},
                        {"damping ratio", ""},
                        {"± sd", "", 2},
-                       {"static gain", "kg m"},
-                       {"± sd", "kg m", 2}});
+                       {"static gain", gain_unit},
+                       {"± sd", gain_unit, 2}});
   std::size_t number = 0;
   for (const auto& mode : modes) {
     table.add_row({++number, mode.frequency_hz.value, mode.frequency_hz.standard_deviation,
@@ -47,17 +48,18 @@ std::string frequency_text(const separation::Estimate& frequency_hz) {
 }  // namespace
 
 report::Table identification_table(const separation::FittedBvrm& fit) {
-  return table_of(fit.modes);
+  return table_of(fit.modes, separation::moment_gain_unit);
 }
 
-std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict) {
+std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict,
+                         const std::string& gain_unit) {
   std::vector<separation::ModeEstimate> modes;
   for (const std::size_t k : verdict.determined) modes.push_back(fit.modes[k]);
   std::string text = verdict.sentence + "\n";
-  if (!modes.empty()) text += table_of(modes).to_text();
+  if (!modes.empty()) text += table_of(modes, gain_unit).to_text();
   for (const auto& entry : verdict.frequency_only)
-    text += "frequency only: " + frequency_text(fit.modes[entry.mode].frequency_hz) + ": " +
-            entry.reason + "\n";
+    text +=
+        "frequency only: " + frequency_text(frequency_of(entry, fit)) + ": " + entry.reason + "\n";
   for (const auto& entry : verdict.undetermined) {
     const auto& mode = fit.modes[entry.mode];
     text += "not determined: " + frequency_text(mode.frequency_hz) + ", damping ratio " +
@@ -103,9 +105,10 @@ report::Table ring_down_table(const separation::RingDown& found) {
 }
 
 std::string evidence_text(const separation::ModelEvidence& evidence) {
-  return "poles [rad/s]: " + plane_text(evidence.poles_zeros.poles) +
-         "\nzeros [rad/s]: " + plane_text(evidence.poles_zeros.zeros) +
-         "\nresidual on held-out data: " + evidence.residual.words +
+  const std::string poles = "poles [rad/s]: " + plane_text(evidence.poles_zeros.poles) +
+                            "\nzeros [rad/s]: " + plane_text(evidence.poles_zeros.zeros) + "\n";
+  return (evidence.verdict.usable ? poles : "") +
+         "residual on held-out data: " + evidence.residual.words +
          (evidence.hold.words.empty() ? "" : "\n" + evidence.hold.words) + "\n";
 }
 

@@ -12,7 +12,8 @@ report::Table identification_table(const separation::FittedBvrm& fit);
 
 /// The sentence of the verdict, the table of the determined modes, a line for each resonance of
 /// which only the frequency is told and for each pair of poles that is not determined.
-std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict);
+std::string verdict_text(const separation::FittedBvrm& fit, const separation::Verdict& verdict,
+                         const std::string& gain_unit = separation::moment_gain_unit);
 
 /// One row per mode, and one row without damping for each undamped line.
 report::Table output_only_table(const separation::OutputOnlyIdentification& found);
@@ -20,7 +21,7 @@ report::Table output_only_table(const separation::OutputOnlyIdentification& foun
 /// One row for each point: those of the fitted law, and those that were measured without a law.
 report::Table ring_down_table(const separation::RingDown& found);
 
-/// Poles, zeros and the residual test of the model, as text.
+/// The residual test of the model, as text; of a usable model also poles and zeros.
 std::string evidence_text(const separation::ModelEvidence& evidence);
 
 }  // namespace vibrissa::views

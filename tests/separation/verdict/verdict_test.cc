@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "separation/model/simulation.h"
@@ -100,12 +101,38 @@ TEST(Verdict, SetsPolesApartThatTheDataDoNotTell) {
     return verdict.undetermined.empty() ? std::string() : verdict.undetermined[0].reason;
   };
   EXPECT_EQ(reasons_of(make_modal_term(40., 0.02, 1e-6), 0.01), "");
-  EXPECT_THAT(reasons_of(make_modal_term(150., 0.02, 1e-6), 0.01), HasSubstr("outside the band"));
+  EXPECT_THAT(reasons_of(make_modal_term(150., 0.02, 1e-6), 0.01),
+              HasSubstr("outside the band in which the moment follows the base acceleration, "));
   EXPECT_THAT(reasons_of(make_modal_term(40., 3., 1e-6), 0.01), HasSubstr("two real poles"));
   EXPECT_THAT(reasons_of(make_modal_term(40., 1e-6, 1e-6), 0.01), HasSubstr("does not decay"));
   EXPECT_THAT(reasons_of(make_modal_term(40., 0.02, 1e-6), 0.8), HasSubstr("not told from zero"));
   found.fit.end = FitEnd::step_limit;
   EXPECT_TRUE(judge(found, record).determined.empty());
+}
+
+TEST(Verdict, SaysADelayOfAUsableModelOnly) {
+  const signals::Record record = noisy_record(slow_motion(8000, 7), test::sensor(1), 0.05, 8);
+  Identification found;
+  found.duration_s = record.duration_s();
+  found.found_delay_s = Estimate{-0.02, 1e-4};
+  found.fit = known_fit({make_modal_term(30., 0.02, 1e-6)}, 0.01);
+  ModelEvidence evidence;
+  for (const bool usable : {true, false}) {
+    found.held_out_vaf_percent = usable ? 99. : 30.;
+    evidence.verdict = judge(found, record);
+    EXPECT_THAT(evidence.verdict.sentence, StartsWith(usable ? "The moment leads" : "Not usable"));
+    EXPECT_EQ(identification_report(found, evidence, "").contains("delay_s"), usable);
+  }
+}
+
+TEST(Verdict, TestsTheHoldOfAUsableModelOnly) {
+  const signals::Record record =
+      noisy_record(test::white_noise(4000, 3., 15), test::sensor(1), 0.05, 16);
+  Identification found = identify_record(record);
+  const auto [fit, held_out] = hold_out_last_third(record);
+  EXPECT_FALSE(examine(found, fit, held_out).hold.trials.empty());
+  found.held_out_vaf_percent = 30.;
+  EXPECT_TRUE(examine(found, fit, held_out).hold.trials.empty());
 }
 
 signals::FrequencyResponse at_lines_of_an_analyser(const Bvrm& model) {
@@ -130,9 +157,26 @@ TEST(Verdict, TakesThePeakBetweenTwoLinesForAFrequencyWithoutDamping) {
   EXPECT_THAT(verdict.sentence, StartsWith("Usable for the frequencies"));
 }
 
+TEST(Verdict, NamesTheBandOfAHitAndTheLinesOfAResponse) {
+  const signals::FrequencyResponse response =
+      at_lines_of_an_analyser({.modes = {make_modal_term(212., 0.02, 30.)}});
+  IdentifiedResponse of_lines;
+  of_lines.fit = known_fit({make_modal_term(400., 0.02, 30.)}, 0.01);
+  EXPECT_THAT(judge(of_lines, response).undetermined.at(0).reason,
+              HasSubstr("outside the lines of the response, 100 Hz to "));
+  Signal hit(4096, 0.);
+  for (std::size_t i = 0; i < 50; ++i) hit[85 + i] = std::sin(0.0628 * (0.5 + double(i)));
+  const signals::Record record = noisy_record(hit, test::sensor(1), 0.01, 17);
+  Identification of_hit;
+  of_hit.n_hits = 1;
+  of_hit.fit = known_fit({make_modal_term(200., 0.02, 1e-6)}, 0.01);
+  EXPECT_THAT(judge(of_hit, record).undetermined.at(0).reason,
+              HasSubstr("outside the band that the hit excites, "));
+}
+
 // A machine's tone that is in the moment alone: a ratio of spectra has a peak there, which is no
 // answer to the base.
-TEST(Verdict, TakesAPeakWhosePhaseRisesForNoResonance) {
+TEST(Verdict, GivesAPeakWhosePhaseRisesTheFrequencyOfItsAmplitude) {
   const Bvrm sensor{.modes = {make_modal_term(150., 0.02, 1.)}};
   const Bvrm other{.modes = {make_modal_term(192.6, 2e-4, 0.05)}};
   std::mt19937_64 random(11);
@@ -151,9 +195,11 @@ TEST(Verdict, TakesAPeakWhosePhaseRisesForNoResonance) {
   EXPECT_FALSE(phase_rises(falling, 192.6));
   const Verdict verdict = judge(identify_response(rising, {.order = 4}), rising);
   EXPECT_EQ(verdict.determined.size(), 1u);
-  EXPECT_TRUE(verdict.frequency_only.empty());
-  ASSERT_EQ(verdict.undetermined.size(), 1u);
-  EXPECT_THAT(verdict.undetermined[0].reason, HasSubstr("the phase rises"));
+  EXPECT_TRUE(verdict.undetermined.empty());
+  ASSERT_EQ(verdict.frequency_only.size(), 1u);
+  EXPECT_THAT(verdict.frequency_only[0].reason, HasSubstr("the phase rises"));
+  ASSERT_TRUE(verdict.frequency_only[0].peak_hz);
+  EXPECT_NEAR(verdict.frequency_only[0].peak_hz->value, 192.6, 0.1);
   EXPECT_TRUE(verdict.usable) << verdict.sentence;
   // The sign convention of the file changes nothing.
   for (const auto& response : {falling, conjugate_of(falling)}) {
@@ -163,6 +209,27 @@ TEST(Verdict, TakesAPeakWhosePhaseRisesForNoResonance) {
     EXPECT_TRUE(of_falling.undetermined.empty());
     EXPECT_THAT(of_falling.sentence, StartsWith("Usable from"));
   }
+}
+
+// The moment moves by itself, and the ratio to the noise of a still base has phases of its own.
+TEST(Verdict, FindsThePeakOfLinesWithoutAPhase) {
+  constexpr double peak_hz = 192.594, half_width_hz = 0.2;
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> phase(-std::numbers::pi, std::numbers::pi);
+  signals::FrequencyResponse response = at_lines_of_an_analyser({});
+  for (std::size_t i = 0; i < response.value.size(); ++i)
+    response.value[i] = std::polar(
+        1. / std::hypot(response.frequency_hz[i] - peak_hz, half_width_hz), phase(random));
+  EXPECT_NEAR(amplitude_peak_hz(response, 192.3), peak_hz, 0.01);
+}
+
+TEST(Verdict, WritesTheFrequencyOfTheAmplitudeIntoItsJson) {
+  Verdict verdict;
+  verdict.frequency_only = {{.mode = 0, .reason = "why", .peak_hz = Estimate{192.6, 0.09}}};
+  nlohmann::json document = fitted_json(known_fit({make_modal_term(192.4, 2e-4, 1.)}, 0.1));
+  add_verdict(verdict, document);
+  EXPECT_EQ(document["frequency_only"][0]["frequency_hz"], 192.6);
+  EXPECT_EQ(document["frequency_only"][0]["frequency_sd_hz"], 0.09);
 }
 
 // An analyser's Hann window makes the lines beside a narrow peak, which looks like a second mode.

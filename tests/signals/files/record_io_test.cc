@@ -254,6 +254,32 @@ TEST(ReadTable, NamesTheTimeBesideASpectrum) {
                                              HasSubstr("--column can choose: Time_domain"))));
 }
 
+/// Counts how often the stamps, column 0, are read.
+class CountingTable : public formats::NumericTable {
+ public:
+  using NumericTable::NumericTable;
+  formats::ColumnValues read(const formats::ColumnRange& range) const override {
+    if (range.time_column == 0) ++n_reads;
+    return NumericTable::read(range);
+  }
+  mutable int n_reads = 0;
+};
+
+TEST(ReadTable, ReadsTheStampsBesideAGivenRateOnce) {
+  std::vector<double> times(100), moment(100);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    times[i] = 0.01 * double(i);
+    moment[i] = double(i % 7);
+  }
+  for (const Gaps gaps : {Gaps::pieces, Gaps::refuse}) {
+    CountingTable table("f.mat", {{"t", times}, {"base_moment_N_m", moment}});
+    const Recording recording =
+        read_recording(table, "f.mat", {.sampling_rate_hz = 100., .gaps = gaps});
+    EXPECT_EQ(recording.pieces.size(), 1u);
+    EXPECT_EQ(table.n_reads, 1);
+  }
+}
+
 TEST_F(ReadRecord, RefusesARateThatContradictsTime) {
   const std::string content = csv(plain_header, plain);
   EXPECT_EQ(read(content, {.sampling_rate_hz = 500.4}).sampling_rate_hz(), 500.4);
