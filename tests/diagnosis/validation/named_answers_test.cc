@@ -1,6 +1,10 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <optional>
+
+#include "diagnosis/validation/held_out.h"
 #include "diagnosis/validation/named_answers.h"
 #include "tests/diagnosis/one_mode_rig.h"
 
@@ -39,7 +43,26 @@ class NamedAnswers : public testing::Test {
     return Hypothesis(effects);
   }
 
+  /// What the answer "hardening" leaves of the gap of a stiffening spring that is not symmetric.
+  std::optional<UnknownCause> left_by_hardening(const double cubic) {
+    test::OneModeRig rig = test::noisy_rig();
+    rig.cubic = cubic;
+    rig.further = [](double x, double) { return 0.3 * x * x / 8e-4; };
+    measure(rig);
+    SearchResult result;
+    for (const Hypothesis& hypothesis : {of({"hardening"}), of({})}) {
+      result.candidates.push_back(
+          {.name = hypothesis.name(), .fit = result.fits.size(), .calibrations = {}});
+      result.fits.push_back(fit_hypothesis(fit_records_, hypothesis));
+    }
+    const ErrorScore left = score_held_out(fit_records_, held_out_, result.fits.front()).overall;
+    share_left_ = 1. - left.gap_closed.value();
+    power_left_ = std::pow(left.nrmse_after, 2) - std::pow(left.noise_floor, 2);
+    return unknown_part(result, fit_records_, held_out_, 2);
+  }
+
   Experiment fit_records_, fit_as_measured_, held_out_;
+  double share_left_ = 0., power_left_ = 0.;
 };
 
 TEST_F(NamedAnswers, AreReducedToTheSimplestThatClosesTheGap) {
@@ -72,6 +95,17 @@ TEST_F(NamedAnswers, HoldTheCalibrationsThatMoved) {
 TEST_F(NamedAnswers, KnowNoUnknownCauseWhereRecalibrationLeavesNothing) {
   measure(test::noisy_rig());
   EXPECT_EQ(named({Hypothesis::discrepancy(), of({})}).front().name, "none");
+}
+
+TEST_F(NamedAnswers, DescribeWhatTheyLeaveOfAGap) {
+  EXPECT_TRUE(left_by_hardening(1e6));
+  EXPECT_GT(share_left_, least_share);
+}
+
+TEST_F(NamedAnswers, DoNotDescribeASmallShareOfAGap) {
+  EXPECT_FALSE(left_by_hardening(1e7));
+  EXPECT_LT(share_left_, least_share);
+  EXPECT_GT(power_left_, power_without_cause(fit_records_.simulation_accuracy));
 }
 
 }  // namespace
