@@ -60,16 +60,16 @@ TEST(OptimiserState, TakesNoStepThatIsNoNumber) {
   EXPECT_NEAR(misled.log_posterior, plain.log_posterior, 0.2);
 }
 
-/// Fisher scoring in the logarithm of a level falls by half of a neper a step at most.
-TEST(OptimiserState, FindsANoiseLevelThatIsFarTooHigh) {
+/// Fisher scoring in the logarithm of a standard deviation falls by a half at most.
+TEST(OptimiserState, FallsFarInOneStepFromANoiseLevelThatIsTooHigh) {
   Fit fit;
-  OptimiserState found = fit.begin, loud = fit.begin;
-  optimise(fit.posterior, fit.fit_parameters, found, FitOptions{}.max_iterations, {});
+  OptimiserState loud = fit.begin;
   loud.x(index_of_moment_noise) += 3.5;
-  optimise(fit.posterior, fit.fit_parameters, loud, FitOptions{}.max_iterations, {});
-  EXPECT_NEAR(loud.x(index_of_moment_noise), found.x(index_of_moment_noise), 0.02);
-  EXPECT_NEAR(loud.log_posterior, found.log_posterior, 0.5);
-  EXPECT_LE(loud.n_iterations, found.n_iterations + 3);
+  const double before = loud.x(index_of_moment_noise);
+  FitOptions one_step;
+  one_step.tolerance = std::numeric_limits<double>::infinity();
+  optimise(fit.posterior, fit.fit_parameters, loud, FitOptions{}.max_iterations, one_step);
+  EXPECT_LT(loud.x(index_of_moment_noise), before - 1.5);
 }
 
 TEST(PatternSearch, FindsTheOptimumWithoutDerivatives) {
