@@ -68,8 +68,8 @@ std::string verdict(const OrderSelection& selection) {
     return "held-out data and the information criterion both select order " + held_out;
   return "held-out data select order " + held_out + ", the information criterion selects order " +
          std::to_string(selection.by_information) +
-         ": the record hardly determines the modes in between; take the lower order, or a longer "
-         "record";
+         ": the record hardly tells whether the modes in between are real; --order takes the other "
+         "one, a longer record tells them apart";
 }
 
 void choose(const std::vector<std::vector<double>>& held_out_squares, double rounding,
