@@ -45,14 +45,20 @@ std::string quantity_of(const std::string& effect) {
   return words;
 }
 
-/// The first finding that makes the answer doubtful, and the number of further ones.
-std::string doubt_line(const Diagnosis& diagnosis) {
-  std::string first;
-  std::size_t n = 0;
+/// The findings that make the answer doubtful.
+std::vector<std::string> doubts(const Diagnosis& diagnosis) {
+  std::vector<std::string> out;
   for (const Finding& finding : diagnosis.findings)
-    if (casts_doubt(finding.kind) && n++ == 0) first = finding.text();
-  if (n == 0) return "";
-  return "Doubtful: " + first + (n > 1 ? " (and " + std::to_string(n - 1) + " more)" : "");
+    if (casts_doubt(finding.kind)) out.push_back(finding.text());
+  return out;
+}
+
+/// The first of them, and the number of further ones.
+std::string doubt_line(const Diagnosis& diagnosis) {
+  const std::vector<std::string> all = doubts(diagnosis);
+  if (all.empty()) return "";
+  return "Doubtful: " + all.front() +
+         (all.size() > 1 ? " (and " + std::to_string(all.size() - 1) + " more)" : "");
 }
 
 /// "0.711 (0.69 .. 0.73) times the simulated value", "0.046 s (0.0456 .. 0.0464)".
@@ -304,8 +310,6 @@ std::string next_line(const Diagnosis& diagnosis) {
 
 }  // namespace
 
-namespace {}  // namespace
-
 std::string unknown_sentence(const Diagnosis& diagnosis) {
   if (!diagnosis.unknown_cause) return "";
   std::string joint, reading;
@@ -331,6 +335,8 @@ bool is_recalibration(const std::string& answer) {
   });
 }
 
+namespace {
+
 /// What to know before one sets a calibration whose ratio may be 1.
 std::string doubt_about(const Diagnosis& diagnosis, const ParameterEstimate& ratio) {
   if (ratio.ci95[0] > 1. || ratio.ci95[1] < 1.) return "";
@@ -343,6 +349,14 @@ std::string doubt_about(const Diagnosis& diagnosis, const ParameterEstimate& rat
   return " (or change " + joined(alike, " or ") + ": the records do not tell which one is off)";
 }
 
+std::string setting(const ParameterEstimate& ratio) {
+  const std::string value = three_digits(ratio.value) + " times the simulated value";
+  return ratio.at_limit ? quantity_of(ratio.effect) + " is at the limit of the search, " + value
+                        : "set " + quantity_of(ratio.effect) + " to " + value;
+}
+
+}  // namespace
+
 std::string consequence(const Diagnosis& diagnosis) {
   std::vector<std::string> missing, settings;
   for (const std::string& id : effect_ids(diagnosis.verdict))
@@ -350,8 +364,7 @@ std::string consequence(const Diagnosis& diagnosis) {
   if (!diagnosis.ranking.empty())
     for (const ParameterEstimate& p : diagnosis.ranking.front().parameters)
       if (is_recalibration(p.effect) && p.name == "ratio")
-        settings.push_back("set " + quantity_of(p.effect) + " to " + three_digits(p.value) +
-                           " times the simulated value" + doubt_about(diagnosis, p));
+        settings.push_back(setting(p) + doubt_about(diagnosis, p));
   const std::string values = settings.empty() ? "" : ": " + joined(settings, ", ");
   if (missing.empty()) return "The simulation needs recalibration" + values;
   return "The simulation lacks " + joined(missing, " and ") +
@@ -389,6 +402,8 @@ std::string verdict_text(const Diagnosis& diagnosis, const std::size_t most_line
               " (each fits about as well; prior knowledge ranks them)");
   if (!diagnosis.untested.empty())
     lines.add("Not tested: " + untested_sentence(diagnosis.untested));
+  const std::vector<std::string> all_doubts = doubts(diagnosis);
+  for (std::size_t i = 1; i < all_doubts.size(); ++i) lines.add("Doubtful, too: " + all_doubts[i]);
   for (const Finding& finding : diagnosis.findings)
     if (!casts_doubt(finding.kind)) lines.add("Note: " + finding.text());
   return lines.text(most_lines);

@@ -12,7 +12,7 @@ Effect reference_gain() {
                 .calibration = true,
                 .model_form_error = 0.01,
                 .needs = {.base = true},
-                .parameters = {ratio_near_one("ratio", 0.015, 0.7, 1.4)},
+                .parameters = {ratio_near_one("ratio", 0.015, 0.4, 2.5)},
                 .starts = {{0.98}, {1.02}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
                   chain.reference.push_back([r = v[0]](Complex) -> Complex { return 1. / r; });

@@ -155,6 +155,20 @@ TEST(VerdictText, SaysFirstWhatMakesTheAnswerDoubtful) {
   const std::string text = unwrapped(verdict_text(diagnosis));
   EXPECT_THAT(text.substr(text.find('\n') + 1),
               testing::StartsWith("Doubtful: high: is clipped (and 1 more)\n"));
+  EXPECT_THAT(unwrapped(verdict_text(diagnosis, 1000)),
+              HasSubstr("Doubtful, too: higher: is clipped\n"));
+}
+
+TEST(VerdictText, SetsNoCalibrationToTheLimitOfTheSearch) {
+  Diagnosis diagnosis = example();
+  ParameterEstimate& ratio = diagnosis.ranking.front().parameters.back();
+  ratio.effect = "stiffness";
+  ratio.name = "ratio";
+  ratio.value = 4.;
+  ratio.at_limit = true;
+  const std::string text = unwrapped(verdict_text(diagnosis));
+  EXPECT_THAT(text, HasSubstr("stiffness is at the limit of the search, 4 times"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("set stiffness")));
 }
 
 TEST(VerdictText, TellsTheOddsOfNoKnownEffect) {
