@@ -192,8 +192,7 @@ std::vector<std::string> noise_rows(const Diagnosis& diagnosis) {
   const auto& changes = diagnosis.attribution.changes;
   if (diagnosis.verdict == outside_catalogue) return rows;
   for (const std::string& id : effect_ids(diagnosis.verdict))
-    if (!diagnosis.ranking.empty() && !changes.empty() &&
-        std::ranges::count(changes, id, &AttributedChange::id) == 0)
+    if (!diagnosis.ranking.empty() && std::ranges::count(changes, id, &AttributedChange::id) == 0)
       rows.push_back(change_text(id, diagnosis.ranking.front().parameters));
   return rows;
 }

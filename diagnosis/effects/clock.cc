@@ -24,6 +24,8 @@ Effect delay() {
                 .model_form_error = 0.01,
                 .parameters = {uniform("tau", "s", -6e-3, 6e-3, 0.)},
                 .starts = {{2e-4}, {-2e-4}},
+                // So close that the phase of the highest usual frequency moves by less than a turn.
+                .scanned = {{-5e-3}, {-3.5e-3}, {-2e-3}, {2e-3}, {3.5e-3}, {5e-3}},
                 .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
                   chain.sensor.push_back([tau = v[0]](Complex s) { return std::exp(-s * tau); });
                 }};

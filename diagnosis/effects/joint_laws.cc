@@ -126,10 +126,12 @@ Effect hardening() {
       .parameters = {relative("of the elastic moment at its peak",
                               uniform("cubic_ratio", "1", -0.6, 8., 0.))},
       .starts = {{0.03}, {-0.03}, {0.2}, {0.6}, {1.5}, {4.}, {-0.15}},
-      .extend = [](Chain& chain, std::span<const double> v, const Scales& scales) {
-        chain.joint.push_back([b = v[0] / (scales.joint_moment_n_m * scales.joint_moment_n_m)](
-                                  const Lanes&) { return std::make_unique<Cubic>(b); });
-      }};
+      .equivalent_stiffness = [](std::span<const double> v) { return 1. + v[0] / 3.; },
+      .extend =
+          [](Chain& chain, std::span<const double> v, const Scales& scales) {
+            chain.joint.push_back([b = v[0] / (scales.joint_moment_n_m * scales.joint_moment_n_m)](
+                                      const Lanes&) { return std::make_unique<Cubic>(b); });
+          }};
 }
 
 Effect joint_friction() {

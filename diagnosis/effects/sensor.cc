@@ -123,26 +123,18 @@ Effect hum() {
   Parameter frequency = uniform("frequency", "Hz", 45., 125., 50.);
   frequency.step = 1e-3;
   frequency.largest_step = 0.01;
-  return Effect{
-      .id = "hum",
-      .about = "a line from the mains",
-      .link = Link::sensor,
-      .source = "Ott 2009, cabling and grounding; Harris 1978, leakage of a line",
-      .irreducible = true,
-      .model_form_error = 0.01,
-      .parameters = {log_uniform("amplitude", "N m", 1e-8, 1e-3, 0.), frequency},
-      .starts = mains_lines({3e-7, 3e-6}, 0),
-      .scanned = mains_lines({3e-6}, 12),
-      .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
-        chain.noise.push_back([a = v[0], f = v[1]](const RecordView& view, std::span<double> out) {
-          const double n = static_cast<double>(view.n_samples), line_hz = view.sampling_rate_hz / n;
-          for (std::size_t k = 0; k < out.size(); ++k) {
-            const double x = std::numbers::pi * (static_cast<double>(k + 1) - f / line_hz);
-            const double shape = std::abs(x) < 1e-6 ? 1. : std::sin(x) / x;
-            out[k] += 0.25 * a * a * n * n * shape * shape;
-          }
-        });
-      }};
+  return Effect{.id = "hum",
+                .about = "a line from the mains",
+                .link = Link::sensor,
+                .source = "Ott 2009, cabling and grounding; Harris 1978, leakage of a line",
+                .irreducible = true,
+                .model_form_error = 0.01,
+                .parameters = {log_uniform("amplitude", "N m", 1e-8, 1e-3, 0.), frequency},
+                .starts = mains_lines({3e-7, 3e-6}, 0),
+                .scanned = mains_lines({3e-6}, 12),
+                .extend = [](Chain& chain, std::span<const double> v, const Scales&) {
+                  chain.tones.push_back({v[0], v[1]});
+                }};
 }
 
 }  // namespace vibrissa::diagnosis::effects

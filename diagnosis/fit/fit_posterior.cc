@@ -42,6 +42,12 @@ double accelerometer_term(const PreparedRecord& record, double variance) {
          static_cast<double>(record.n_acceleration_noise) * std::log(variance);
 }
 
+Eigen::Index count(const std::vector<IntegratedNuisances>& nuisances) {
+  Eigen::Index n = 0;
+  for (const IntegratedNuisances& of_record : nuisances) n += of_record.size();
+  return n;
+}
+
 DiscrepancyLevels levels(const Eigen::VectorXd& x, const double form_level) {
   DiscrepancyLevels out{};
   for (std::size_t i = 0; i < n_discrepancy_levels; ++i)
@@ -251,46 +257,55 @@ Eigen::VectorXd FitPosterior::level_column(const Eigen::VectorXd& x,
 }
 
 void FitPosterior::set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                                  const BinVariances& s, const Chain& moved,
-                                  const std::vector<Prediction>& there, const double h,
-                                  const Eigen::Index column, Derivatives& out) const {
+                                  const BinVariances& s, const Nuisances& nuisances,
+                                  const Chain& moved, const std::vector<Prediction>& there,
+                                  const double h, const Eigen::Index column,
+                                  Derivatives& out) const {
   const double a_moved = acceleration_variance(x, moved);
   out.acceleration(column) = (a_moved - acceleration_variance(x)) / h;
-  Eigen::Index row = 0;
+  Eigen::Index row = 0, nuisance = 0;
   for (std::size_t r = 0; r < s.size(); ++r) {
     const std::vector<double> s_there = variance(x, there[r], r, a_moved);
+    const bool same = there[r].unknowns.size() == at[r].unknowns.size();
+    const std::vector<Complex> added = same && nuisances[r].any()
+                                           ? nuisances[r].change_to(there[r].unknowns)
+                                           : std::vector<Complex>(s[r].size(), 0.);
     for (std::size_t b = 0; b < s[r].size(); ++b, ++row) {
-      const Complex d = (there[r].mean[b] - at[r].mean[b]) / h;
+      const Complex d = (there[r].mean[b] - at[r].mean[b] + added[b]) / h;
       out.mean(2 * row, column) = d.real();
       out.mean(2 * row + 1, column) = d.imag();
       out.variance(row, column) = (s_there[b] - s[r][b]) / h;
     }
+    for (std::size_t i = 0; i < at[r].unknowns.size(); ++i, ++nuisance)
+      if (same)
+        out.nuisance_variance(nuisance, column) =
+            std::log(there[r].unknowns[i].variance / at[r].unknowns[i].variance) / h;
   }
 }
 
 Derivatives FitPosterior::derivatives(const Eigen::VectorXd& x,
                                       const std::vector<Prediction>& at) const {
   const BinVariances s = variances(x, at, acceleration_variance(x));
+  const Nuisances nuisances = nuisances_of(at, s);
   const auto n_columns = static_cast<Eigen::Index>(of_chain_.size());
   Derivatives out{.mean = Eigen::MatrixXd(2 * discrepancy_.n_rows(), n_columns),
                   .variance = Eigen::MatrixXd(discrepancy_.n_rows(), n_columns),
+                  .nuisance_variance = Eigen::MatrixXd::Zero(count(nuisances), n_columns),
                   .acceleration = Eigen::VectorXd(n_columns)};
   const auto step = [&](const Eigen::Index index) {
     return fit_parameters_[static_cast<std::size_t>(index)].description.step_at(x(index));
   };
-  for (std::size_t first = 0; first < of_chain_.size(); first += n_together) {
-    const std::size_t n = std::min(n_together, of_chain_.size() - first);
-    std::vector<Chain> moved;
-    for (const Eigen::Index index : std::span(of_chain_).subspan(first, n)) {
-      Eigen::VectorXd there = x;
-      there(index) += step(index);
-      moved.push_back(make_chain(experiment_, fit_parameters_, there));
-    }
-    const auto predictions = predict_together(moved, experiment_.records, at);
-    for (std::size_t i = 0; i < n; ++i)
-      set_derivative(x, at, s, moved[i], predictions[i], step(of_chain_[first + i]),
-                     static_cast<Eigen::Index>(first + i), out);
+  std::vector<Chain> moved;
+  for (const Eigen::Index index : of_chain_) {
+    Eigen::VectorXd there = x;
+    there(index) += step(index);
+    moved.push_back(make_chain(experiment_, fit_parameters_, there));
   }
+  predict_together(moved, experiment_.records, at,
+                   [&](const std::size_t i, const std::vector<Prediction>& there) {
+                     set_derivative(x, at, s, nuisances, moved[i], there, step(of_chain_[i]),
+                                    static_cast<Eigen::Index>(i), out);
+                   });
   return out;
 }
 
@@ -307,8 +322,8 @@ Eigen::MatrixXd FitPosterior::relative_variance(const Eigen::VectorXd& x,
   return out;
 }
 
-void FitPosterior::add_means(const std::vector<Prediction>& at, const BinVariances& s,
-                             const WhitenedErrors& errors, const ModelDiscrepancy::Solution& terms,
+void FitPosterior::add_means(const Nuisances& nuisances, const WhitenedErrors& errors,
+                             const ModelDiscrepancy::Solution& terms,
                              const Derivatives& derivatives, Eigen::VectorXd& gradient,
                              Eigen::MatrixXd& information) const {
   // Real and imaginary parts in turn.
@@ -318,7 +333,7 @@ void FitPosterior::add_means(const std::vector<Prediction>& at, const BinVarianc
       reinterpret_cast<const double*>(errors.error.data()), columns.rows());
   Eigen::VectorXd slope = 2. * columns.transpose() * error;
   Eigen::MatrixXd curvature = 2. * columns.transpose() * columns;
-  remove_unknowns(at, s, columns, curvature);
+  remove_unknowns(nuisances, columns, curvature);
   terms.project(columns, slope, curvature);
   gradient(of_chain_) += slope;
   information(of_chain_, of_chain_) += curvature;
@@ -365,7 +380,9 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
   const ModelDiscrepancy::Solution terms = discrepancy(x, errors);
   gradient.setZero(x.size());
   information.setZero(x.size(), x.size());
-  add_means(at, s, errors, terms, derivatives, gradient, information);
+  const Nuisances nuisances = nuisances_of(at, s);
+  add_means(nuisances, errors, terms, derivatives, gradient, information);
+  add_nuisances(nuisances, derivatives.nuisance_variance, gradient, information);
   add_variances(x, at, s, errors, terms, derivatives, gradient, information);
   Eigen::VectorXd slope = Eigen::VectorXd::Zero(x.size());
   slope(of_chain_) = derivatives.acceleration;
@@ -385,15 +402,36 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
   }
 }
 
-/// Projects the per-record nuisance parameters out of the information and of the columns.
-void FitPosterior::remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
-                                   Eigen::MatrixXd& columns, Eigen::MatrixXd& information) const {
+FitPosterior::Nuisances FitPosterior::nuisances_of(const std::vector<Prediction>& at,
+                                                   const BinVariances& s) const {
+  Nuisances out;
+  for (std::size_t r = 0; r < at.size(); ++r)
+    out.emplace_back(at[r].unknowns, difference(experiment_.records[r].moment, at[r].mean), s[r]);
+  return out;
+}
+
+void FitPosterior::add_nuisances(const Nuisances& nuisances, const Eigen::MatrixXd& log_variance,
+                                 Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const {
+  if (log_variance.rows() != count(nuisances)) return;
   Eigen::Index first = 0;
-  for (std::size_t r = 0; r < at.size(); ++r) {
-    const auto n_rows = static_cast<Eigen::Index>(2 * s[r].size());
-    const IntegratedNuisances unknowns(at[r].unknowns,
-                                       difference(experiment_.records[r].moment, at[r].mean), s[r]);
-    if (unknowns.any()) {
+  for (const IntegratedNuisances& of_record : nuisances) {
+    if (!of_record.any()) continue;
+    const Eigen::VectorXd share = of_record.determined_share();
+    const auto columns = log_variance.middleRows(first, share.size());
+    gradient(of_chain_) += columns.transpose() * of_record.slope_of_variance();
+    information(of_chain_, of_chain_) +=
+        0.5 * columns.transpose() * share.cwiseAbs2().asDiagonal() * columns;
+    first += share.size();
+  }
+}
+
+/// Projects the per-record nuisance parameters out of the information and of the columns.
+void FitPosterior::remove_unknowns(const Nuisances& nuisances, Eigen::MatrixXd& columns,
+                                   Eigen::MatrixXd& information) const {
+  Eigen::Index first = 0;
+  for (std::size_t r = 0; r < nuisances.size(); ++r) {
+    const auto n_rows = static_cast<Eigen::Index>(2 * experiment_.records[r].n_bins());
+    if (const IntegratedNuisances& unknowns = nuisances[r]; unknowns.any()) {
       const Eigen::MatrixXd overlap =
           2. * columns.middleRows(first, n_rows).transpose() * unknowns.whitened_shapes();
       const Eigen::MatrixXd weighed = unknowns.covariance() * overlap.transpose();

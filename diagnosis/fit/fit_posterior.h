@@ -16,10 +16,11 @@ namespace vibrissa::diagnosis {
 inline constexpr std::size_t power_reach = 10;
 
 /// Derivatives by the free parameters of the chain (FitPosterior::chain_parameters(), a column
-/// each): of the mean (real and imaginary parts in turn) [N m], of its variance [(N m)^2], and of
-/// the accelerometer's variance [(m/s^2)^2].
+/// each): of the mean with the most probable per-record nuisance parameters (real and imaginary
+/// parts in turn) [N m], of its variance [(N m)^2], of the logarithms of the nuisance parameters'
+/// variances (of all records in turn), and of the accelerometer's variance [(m/s^2)^2].
 struct Derivatives {
-  Eigen::MatrixXd mean, variance;
+  Eigen::MatrixXd mean, variance, nuisance_variance;
   Eigen::VectorXd acceleration;
 };
 
@@ -66,6 +67,7 @@ class FitPosterior {
 
  private:
   using BinVariances = std::vector<std::vector<double>>;  // [record][bin]
+  using Nuisances = std::vector<IntegratedNuisances>;     // of each record
 
   /// Does the last parameter scale the form errors of effects?
   bool has_form_errors() const {
@@ -80,7 +82,7 @@ class FitPosterior {
 
   /// Derivatives from the predictions of a chain after a step h of one parameter.
   void set_derivative(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
-                      const BinVariances& s, const Chain& moved,
+                      const BinVariances& s, const Nuisances& nuisances, const Chain& moved,
                       const std::vector<Prediction>& there, double h, Eigen::Index column,
                       Derivatives& out) const;
   /// Derivatives of the total variance divided by it, by the parameters of the chain and then by
@@ -90,12 +92,13 @@ class FitPosterior {
                                     const Derivatives& derivatives) const;
   Eigen::VectorXd level_column(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                                const BinVariances& s, Eigen::Index index) const;
-  /// Parts of linearise(): what the means tell about the parameters of the chain, and what the
-  /// variances tell about all free ones.
-  void add_means(const std::vector<Prediction>& at, const BinVariances& s,
-                 const WhitenedErrors& errors, const ModelDiscrepancy::Solution& terms,
-                 const Derivatives& derivatives, Eigen::VectorXd& gradient,
-                 Eigen::MatrixXd& information) const;
+  /// Parts of linearise(): what the means and the sizes of the nuisance parameters tell about the
+  /// parameters of the chain, and what the variances tell about all free ones.
+  void add_means(const Nuisances& nuisances, const WhitenedErrors& errors,
+                 const ModelDiscrepancy::Solution& terms, const Derivatives& derivatives,
+                 Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
+  void add_nuisances(const Nuisances& nuisances, const Eigen::MatrixXd& log_variance,
+                     Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
   void add_variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                      const BinVariances& s, const WhitenedErrors& errors,
                      const ModelDiscrepancy::Solution& terms, const Derivatives& derivatives,
@@ -104,8 +107,9 @@ class FitPosterior {
                          Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
   BinVariances variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                          double acceleration_variance) const;
-  void remove_unknowns(const std::vector<Prediction>& at, const BinVariances& s,
-                       Eigen::MatrixXd& columns, Eigen::MatrixXd& information) const;
+  Nuisances nuisances_of(const std::vector<Prediction>& at, const BinVariances& s) const;
+  void remove_unknowns(const Nuisances& nuisances, Eigen::MatrixXd& columns,
+                       Eigen::MatrixXd& information) const;
   WhitenedErrors whitened_errors(const std::vector<Prediction>& at, const BinVariances& s) const;
   ModelDiscrepancy::Solution discrepancy(const Eigen::VectorXd& x,
                                          const WhitenedErrors& whitened) const;

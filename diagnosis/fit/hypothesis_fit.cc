@@ -65,6 +65,15 @@ void set_effect(const std::vector<FitParameter>& fit_parameters, const Effect& e
   clamp(fit_parameters, x);
 }
 
+void scale_stiffness(const std::vector<FitParameter>& fit_parameters, const double ratio,
+                     Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < fit_parameters.size(); ++i)
+    if (const Effect* effect = fit_parameters[i].effect;
+        effect != nullptr && effect->id == "stiffness" && fit_parameters[i].parameter == 0)
+      x(static_cast<Eigen::Index>(i)) += std::log(ratio);
+  clamp(fit_parameters, x);
+}
+
 /// All combinations of the starts of the effects that the given start does not contain.
 std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
                                            const std::vector<FitParameter>& fit_parameters,
@@ -79,6 +88,10 @@ std::vector<Eigen::VectorXd> start_vectors(const Experiment& experiment,
       for (const std::vector<double>& values : effect->starts) {
         more.push_back(x);
         set_effect(fit_parameters, *effect, values, more.back());
+        if (effect->equivalent_stiffness) {
+          more.push_back(more.back());
+          scale_stiffness(fit_parameters, 1. / effect->equivalent_stiffness(values), more.back());
+        }
       }
     starts = std::move(more);
   }
@@ -457,7 +470,6 @@ std::vector<WhitenedRecord> whitened_residual(const Experiment& experiment,
       const double deviation = std::sqrt(fitted.variance[b]);
       records[r].deviation.push_back(deviation);
       records[r].error.push_back(error[b] / deviation);
-      records[r].own_share.push_back(fitted.process_noise[b] / fitted.variance[b]);
     }
   }
   return records;

@@ -63,6 +63,12 @@ struct RecordView {
 /// Variance E|N_k|^2 of the bins k = 1 .. of an unscaled DFT [(N m)^2], added to variance.
 using NoiseSource = std::function<void(const RecordView&, std::span<double> variance)>;
 
+/// A sine in the reading, whose cosine and sine parts are independent and normal in each record.
+struct Tone {
+  double amplitude = 0.;  // sqrt(2) times the root mean square [N m]
+  double frequency_hz = 0.;
+};
+
 /// The measuring chain from the readings of the reference accelerometer and the anemometer to the
 /// reading of the moment sensor: reference -> mount -> structure <- wind; structure -> sensor ->
 /// clock. Effects extend it; without effects it is the nominal model.
@@ -103,6 +109,7 @@ struct Chain {
   std::vector<NoiseSource> noise{};
   /// Variance per second of a random walk's rise between a record's start and end [(N m)^2 / s].
   double ramp_variance_rate = 0.;
+  std::vector<Tone> tones{};
 };
 
 }  // namespace vibrissa::diagnosis

@@ -114,6 +114,11 @@ struct Effect {
   /// fit; a fit also begins from the most similar one at its best size. For basins that are too
   /// narrow for starts, and for effects so weak that every start is too strong.
   std::vector<std::vector<double>> scanned{};
+  /// Stiffness of the equivalent linear spring over the nominal one, under random motion whose peak
+  /// (Scales::joint_moment_n_m) is three times its root mean square. Fits begin with the measured
+  /// resonance, too: with the stiffness divided by it. Roberts and Spanos 1990, *Random Vibration
+  /// and Statistical Linearization*, ch. 5.
+  std::function<double(std::span<const double> values)> equivalent_stiffness{};
   /// Extends a chain; values are those of the parameters, not x.
   std::function<void(Chain&, std::span<const double> values, const Scales&)> extend{};
 };

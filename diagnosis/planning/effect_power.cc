@@ -197,7 +197,8 @@ class PowerStudy {
       FaintStart start{.change = change_at(family, *effect.effect, faint_share)};
       Chain chain{.structure = point_.experiment().nominal};
       effect.effect->extend(chain, family.values(faint_share), point_.experiment().scales);
-      start.of_variance = !chain.noise.empty() || chain.reference_variance > 0.;
+      start.of_variance =
+          !chain.noise.empty() || !chain.tones.empty() || chain.reference_variance > 0.;
       effect.faint.push_back(std::move(start));
     }
   }

@@ -77,15 +77,17 @@ ReferencePoint::State ReferencePoint::state_of(const Chain& chain, const Eigen::
                    std::exp(2. * x(index_of_acceleration_noise)) + chain.reference_variance;
   State out{Eigen::VectorXd(2 * n), Eigen::VectorXd(n), {}};
   Eigen::Index row = 0;
-  for (const Prediction& there : ChainSimulator(chain).predict(experiment_.records))
+  for (const Prediction& there : ChainSimulator(chain).predict(experiment_.records)) {
+    const std::vector<double> own = own_noise(there);
     for (std::size_t b = 0; b < there.mean.size(); ++b, ++row) {
       const double deviation = deviation_[static_cast<std::size_t>(row)];
       out.mean(2 * row) = there.mean[b].real() / deviation;
       out.mean(2 * row + 1) = there.mean[b].imag() / deviation;
-      out.noise(row) = (moment * there.moment_noise[b] +
-                        acceleration * there.acceleration_noise[b] + there.process_noise[b]) /
-                       (deviation * deviation);
+      out.noise(row) =
+          (moment * there.moment_noise[b] + acceleration * there.acceleration_noise[b] + own[b]) /
+          (deviation * deviation);
     }
+  }
   std::vector<double> at_rest;
   for (const PreparedRecord& record : experiment_.records)
     if (record.n_acceleration_noise > 0)

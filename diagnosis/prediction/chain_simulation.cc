@@ -209,6 +209,10 @@ std::vector<RecordNuisance> ChainSimulator::unknowns_of(const PreparedRecord& re
   if (chain_.ramp_variance_rate > 0.)
     out.push_back(
         unknown_ramp(chain_.ramp_variance_rate * evaluated_s, record.n_evaluated, record.n_bins()));
+  for (const Tone& tone : chain_.tones)
+    for (RecordNuisance& part :
+         unknown_tone(tone, record.sampling_rate_hz, record.n_evaluated, record.n_bins()))
+      out.push_back(std::move(part));
   const double age = chain_.new_sample_share * record.unknown_age_s;
   if (age > 0.) {
     const std::vector<LinearPart>& lines = response_.lines(record);
@@ -265,22 +269,42 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
   return prediction;
 }
 
-std::vector<std::vector<Prediction>> predict_together(std::span<const Chain> chains,
-                                                      std::span<const PreparedRecord> records,
-                                                      const std::span<const Prediction> near) {
-  std::vector<ChainSimulator> simulators(chains.begin(), chains.end());
-  std::vector<ChainSimulator::Begun> begun;
+std::vector<double> own_noise(const Prediction& prediction) {
+  std::vector<double> out = prediction.process_noise;
+  for (const RecordNuisance& unknown : prediction.unknowns)
+    for (std::size_t b = 0; b < out.size(); ++b)
+      out[b] += unknown.variance * std::norm(unknown.shape[b]);
+  return out;
+}
+
+/// The chains from the first one on that are predicted at a time; returns the next one.
+std::size_t ChainSimulator::predict_group(const std::span<const Chain> chains,
+                                          const std::size_t first,
+                                          const std::span<const PreparedRecord> records,
+                                          const std::span<const Prediction> near,
+                                          const PredictionUser& use) {
+  constexpr std::size_t n_together = 4;  // more exceed the caches
+  const auto group = chains.subspan(first, std::min(n_together, chains.size() - first));
+  std::vector<ChainSimulator> simulators(group.begin(), group.end());
+  std::vector<Begun> begun;
   std::vector<DynamicTask> tasks;
   for (ChainSimulator& simulator : simulators) {
     begun.push_back(simulator.begin(records));
     tasks.push_back(std::move(begun.back().task));
   }
   const auto dynamic = dynamic_parts(tasks);
-  std::vector<std::vector<Prediction>> out;
   for (std::size_t i = 0; i < simulators.size(); ++i)
-    out.push_back(simulators[i].predictions(
-        records, simulators[i].finish(records, std::move(begun[i]), dynamic[i], near)));
-  return out;
+    use(first + i,
+        simulators[i].predictions(
+            records, simulators[i].finish(records, std::move(begun[i]), dynamic[i], near)));
+  return first + group.size();
+}
+
+void predict_together(const std::span<const Chain> chains,
+                      const std::span<const PreparedRecord> records,
+                      const std::span<const Prediction> near, const PredictionUser& use) {
+  for (std::size_t first = 0; first < chains.size();)
+    first = ChainSimulator::predict_group(chains, first, records, near, use);
 }
 
 Prediction simulate(const Chain& chain, const PreparedRecord& record) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -27,6 +28,12 @@ struct Prediction {
       sweep{};  // of a response that is not proportional to its drive
 };
 
+/// Variance of each bin by the process noise and the per-record nuisance parameters [(N m)^2].
+std::vector<double> own_noise(const Prediction& prediction);
+
+/// Takes the number of a chain, and its predictions of all records.
+using PredictionUser = std::function<void(std::size_t chain, const std::vector<Prediction>&)>;
+
 /// Predicts records under one chain, which must outlive it. Linear parts exactly for band-limited
 /// inputs, by transfer functions at the lines of the record (its start, where the circular
 /// continuation is wrong, is not evaluated); the contributions of joint laws and relative wind are
@@ -49,9 +56,12 @@ class ChainSimulator {
     std::vector<std::size_t> indices{};  // of the records of the task
     DynamicTask task{};
   };
-  friend std::vector<std::vector<Prediction>> predict_together(
-      std::span<const Chain> chains, std::span<const PreparedRecord> records,
-      std::span<const Prediction> near);
+  static std::size_t predict_group(std::span<const Chain> chains, std::size_t first,
+                                   std::span<const PreparedRecord> records,
+                                   std::span<const Prediction> near, const PredictionUser& use);
+  friend void predict_together(std::span<const Chain> chains,
+                               std::span<const PreparedRecord> records,
+                               std::span<const Prediction> near, const PredictionUser& use);
 
   Begun begin(std::span<const PreparedRecord> records);
   Spectra finish(std::span<const PreparedRecord> records, Begun begun,
@@ -74,14 +84,11 @@ class ChainSimulator {
   std::map<std::size_t, std::shared_ptr<const SweepStates>> sweeps_{};  // by number of the record
 };
 
-/// Number of chains from which on more at a time exceed the caches.
-inline constexpr std::size_t n_together = 4;
-
-/// Predictions of each chain, as ChainSimulator::predict but faster. near: predictions of a chain
-/// that hardly differs, whose branches responses stay on; may be empty.
-std::vector<std::vector<Prediction>> predict_together(std::span<const Chain> chains,
-                                                      std::span<const PreparedRecord> records,
-                                                      std::span<const Prediction> near = {});
+/// Predictions of each chain, as ChainSimulator::predict but faster, given to use() in their order.
+/// near: predictions of a chain that hardly differs, whose branches responses stay on; may be
+/// empty.
+void predict_together(std::span<const Chain> chains, std::span<const PreparedRecord> records,
+                      std::span<const Prediction> near, const PredictionUser& use);
 
 /// Prediction of one record.
 Prediction simulate(const Chain& chain, const PreparedRecord& record);

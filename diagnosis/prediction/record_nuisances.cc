@@ -3,17 +3,11 @@
 #include <Eigen/Cholesky>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace vibrissa::diagnosis {
 namespace {
-
-std::vector<const RecordNuisance*> those_there(const std::span<const RecordNuisance> unknowns) {
-  std::vector<const RecordNuisance*> out;
-  for (const RecordNuisance& unknown : unknowns)
-    if (unknown.variance > 0.) out.push_back(&unknown);
-  return out;
-}
 
 /// Divided by the bins' standard deviations, real and imaginary parts in turn.
 Eigen::VectorXd whitened(const std::span<const Complex> values,
@@ -41,18 +35,40 @@ RecordNuisance unknown_ramp(const double variance, const std::size_t n_samples,
   return out;
 }
 
+std::array<RecordNuisance, 2> unknown_tone(const Tone& tone, const double sampling_rate_hz,
+                                           const std::size_t n_samples, const std::size_t n_bins) {
+  const double variance = 0.5 * tone.amplitude * tone.amplitude, n = static_cast<double>(n_samples),
+               angle = 2. * std::numbers::pi * tone.frequency_hz / sampling_rate_hz;
+  std::array<RecordNuisance, 2> out{RecordNuisance{variance, std::vector<Complex>(n_bins)},
+                                    RecordNuisance{variance, std::vector<Complex>(n_bins)}};
+  // Sum of exp(j per_sample i) over the samples.
+  const auto sum = [n](const double per_sample) -> Complex {
+    const double half = 0.5 * per_sample, sine = std::sin(half);
+    const double size = std::abs(sine) < 1e-12 ? n : std::sin(n * half) / sine;
+    return std::polar(1., (n - 1.) * half) * size;
+  };
+  for (std::size_t b = 0; b < n_bins; ++b) {
+    const double bin = 2. * std::numbers::pi * static_cast<double>(b + 1) / n;
+    const Complex forth = sum(angle - bin), back = sum(-angle - bin);
+    out[0].shape[b] = 0.5 * (forth + back);
+    out[1].shape[b] = Complex(0., -0.5) * (forth - back);
+  }
+  return out;
+}
+
 IntegratedNuisances::IntegratedNuisances(const std::span<const RecordNuisance> unknowns,
                                          const std::span<const Complex> error,
                                          const std::span<const double> variance)
-    : there_(those_there(unknowns)) {
-  const auto n = static_cast<Eigen::Index>(there_.size());
+    : unknowns_(unknowns) {
+  const auto n = static_cast<Eigen::Index>(unknowns.size());
   if (n == 0) return;
   shapes_.resize(2 * static_cast<Eigen::Index>(variance.size()), n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    shapes_.col(i) = whitened(there_[static_cast<std::size_t>(i)]->shape, variance);
   Eigen::VectorXd deviation(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    deviation(i) = std::sqrt(there_[static_cast<std::size_t>(i)]->variance);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const RecordNuisance& unknown = unknowns[static_cast<std::size_t>(i)];
+    shapes_.col(i) = whitened(unknown.shape, variance);
+    deviation(i) = std::sqrt(unknown.variance);
+  }
   // Parameters are scaled by their standard deviations, because their sizes differ.
   const Eigen::MatrixXd scaled = shapes_ * deviation.asDiagonal();
   const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd::Identity(n, n) +
@@ -64,16 +80,44 @@ IntegratedNuisances::IntegratedNuisances(const std::span<const RecordNuisance> u
 }
 
 double IntegratedNuisances::log_likelihood_gain() const {
-  if (there_.empty()) return 0.;
+  if (!any()) return 0.;
   return 0.5 * score_.dot(covariance_ * score_) - 0.5 * log_determinant_;
 }
 
 void IntegratedNuisances::remove_from(const std::span<Complex> error) const {
-  if (there_.empty()) return;
+  if (!any()) return;
   const Eigen::VectorXd values = mean();
-  for (std::size_t i = 0; i < there_.size(); ++i)
+  for (std::size_t i = 0; i < unknowns_.size(); ++i)
     for (std::size_t b = 0; b < error.size(); ++b)
-      error[b] -= values(static_cast<Eigen::Index>(i)) * there_[i]->shape[b];
+      error[b] -= values(static_cast<Eigen::Index>(i)) * unknowns_[i].shape[b];
+}
+
+std::vector<Complex> IntegratedNuisances::change_to(
+    const std::span<const RecordNuisance> moved) const {
+  assert(moved.size() == unknowns_.size());
+  const Eigen::VectorXd values = mean();
+  std::vector<Complex> out(unknowns_.front().shape.size(), 0.);
+  for (std::size_t i = 0; i < unknowns_.size(); ++i)
+    for (std::size_t b = 0; b < out.size(); ++b)
+      out[b] += values(static_cast<Eigen::Index>(i)) * (moved[i].shape[b] - unknowns_[i].shape[b]);
+  return out;
+}
+
+Eigen::VectorXd IntegratedNuisances::slope_of_variance() const {
+  Eigen::VectorXd out = mean().cwiseAbs2() - variances() + covariance_.diagonal();
+  return 0.5 * out.cwiseQuotient(variances().cwiseMax(std::numeric_limits<double>::min()));
+}
+
+Eigen::VectorXd IntegratedNuisances::determined_share() const {
+  return (variances() - covariance_.diagonal())
+      .cwiseQuotient(variances().cwiseMax(std::numeric_limits<double>::min()));
+}
+
+Eigen::VectorXd IntegratedNuisances::variances() const {
+  Eigen::VectorXd out(std::ssize(unknowns_));
+  for (Eigen::Index i = 0; i < out.size(); ++i)
+    out(i) = unknowns_[static_cast<std::size_t>(i)].variance;
+  return out;
 }
 
 }  // namespace vibrissa::diagnosis

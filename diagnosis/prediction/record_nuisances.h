@@ -1,10 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
-#include "diagnosis/model/nominal_model.h"
+#include "diagnosis/model/chain.h"
 
 namespace vibrissa::diagnosis {
 
@@ -19,6 +20,11 @@ struct RecordNuisance {
 /// a record of n_samples. variance: of the rise [(N m)^2].
 RecordNuisance unknown_ramp(double variance, std::size_t n_samples, std::size_t n_bins);
 
+/// Cosine and sine parts of a tone over n_samples, each of half the square of its amplitude as
+/// variance. Bins: sums of geometric series (Harris 1978, leakage of a line).
+std::array<RecordNuisance, 2> unknown_tone(const Tone& tone, double sampling_rate_hz,
+                                           std::size_t n_samples, std::size_t n_bins);
+
 /// The per-record nuisance parameters, estimated from one record's errors [N m] in independent bins
 /// with these variances, and integrated out: the likelihood has the full covariance S + sum
 /// variance shape shape'. Proven by tests/diagnosis/prediction/record_nuisances_test.cc.
@@ -29,18 +35,28 @@ class IntegratedNuisances {
 
   /// Log likelihood relative to that of independent bins.
   double log_likelihood_gain() const;
-  bool any() const { return !there_.empty(); }
+  bool any() const { return !unknowns_.empty(); }
+  Eigen::Index size() const { return std::ssize(unknowns_); }
   /// Shapes divided by the standard deviations of the bins, real and imaginary parts in turn: one
-  /// column per parameter of variance above 0.
+  /// column per parameter.
   const Eigen::MatrixXd& whitened_shapes() const { return shapes_; }
   /// Posterior mean of the parameters, given the errors.
   Eigen::VectorXd mean() const { return covariance_ * score_; }
   const Eigen::MatrixXd& covariance() const { return covariance_; }
   /// Subtracts the most probable addition.
   void remove_from(std::span<Complex> error) const;
+  /// The change of the most probable addition when the shapes become those of others.
+  std::vector<Complex> change_to(std::span<const RecordNuisance> moved) const;
+  /// Derivatives of the log likelihood by the logarithms of the variances (Fisher's identity: mean
+  /// of those of the log prior).
+  Eigen::VectorXd slope_of_variance() const;
+  /// Share of each variance that the record's data take away.
+  Eigen::VectorXd determined_share() const;
 
  private:
-  std::vector<const RecordNuisance*> there_;  // of variance above 0
+  Eigen::VectorXd variances() const;
+
+  std::span<const RecordNuisance> unknowns_;
   Eigen::MatrixXd shapes_, covariance_;
   Eigen::VectorXd score_;
   double log_determinant_ = 0.;  // of 1 + variance times information

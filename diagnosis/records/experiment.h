@@ -72,7 +72,6 @@ struct PreparedRecord {
 struct WhitenedRecord {
   std::vector<Complex> error;     // (measured - mean) / sqrt(variance)
   std::vector<double> deviation;  // sqrt(variance) [N m]
-  std::vector<double> own_share;  // share of process noise in the variance
 };
 
 /// Samples of a record's evaluated part from its bins (as PreparedRecord::moment), without the mean

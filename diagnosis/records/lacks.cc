@@ -13,14 +13,16 @@ bool acts_without_modes(const Effect& effect) {
            chain.wind.empty() && chain.drag_factor == 1. && chain.feedthrough.empty() &&
            chain.cross.empty() && chain.readout.empty() && chain.sensor.empty() &&
            chain.clock_rate_error == 0. && chain.new_sample_share == 0. &&
-           chain.reference_variance == 0. && chain.noise.empty() && chain.ramp_variance_rate == 0.);
+           chain.reference_variance == 0. && chain.noise.empty() &&
+           chain.ramp_variance_rate == 0. && chain.tones.empty());
 }
 
 /// Does the effect change anything in a steady state under a sine?
 bool acts_on_responses(const Effect& effect) {
   const Chain chain = probe(effect, NominalModel{.modes = {StructuralMode{.frequency_rad_s = 1.}}});
   return chain.clock_rate_error == 0. && chain.new_sample_share == 0. &&
-         chain.reference_variance == 0. && chain.noise.empty() && chain.ramp_variance_rate == 0.;
+         chain.reference_variance == 0. && chain.noise.empty() && chain.ramp_variance_rate == 0. &&
+         chain.tones.empty();
 }
 
 double moved_seconds(const Experiment& experiment) {

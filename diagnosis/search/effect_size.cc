@@ -7,6 +7,7 @@
 
 #include "diagnosis/prediction/chain_simulation.h"
 #include "diagnosis/records/experiment.h"
+#include "diagnosis/records/spectrum.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -44,7 +45,7 @@ bool vanishes(const Effect& effect, const std::vector<double>& values) {
   const Chain nominal{.structure = experiment.nominal, .joint_share = 0.7};
   Chain chain = nominal;
   effect.extend(chain, values, experiment.scales);
-  if (chain.reference_variance > 0. || chain.ramp_variance_rate > 0.) return false;
+  if (chain.reference_variance > 0.) return false;
   const PreparedRecord& record = experiment.records.front();
   const Prediction without = simulate(nominal, record), with = simulate(chain, record);
   double difference = 0., power = 0.;
@@ -52,6 +53,8 @@ bool vanishes(const Effect& effect, const std::vector<double>& values) {
     difference += std::norm(with.mean[b] - without.mean[b]) + with.process_noise[b];
     power += std::norm(without.mean[b]);
   }
+  for (const RecordNuisance& unknown : with.unknowns)
+    difference += unknown.variance * total_power(unknown.shape);
   return difference < rounding * rounding * power;
 }
 

@@ -28,7 +28,12 @@ struct Overlap {
   double cross = 0., own = 0., residual = 0.;
   std::vector<NoisyBin> noisy{};
   std::vector<Addition> additions{};
-  double of_mean() const { return own > 0. ? 2. * std::min(cross * cross / own, residual) : 0.; }
+  /// Gain in twice the log likelihood when the noise levels follow what is left.
+  double of_mean() const {
+    constexpr double least_left = 1e-6;
+    if (!(own > 0.)) return 0.;
+    return -2. * residual * std::log(std::max(least_left, 1. - cross * cross / (own * residual)));
+  }
 
   /// Gain in twice the log likelihood by a multiple of the new noise's variance.
   double of_noise(double multiple) const {
@@ -130,9 +135,11 @@ struct FitResidual::State {
     std::vector<Chain> extended;
     for (const std::vector<double>& values : tried)
       effect.extend(extended.emplace_back(chain), values, experiment.scales);
-    const auto moved = predict_together(extended, experiment.records);
     std::vector<Overlap> out;
-    for (std::size_t i = 0; i < extended.size(); ++i) out.push_back(overlap(extended[i], moved[i]));
+    predict_together(extended, experiment.records, {},
+                     [&](const std::size_t i, const std::vector<Prediction>& moved) {
+                       out.push_back(overlap(extended[i], moved));
+                     });
     return out;
   }
 
@@ -173,12 +180,9 @@ FitResidual::~FitResidual() = default;
 Resemblance FitResidual::resemblance(const Effect& effect,
                                      const std::vector<std::vector<double>>& tried) const {
   Resemblance best;
-  std::vector<Overlap> sums;
+  const std::vector<Overlap> overlaps = state_->overlaps(effect, tried);
   for (std::size_t i = 0; i < tried.size(); ++i) {
-    if (i % n_together == 0)
-      sums = state_->overlaps(effect,
-                              std::span(tried).subspan(i, std::min(n_together, tried.size() - i)));
-    const Overlap& sum = sums[i % n_together];
+    const Overlap& sum = overlaps[i];
     const double multiple = sum.best_multiple(), of_mean = sum.of_mean(),
                  of_noise = sum.of_noise(multiple), gain = std::max(of_mean, of_noise);
     if (!(gain > best.gain)) continue;

@@ -189,7 +189,8 @@ Attribution attribute_gap(const Experiment& fitted_on, const Experiment& records
   if (!(reducible > 0.)) return out;
   out.reducible = std::pow(score.nrmse_before, 2) - std::pow(score.noise_floor, 2);
   const double left = errors.with(std::vector<bool>(n, true)).sum();
-  out.unexplained = std::max(0., (left - noise) / reducible);
+  out.unexplained = std::max(
+      0., (std::pow(score.nrmse_after, 2) - std::pow(score.irreducible_floor, 2)) / out.reducible);
   const std::vector<std::size_t> players = players_of(errors, reducible);
   const std::vector<double> shares =
       shares_in(errors, players, Weights::Ones(before.size()), reducible);

@@ -159,11 +159,9 @@ class Reduction {
     for (const PreparedRecord& record : experiment_.records) {
       if (record.is_still()) continue;
       const Prediction prediction = std::move(simulator.predict({&record, 1}).front());
-      for (std::size_t b = 0; b < prediction.mean.size(); ++b)
-        sum += prediction.process_noise[b] +
-               chain.reference_variance * prediction.acceleration_noise[b];
-      for (const RecordNuisance& unknown : prediction.unknowns)
-        sum += unknown.variance * total_power(unknown.shape);
+      const std::vector<double> own = own_noise(prediction);
+      for (std::size_t b = 0; b < own.size(); ++b)
+        sum += own[b] + chain.reference_variance * prediction.acceleration_noise[b];
     }
     return sum;
   }

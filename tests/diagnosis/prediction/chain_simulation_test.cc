@@ -330,7 +330,10 @@ TEST(SimulateChain, ChainsPredictedTogetherAreAsEachAlone) {
     for (const char* id : ids)
       find_effect(id).extend(chains.back(), find_effect(id).starts.front(), experiment.scales);
   }
-  const auto together = predict_together(chains, experiment.records);
+  std::vector<std::vector<Prediction>> together;
+  predict_together(
+      chains, experiment.records, {},
+      [&](std::size_t, const std::vector<Prediction>& there) { together.push_back(there); });
   for (std::size_t i = 0; i < chains.size(); ++i) {
     const auto alone = ChainSimulator(chains[i]).predict(experiment.records);
     for (std::size_t r = 0; r < alone.size(); ++r) {

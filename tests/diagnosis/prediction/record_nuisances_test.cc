@@ -92,6 +92,69 @@ TEST(IntegratedNuisances, OfNoVarianceAreNothing) {
   EXPECT_EQ(d.error, before);
 }
 
+/// Central difference of the log likelihood by the logarithm of one variance.
+double slope_of_gain(const Drawn& d, const std::size_t i) {
+  constexpr double h = 1e-4;
+  const auto gain = [&](const double log_factor) {
+    Drawn there = d;
+    there.unknowns[i].variance *= std::exp(log_factor);
+    return IntegratedNuisances(there.unknowns, there.error, there.variance).log_likelihood_gain();
+  };
+  return (gain(h) - gain(-h)) / (2. * h);
+}
+
+TEST(IntegratedNuisances, TellTheSlopeByTheirVariances) {
+  const Drawn d = drawn(2);
+  const Eigen::VectorXd slope =
+      IntegratedNuisances(d.unknowns, d.error, d.variance).slope_of_variance();
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(slope(static_cast<Eigen::Index>(i)), slope_of_gain(d, i), 1e-6) << i;
+}
+
+TEST(IntegratedNuisances, DetermineAVarianceThatIsLoudAndNotOneThatIsSilent) {
+  Drawn d = drawn(2);
+  d.unknowns[0].variance = 1e6;
+  d.unknowns[1].variance = 0.;
+  const IntegratedNuisances unknowns(d.unknowns, d.error, d.variance);
+  EXPECT_NEAR(unknowns.determined_share()(0), 1., 1e-5);
+  EXPECT_EQ(unknowns.determined_share()(1), 0.);
+  EXPECT_EQ(unknowns.slope_of_variance()(1), 0.);
+}
+
+TEST(IntegratedNuisances, FollowOtherShapes) {
+  const Drawn d = drawn(2), other = drawn(3);
+  const IntegratedNuisances unknowns(d.unknowns, d.error, d.variance);
+  const std::vector<RecordNuisance> moved{other.unknowns[1], other.unknowns[2]};
+  const std::vector<Complex> change = unknowns.change_to(moved);
+  for (std::size_t b = 0; b < change.size(); ++b) {
+    const Complex expected = unknowns.mean()(0) * (moved[0].shape[b] - d.unknowns[0].shape[b]) +
+                             unknowns.mean()(1) * (moved[1].shape[b] - d.unknowns[1].shape[b]);
+    EXPECT_LT(std::abs(change[b] - expected), 1e-12) << b;
+  }
+}
+
+TEST(UnknownTone, IsTheSpectrumOfACosineAndASine) {
+  constexpr std::size_t n = 64;
+  constexpr double rate_hz = 500.;
+  for (const double hz : {50.3, 62.5}) {  // between two bins and on one
+    const auto parts = unknown_tone({2., hz}, rate_hz, n, n / 2 - 1);
+    EXPECT_EQ(parts[0].variance, 2.);
+    EXPECT_EQ(parts[1].variance, 2.);
+    for (std::size_t b = 0; b < n / 2 - 1; ++b) {
+      Complex cosine = 0., sine = 0.;
+      for (std::size_t k = 0; k < n; ++k) {
+        const double phase = 2. * std::numbers::pi * hz * static_cast<double>(k) / rate_hz;
+        const Complex turn =
+            std::polar(1., -2. * std::numbers::pi * static_cast<double>((b + 1) * k) / n);
+        cosine += std::cos(phase) * turn;
+        sine += std::sin(phase) * turn;
+      }
+      EXPECT_LT(std::abs(parts[0].shape[b] - cosine), 1e-9) << hz << " Hz, bin " << b;
+      EXPECT_LT(std::abs(parts[1].shape[b] - sine), 1e-9) << hz << " Hz, bin " << b;
+    }
+  }
+}
+
 TEST(UnknownRamp, IsTheSpectrumOfALine) {
   constexpr std::size_t n = 64;
   const RecordNuisance ramp = unknown_ramp(2., n, n / 2 - 1);

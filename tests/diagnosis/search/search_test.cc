@@ -93,6 +93,35 @@ TEST(Search, NamesAPairOfStrongEffects) {
   EXPECT_EQ(search(experiment_of(rig)).candidates.front().name, "delay+hardening");
 }
 
+TEST(Search, NamesADelayOfASample) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.delay_s = 2e-3;
+  EXPECT_EQ(search(experiment_of(rig)).candidates.front().name, "delay");
+}
+
+TEST(Search, NamesAToneThatIsLoud) {
+  // Its leakage is above the noise in all bins.
+  test::OneModeRig rig = test::noisy_rig();
+  rig.hum = 1e-4;
+  const SearchResult result = search(experiment_of(rig));
+  EXPECT_EQ(result.candidates.front().name, "hum");
+  const HypothesisFit& fit = result.fits[result.candidates.front().fit];
+  const auto at = [&](std::size_t parameter) {
+    return fit.x(static_cast<Eigen::Index>(*fit.index("hum", parameter)));
+  };
+  EXPECT_NEAR(std::exp(at(0)), rig.hum, 0.5 * rig.hum);
+  EXPECT_NEAR(at(1), rig.hum_hz, 1e-3);
+}
+
+TEST(Search, FollowsAStrongSpringOnASofterJoint) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.stiffness = 0.8;
+  rig.cubic = 3e7;
+  const SearchResult result = search(experiment_of(rig), {.max_effects = 1});
+  EXPECT_EQ(result.candidates.front().name, "hardening");
+  EXPECT_NEAR(fitted_ratio(result, "stiffness"), 0.8, 0.02);
+}
+
 TEST(Search, EffectsThatAreLeftOutAreNotNamed) {
   test::OneModeRig rig = test::noisy_rig();
   rig.delay_s = 1e-3;
