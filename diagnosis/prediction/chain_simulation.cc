@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
@@ -45,6 +46,32 @@ void paint(std::span<double> variance, const NoiseColour& colour, const Prepared
   if (colour.is_white()) return;
   for (std::size_t b = 0; b < variance.size(); ++b)
     variance[b] *= colour.density(record.frequency_hz(b));
+}
+
+/// The pole of the first mode, from its nominal place on: Newton's method, with a difference as
+/// derivative.
+Complex pole_of(const JointModel& joint) {
+  constexpr int n_steps = 6;
+  constexpr double step = 1e-4;
+  const auto residual = [&](const Complex& s) {
+    return 1. + joint.changed_inertia(s) *
+                    (joint.share / joint.changed_stiffness_ratio(s) + 1. - joint.share);
+  };
+  Complex s = joint.frequency_rad_s * Complex(-joint.damping - 0.5 * joint.share * joint.loss, 1.);
+  for (int i = 0; i < n_steps; ++i) {
+    const double h = step * joint.frequency_rad_s;
+    s -= residual(s) * h / (residual(s + h) - residual(s));
+  }
+  return s;
+}
+
+/// Of a free decay at the first evaluated sample [(N m)^2]: the circular continuation of a record
+/// and its true start differ by twice the variance of the motion.
+double variance_of_start(const PreparedRecord& record, const Complex& pole) {
+  const double n = static_cast<double>(record.n_evaluated),
+               decayed = std::exp(std::min(0., pole.real()) * static_cast<double>(record.first) /
+                                  record.sampling_rate_hz);
+  return 4. * total_power(record.moment) / (n * n) * decayed * decayed;
 }
 
 }  // namespace
@@ -209,10 +236,19 @@ std::vector<RecordNuisance> ChainSimulator::unknowns_of(const PreparedRecord& re
   if (chain_.ramp_variance_rate > 0.)
     out.push_back(
         unknown_ramp(chain_.ramp_variance_rate * evaluated_s, record.n_evaluated, record.n_bins()));
-  for (const Tone& tone : chain_.tones)
-    for (RecordNuisance& part :
-         unknown_tone(tone, record.sampling_rate_hz, record.n_evaluated, record.n_bins()))
+  const auto add_wave = [&](const double variance, const Complex pole) {
+    for (RecordNuisance& part : unknown_wave(variance, pole / record.sampling_rate_hz,
+                                             record.n_evaluated, record.n_bins()))
       out.push_back(std::move(part));
+  };
+  for (const Tone& tone : chain_.tones)
+    add_wave(0.5 * tone.amplitude * tone.amplitude,
+             {0., 2. * std::numbers::pi * tone.frequency_hz});
+  if (response_.joint() && record.first > 0) {
+    const Complex pole = pole_of(*response_.joint());
+    add_wave(variance_of_start(record, pole), pole);
+    for (auto part = out.end() - 2; part != out.end(); ++part) part->of_start = true;
+  }
   const double age = chain_.new_sample_share * record.unknown_age_s;
   if (age > 0.) {
     const std::vector<LinearPart>& lines = response_.lines(record);
@@ -272,7 +308,7 @@ Prediction ChainSimulator::with_noise(const PreparedRecord& record, std::vector<
 std::vector<double> own_noise(const Prediction& prediction) {
   std::vector<double> out = prediction.process_noise;
   for (const RecordNuisance& unknown : prediction.unknowns)
-    for (std::size_t b = 0; b < out.size(); ++b)
+    for (std::size_t b = 0; b < out.size() && !unknown.of_start; ++b)
       out[b] += unknown.variance * std::norm(unknown.shape[b]);
   return out;
 }

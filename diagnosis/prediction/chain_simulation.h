@@ -23,12 +23,12 @@ struct Prediction {
   std::vector<double> moment_noise;        // to be multiplied by the moment's noise variance
   std::vector<double> acceleration_noise;  // to be multiplied by the accelerometer's noise variance
   std::vector<double> process_noise;       // complete
-  std::vector<RecordNuisance> unknowns;    // per-record nuisance parameters: the rise of a drift
+  std::vector<RecordNuisance> unknowns;    // the rise of a drift, a tone, the record's start ...
   std::shared_ptr<const SweepStates>
       sweep{};  // of a response that is not proportional to its drive
 };
 
-/// Variance of each bin by the process noise and the per-record nuisance parameters [(N m)^2].
+/// Variance of each bin by the process noise and by nuisance parameters of effects [(N m)^2].
 std::vector<double> own_noise(const Prediction& prediction);
 
 /// Takes the number of a chain, and its predictions of all records.

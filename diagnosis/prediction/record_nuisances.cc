@@ -35,23 +35,25 @@ RecordNuisance unknown_ramp(const double variance, const std::size_t n_samples,
   return out;
 }
 
-std::array<RecordNuisance, 2> unknown_tone(const Tone& tone, const double sampling_rate_hz,
+std::array<RecordNuisance, 2> unknown_wave(const double variance, const Complex pole_per_sample,
                                            const std::size_t n_samples, const std::size_t n_bins) {
-  const double variance = 0.5 * tone.amplitude * tone.amplitude, n = static_cast<double>(n_samples),
-               angle = 2. * std::numbers::pi * tone.frequency_hz / sampling_rate_hz;
+  constexpr double on_a_bin = 1e-9;  // above the rounding of the products
+  const double n = static_cast<double>(n_samples);
   std::array<RecordNuisance, 2> out{RecordNuisance{variance, std::vector<Complex>(n_bins)},
                                     RecordNuisance{variance, std::vector<Complex>(n_bins)}};
-  // Sum of exp(j per_sample i) over the samples.
-  const auto sum = [n](const double per_sample) -> Complex {
-    const double half = 0.5 * per_sample, sine = std::sin(half);
-    const double size = std::abs(sine) < 1e-12 ? n : std::sin(n * half) / sine;
-    return std::polar(1., (n - 1.) * half) * size;
+  const Complex step = std::exp(pole_per_sample), back = std::conj(step),
+                rest = 1. - std::exp(n * pole_per_sample), back_rest = std::conj(rest),
+                bin = std::polar(1., -2. * std::numbers::pi / n);
+  const auto sum = [n](const Complex& whole, const Complex& per_step) {
+    const Complex gap = 1. - per_step;
+    return std::norm(gap) < on_a_bin * on_a_bin ? Complex(n) : whole / gap;
   };
+  Complex turn = 1.;
   for (std::size_t b = 0; b < n_bins; ++b) {
-    const double bin = 2. * std::numbers::pi * static_cast<double>(b + 1) / n;
-    const Complex forth = sum(angle - bin), back = sum(-angle - bin);
-    out[0].shape[b] = 0.5 * (forth + back);
-    out[1].shape[b] = Complex(0., -0.5) * (forth - back);
+    turn *= bin;
+    const Complex forth = sum(rest, step * turn), conjugate = sum(back_rest, back * turn);
+    out[0].shape[b] = 0.5 * (forth + conjugate);
+    out[1].shape[b] = Complex(0., -0.5) * (forth - conjugate);
   }
   return out;
 }

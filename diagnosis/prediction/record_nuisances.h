@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "diagnosis/model/chain.h"
+#include "diagnosis/model/nominal_model.h"
 
 namespace vibrissa::diagnosis {
 
@@ -14,15 +14,17 @@ namespace vibrissa::diagnosis {
 struct RecordNuisance {
   double variance = 0.;
   std::vector<Complex> shape;  // bins as in PreparedRecord::moment
+  bool of_start = false;       // left by the motion before the record, whatever the effects
 };
 
 /// The straight line between the ends of a random walk (periodic: a sawtooth of unknown rise) over
 /// a record of n_samples. variance: of the rise [(N m)^2].
 RecordNuisance unknown_ramp(double variance, std::size_t n_samples, std::size_t n_bins);
 
-/// Cosine and sine parts of a tone over n_samples, each of half the square of its amplitude as
-/// variance. Bins: sums of geometric series (Harris 1978, leakage of a line).
-std::array<RecordNuisance, 2> unknown_tone(const Tone& tone, double sampling_rate_hz,
+/// Cosine and sine parts of a wave exp(pole i) over samples i = 0 .. n_samples - 1, each of this
+/// variance [(N m)^2]: a tone, or a decay. Bins: sums of geometric series (Harris 1978, leakage of
+/// a line).
+std::array<RecordNuisance, 2> unknown_wave(double variance, Complex pole_per_sample,
                                            std::size_t n_samples, std::size_t n_bins);
 
 /// The per-record nuisance parameters, estimated from one record's errors [N m] in independent bins

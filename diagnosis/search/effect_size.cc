@@ -7,7 +7,6 @@
 
 #include "diagnosis/prediction/chain_simulation.h"
 #include "diagnosis/records/experiment.h"
-#include "diagnosis/records/spectrum.h"
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -48,13 +47,12 @@ bool vanishes(const Effect& effect, const std::vector<double>& values) {
   if (chain.reference_variance > 0.) return false;
   const PreparedRecord& record = experiment.records.front();
   const Prediction without = simulate(nominal, record), with = simulate(chain, record);
+  const std::vector<double> own = own_noise(with);
   double difference = 0., power = 0.;
   for (std::size_t b = 0; b < with.mean.size(); ++b) {
-    difference += std::norm(with.mean[b] - without.mean[b]) + with.process_noise[b];
+    difference += std::norm(with.mean[b] - without.mean[b]) + own[b];
     power += std::norm(without.mean[b]);
   }
-  for (const RecordNuisance& unknown : with.unknowns)
-    difference += unknown.variance * total_power(unknown.shape);
   return difference < rounding * rounding * power;
 }
 

@@ -149,7 +149,7 @@ struct FitResidual::State {
     Eigen::Index row = 0;
     for (const Prediction& there : moved) {
       for (const RecordNuisance& unknown : there.unknowns)
-        out.additions.push_back(addition(unknown, row));
+        if (!unknown.of_start) out.additions.push_back(addition(unknown, row));
       for (std::size_t b = 0; b < there.mean.size(); ++b, ++row) {
         change(row) = (there.mean[b] - mean(row)) * per_deviation(row);
         const double v =

@@ -185,5 +185,25 @@ TEST(EffectCatalogue, ListsTheKnownIdsForAnUnknownOne) {
   }
 }
 
+TEST(Hardening, StartsWithTheStiffnessOfStatisticalLinearisation) {
+  // E[y moment(y)] / E[y^2] of normal motion whose peak, three deviations, is the scale.
+  const Effect& hardening = find_effect("hardening");
+  const Scales scales{.joint_moment_n_m = 2e-4};
+  const double deviation = scales.joint_moment_n_m / 3.;
+  for (const double cubic : {-0.15, 0.2, 1.5}) {
+    Chain chain;
+    hardening.extend(chain, std::vector{cubic}, scales);
+    const auto law = chain.joint.front()(Lanes::Zero());
+    double work = 0., square = 0.;
+    for (double z = -6.; z <= 6.; z += 0.01) {
+      const double y = deviation * z, density = std::exp(-0.5 * z * z);
+      const Lanes at = Lanes::Constant(y), none = Lanes::Zero();
+      work += density * y * (y + law->moment(at, none, none, 1e-3, false)(0));
+      square += density * y * y;
+    }
+    EXPECT_NEAR(hardening.equivalent_stiffness(std::vector{cubic}), work / square, 1e-3) << cubic;
+  }
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis

@@ -133,24 +133,25 @@ TEST(IntegratedNuisances, FollowOtherShapes) {
   }
 }
 
-TEST(UnknownTone, IsTheSpectrumOfACosineAndASine) {
+TEST(UnknownWave, IsTheSpectrumOfACosineAndASine) {
   constexpr std::size_t n = 64;
-  constexpr double rate_hz = 500.;
-  for (const double hz : {50.3, 62.5}) {  // between two bins and on one
-    const auto parts = unknown_tone({2., hz}, rate_hz, n, n / 2 - 1);
+  // Tones between two bins and on one, and a decay.
+  for (const Complex pole :
+       {Complex(0., 0.6), Complex(0., 0.125 * 2. * std::numbers::pi), Complex(-0.03, 0.4)}) {
+    const auto parts = unknown_wave(2., pole, n, n / 2 - 1);
     EXPECT_EQ(parts[0].variance, 2.);
     EXPECT_EQ(parts[1].variance, 2.);
     for (std::size_t b = 0; b < n / 2 - 1; ++b) {
       Complex cosine = 0., sine = 0.;
       for (std::size_t k = 0; k < n; ++k) {
-        const double phase = 2. * std::numbers::pi * hz * static_cast<double>(k) / rate_hz;
+        const Complex wave = std::exp(static_cast<double>(k) * pole);
         const Complex turn =
             std::polar(1., -2. * std::numbers::pi * static_cast<double>((b + 1) * k) / n);
-        cosine += std::cos(phase) * turn;
-        sine += std::sin(phase) * turn;
+        cosine += wave.real() * turn;
+        sine += wave.imag() * turn;
       }
-      EXPECT_LT(std::abs(parts[0].shape[b] - cosine), 1e-9) << hz << " Hz, bin " << b;
-      EXPECT_LT(std::abs(parts[1].shape[b] - sine), 1e-9) << hz << " Hz, bin " << b;
+      EXPECT_LT(std::abs(parts[0].shape[b] - cosine), 1e-9) << pole << " bin " << b;
+      EXPECT_LT(std::abs(parts[1].shape[b] - sine), 1e-9) << pole << " bin " << b;
     }
   }
 }

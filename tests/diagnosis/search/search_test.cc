@@ -116,7 +116,7 @@ TEST(Search, NamesAToneThatIsLoud) {
 TEST(Search, FollowsAStrongSpringOnASofterJoint) {
   test::OneModeRig rig = test::noisy_rig();
   rig.stiffness = 0.8;
-  rig.cubic = 3e7;
+  rig.cubic = 1e7;
   const SearchResult result = search(experiment_of(rig), {.max_effects = 1});
   EXPECT_EQ(result.candidates.front().name, "hardening");
   EXPECT_NEAR(fitted_ratio(result, "stiffness"), 0.8, 0.02);
