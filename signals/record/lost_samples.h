@@ -26,11 +26,11 @@ struct Loss {
   bool operator==(const Loss&) const = default;
 };
 
-/// Where samples are lost, in the order of the stamps: the most probable sequence of losses under normal
-/// jitter, a phase and a period that are tracked, and a loss before one stamp in some hundred (a
-/// Viterbi search over the number of losses with a tracker for each path, Raheli, Polydoros and
-/// Tzou, IEEE Transactions on Communications 43, 1995). A single late stamp is no loss. Proven by
-/// tests/signals/record/clock_test.cc.
+/// Where samples are lost, in the order of the stamps: the most probable sequence of losses under
+/// normal jitter, a phase and a period that are tracked, and a loss before one stamp in some
+/// hundred (a Viterbi search over the number of losses with a tracker for each path, Raheli,
+/// Polydoros and Tzou, IEEE Transactions on Communications 43, 1995). A single late stamp is no
+/// loss. Proven by tests/signals/record/clock_test.cc.
 std::vector<Loss> find_losses(const JitteringStamps& stamps);
 
 }  // namespace vibrissa::signals

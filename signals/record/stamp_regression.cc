@@ -133,8 +133,7 @@ double correlation_factor(const Events& events, const Lines& lines) {
   return power > 0. ? std::max(1., of_means / power * double(length)) : 1.;
 }
 
-Lines fitted_lines(const Events& events, const std::vector<Loss>& losses,
-                   const double rounding_s) {
+Lines fitted_lines(const Events& events, const std::vector<Loss>& losses, const double rounding_s) {
   const std::size_t n = events.times_s.size();
   Lines lines;
   double n_lost = 0.;
@@ -257,8 +256,7 @@ std::optional<Clock> regress_stamps(const std::span<const double> times_s,
   for (int round = 0; round < n_rounds; ++round) {
     const std::vector<Loss> before = std::move(losses);
     constexpr double least_jitter_periods = 0.03;
-    const double jitter_s =
-        std::max({deviation_s, rounding_s, least_jitter_periods * period_s});
+    const double jitter_s = std::max({deviation_s, rounding_s, least_jitter_periods * period_s});
     losses = find_losses({events.times_s, events.samples, period_s, jitter_s, events.packet});
     if (round > 0 && losses == before) break;
     lines = {};  // Of a long record these are large.
