@@ -17,6 +17,7 @@
 #include "separation/nonlinear/identify_nonlinear.h"
 #include "separation/nonlinear/nonlinear_c_header.h"
 #include "separation/ringdown/ring_down.h"
+#include "separation/segments/hit_blocks.h"
 #include "signals/base/error.h"
 #include "signals/files/response_file.h"
 #include "views/records/identification_report.h"
@@ -97,10 +98,11 @@ void identify_from_response(const IdentifyCommandOptions& options) {
                                                .direct_term = !options.no_direct_term});
   const bool is_moment = response.unit == signals::formats::moment_per_acceleration;
   const std::optional<std::string> model_file = is_moment ? model_file_of(options) : std::nullopt;
-  if (model_file) separation::write_bvrm(*model_file, {found.fit.model});
+  const separation::Verdict verdict = separation::judge(found, response);
+  if (model_file)
+    separation::write_bvrm(*model_file, {found.fit.model, std::nullopt, verdict.stated()});
   if (!is_moment)
     std::cerr << "warning: no model is written: its gains would be in " << response.unit << "\n";
-  const separation::Verdict verdict = separation::judge(found, response);
   const std::string gain_unit = is_moment ? separation::moment_gain_unit : response.unit;
   if (options.common.json) {
     print_json(separation::identified_response_json(found, verdict, gain_unit));
@@ -122,7 +124,8 @@ void identify_from_output(const IdentifyCommandOptions& options) {
   refuse_given(*options.command, {"--ring-down"}, "and --output-only are two ways; give one");
   refuse_given(*options.command, {"--max-order"},
                "is not used by --output-only, whose highest is --order");
-  const signals::Record record = options.record.read(options.record_file);
+  std::string unit;
+  const signals::Record record = options.record.read_in_own_unit(options.record_file, unit);
   separation::OutputOnlyOptions output_only;
   output_only.max_lags = options.max_lags;
   if (options.identify.order) output_only.max_order = *options.identify.order;
@@ -140,9 +143,10 @@ void identify_from_decay(const IdentifyCommandOptions& options) {
                "writes a model, and --ring-down has none; '--json > FILE' keeps the result");
   refuse_what_needs_an_input(*options.command, "--ring-down");
   refuse_given(*options.command, {"--order", "--max-order"}, "is not used by --ring-down");
-  const signals::Record record = options.record.read(options.record_file);
+  std::string unit;
+  const signals::Record record = options.record.read_in_own_unit(options.record_file, unit);
   const auto found = separation::identify_ring_down(record.channel(signals::channel::base_moment),
-                                                    record.sampling_rate_hz());
+                                                    record.sampling_rate_hz(), unit);
   if (options.common.json) {
     print_json(separation::ring_down_json(found));
     return;
@@ -157,7 +161,7 @@ void identify_from_decay(const IdentifyCommandOptions& options) {
 }
 
 void say_identified(const IdentifyCommandOptions& options, const separation::Identification& result,
-                    const separation::ModelEvidence& evidence) {
+                    const separation::ModelEvidence& evidence, const bool scored_by_piece) {
   std::cout << views::verdict_text(result.fit, evidence.verdict) << "direct term "
             << result.fit.direct_term_kg_m.value << " kg m"
             << (result.direct_term ? "" : " (not told from zero)") << "; order " << result.order
@@ -168,7 +172,10 @@ void say_identified(const IdentifyCommandOptions& options, const separation::Ide
             << (result.order_words.empty() ? "" : "order: " + result.order_words + "\n")
             << (result.scatter_words.empty() ? "" : result.scatter_words + "\n")
             << views::evidence_text(evidence);
-  if (!options.held_out_file && !options.common.quiet)
+  if (options.common.quiet) return;
+  if (scored_by_piece)
+    std::cout << "Held out: the longest other piece of the file with a hit scored the model.\n";
+  else if (!options.held_out_file)
     std::cout << "Held out: the last "
               << (result.n_hits > 1 ? "of " + std::to_string(result.n_hits) + " hits" : "third")
               << " of the record scored a model of the rest; the model above is of the whole "
@@ -187,11 +194,27 @@ void offer_output_only(const signals::Record& record, const std::string& file) {
       "--ring-down, after flicks or hits, gives them against the amplitude");
 }
 
-signals::Record read_checked(const IdentifyCommandOptions& options) {
-  signals::Record record = options.record.read(options.record_file);
+signals::Record read_checked(const IdentifyCommandOptions& options, signals::Recording& others) {
+  others = options.record.read_pieces(options.record_file);
+  signals::Record record = RecordOptions::take_longest(options.record_file, others);
   offer_output_only(record, options.record_file);
   warn_of_faults(options.record_file, record);
   return record;
+}
+
+std::size_t n_hits(const signals::Record& record) {
+  return separation::hits_of(record.channel(signals::channel::base_acceleration)).size();
+}
+
+/// The longest other piece of the file with a hit, where the record has no second hit to score the
+/// model.
+std::optional<signals::Record> piece_that_scores(const signals::Record& record,
+                                                 const signals::Recording& others) {
+  const signals::Record* best = nullptr;
+  if (n_hits(record) == 1)
+    for (const signals::Record& piece : others.pieces)
+      if (n_hits(piece) > 0 && (!best || piece.n_samples() > best->n_samples())) best = &piece;
+  return best ? std::optional(*best) : std::nullopt;
 }
 
 separation::IdentifyOptions identify_options(const IdentifyCommandOptions& options) {
@@ -205,7 +228,8 @@ separation::IdentifyOptions identify_options(const IdentifyCommandOptions& optio
 
 void identify_with_law(const IdentifyCommandOptions& options) {
   refuse_given(*options.command, {"--method"}, "is not used by --nonlinear, an output-error fit");
-  const signals::Record record = read_checked(options);
+  signals::Recording others;
+  const signals::Record record = read_checked(options, others);
   std::optional<signals::Record> held_out;
   if (options.held_out_file) held_out = options.record.read(*options.held_out_file);
   const auto found = separation::identify_nonlinear(record, held_out, identify_options(options));
@@ -227,15 +251,19 @@ void identify_with_law(const IdentifyCommandOptions& options) {
 }
 
 void identify(const IdentifyCommandOptions& options) {
-  const signals::Record all = read_checked(options);
+  signals::Recording others;
+  const signals::Record all = read_checked(options, others);
   const separation::IdentifyOptions identify = identify_options(options);
-  // Without a second file the last third scores the model, then the model is fitted to all.
+  const std::optional<signals::Record> scoring = options.held_out_file
+                                                     ? options.record.read(*options.held_out_file)
+                                                     : piece_that_scores(all, others);
+  // Without it the last third scores the model, then the model is fitted to all.
   const auto [fit, held_out] =
-      options.held_out_file
-          ? separation::SplitRecord{all, options.record.read(*options.held_out_file)}
-          : separation::hold_out_part(all);
-  const auto result = options.held_out_file ? separation::identify_bvrm(fit, held_out, identify)
-                                            : separation::identify_record(all, identify);
+      scoring ? separation::SplitRecord{all, *scoring} : separation::hold_out_part(all);
+  auto result = scoring ? separation::identify_bvrm(fit, held_out, identify)
+                        : separation::identify_record(all, identify);
+  const bool is_scored_by_piece = scoring && !options.held_out_file;
+  if (is_scored_by_piece) result.n_hits = n_hits(all) + n_hits(*scoring);
   const separation::ModelEvidence evidence = separation::examine(result, fit, held_out);
   // The header comes first: it may be refused, and then nothing has been written.
   if (options.c_header_file) {
@@ -243,12 +271,13 @@ void identify(const IdentifyCommandOptions& options) {
                                {all.sampling_rate_hz(), result.hold});
   }
   const std::optional<std::string> model_file = model_file_of(options);
-  if (model_file) separation::write_bvrm(*model_file, {result.fit.model, result.hold});
+  if (model_file)
+    separation::write_bvrm(*model_file, {result.fit.model, result.hold, evidence.verdict.stated()});
   if (options.common.json) {
     print_json(separation::identification_report(result, evidence, options.method));
     return;
   }
-  say_identified(options, result, evidence);
+  say_identified(options, result, evidence, is_scored_by_piece);
   say_written(options, model_file);
 }
 

@@ -93,9 +93,11 @@ bool RingDown::is_doubtful() const {
   return error_rms_n_m > much * decays.noise_rms || deviation_of_rows > much;
 }
 
-RingDown identify_ring_down(std::span<const double> moment, const double sampling_rate_hz) {
+RingDown identify_ring_down(std::span<const double> moment, const double sampling_rate_hz,
+                            const std::string& unit) {
   constexpr std::size_t n_points = 12;
   RingDown out;
+  out.unit = unit;
   out.decays = find_decays(moment, sampling_rate_hz);
   const std::vector<double> centred = signals::remove_mean(moment);
   DecayMoments pieces;
