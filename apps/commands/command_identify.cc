@@ -168,8 +168,7 @@ void identify_from_decay(const IdentifyCommandOptions& options) {
            "(docs/nonlinear.md)\n";
   if (options.common.json && !told) return;
   const auto folder = report::RunFolder::given_or_free(told, "results/ring-down");
-  write_ring_down(folder, found,
-                  views::ring_down_figure(found, moment, record.sampling_rate_hz()));
+  write_ring_down(folder, found, views::ring_down_figure(found, moment, record.sampling_rate_hz()));
   const auto pictures = draw_pictures(folder.path());
   if (options.common.is_talkative())
     std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";

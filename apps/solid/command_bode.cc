@@ -63,12 +63,12 @@ MeasuredResponse of_nonlinear(const BodeOptions& options) {
   const separation::Bvrm linear = separation::at_small_amplitude(model);
   std::vector<double> resonance_hz;
   for (const auto& mode : linear.modes) resonance_hz.push_back(mode.frequency_hz());
-  MeasuredResponse out{.curve = views::bode_curve(
-                           linear, views::bode_frequencies(options.low_hz, options.high_hz,
-                                                           resonance_hz)),
-                       .evidence = {},
-                       .detection = {},
-                       .words = {}};
+  MeasuredResponse out{
+      .curve = views::bode_curve(
+          linear, views::bode_frequencies(options.low_hz, options.high_hz, resonance_hz)),
+      .evidence = {},
+      .detection = {},
+      .words = {}};
   out.curve.label = "at small amplitude";
   std::string law;
   for (const auto& term : model.law) law += (law.empty() ? "" : ", ") + term.name();
@@ -162,9 +162,10 @@ void add_bode_command(CLI::App& app) {
                                      "Computes the frequency response base acceleration -> base "
                                      "moment of a case, a model or a record");
   command
-      ->add_option("input", options->input,
-                   "Case file (.prm), reduced model (model.json of 'vibrissa run'), model of 'vibrissa "
-                   "identify --nonlinear' (drawn at small amplitude) or record")
+      ->add_option(
+          "input", options->input,
+          "Case file (.prm), reduced model (model.json of 'vibrissa run'), model of 'vibrissa "
+          "identify --nonlinear' (drawn at small amplitude) or record")
       ->required();
   options->command = command;
   options->chosen.add_settings_to(*command, sensor_case::CaseUse::response);

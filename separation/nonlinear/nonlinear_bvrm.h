@@ -42,8 +42,8 @@ struct NonlinearBvrm {
 };
 
 /// The linear model that it is in the limit of small amplitude: a1, a0 and with LawReadout::moment
-/// b1, b0 grow by the slopes of the law at rest, which only friction (c / v) and monomials of degree
-/// one have. Proven by tests/separation/nonlinear/nonlinear_bvrm_test.cc.
+/// b1, b0 grow by the slopes of the law at rest, which only friction (c / v) and monomials of
+/// degree one have. Proven by tests/separation/nonlinear/nonlinear_bvrm_test.cc.
 Bvrm at_small_amplitude(const NonlinearBvrm& model);
 
 /// Deflection in multiples of the largest one of the fit beyond which the state counts as diverged

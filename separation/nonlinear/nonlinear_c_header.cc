@@ -116,9 +116,9 @@ void replace_step(std::string& text, const CHeaderOptions& options, const Sample
   replace_all(text, "@NODE", taps_in_c(shaper.node_taps()));
   replace_all(text, "@MIDPOINT", taps_in_c(shaper.midpoint_taps()));
   replace_all(text, "@DIRECTTAPS",
-              direct.empty() ? ""
-                             : "  static const float direct_tap[@NAME_TAPS] = {" +
-                                   taps_in_c(direct) + "};\n");
+              direct.empty()
+                  ? ""
+                  : "  static const float direct_tap[@NAME_TAPS] = {" + taps_in_c(direct) + "};\n");
   replace_all(text, "@NOW",
               direct.empty() ? "state->past[(state->next + @NAME_LAG) % @NAME_TAPS]"
                              : "@NAME_shaped(state, direct_tap)");
@@ -154,8 +154,7 @@ std::string nonlinear_c_header(const NonlinearBvrm& model, const CHeaderOptions&
   check(model.linear, options);
   check(model);
   const SampledDelay delay = sampled_delay(model.linear.delay_s, options.sampling_rate_hz);
-  const InputPath path(options.hold,
-                       options.hold == Hold::band_limited ? 0. : delay.fraction);
+  const InputPath path(options.hold, options.hold == Hold::band_limited ? 0. : delay.fraction);
   std::string text = c_body;
   replace_step(text, options, delay, path);
   replace_all(text, "@COUNT", std::to_string(model.linear.modes.size()));

@@ -83,7 +83,8 @@ static inline void @NAME_reset(@NAME_state *state) {
   state->seen = 0;
 }
 )";
-inline constexpr const char* c_held_step = R"(/* Takes one sample of the base acceleration [m/s^2] and returns the base moment of the vibration
+inline constexpr const char* c_held_step =
+    R"(/* Takes one sample of the base acceleration [m/s^2] and returns the base moment of the vibration
    [N m]. The function assumes that the sensor is at rest at the first sample after a reset. */
 static inline float @NAME_step(@NAME_state *state, float acceleration) {
   static const float by_x[@NAME_MODES] = {@BYX};
@@ -113,8 +114,8 @@ static inline float @NAME_step(@NAME_state *state, float acceleration) {
 }
 )";
 
-// Band-limited inputs: the filters of the InputShaper on a ring of the last inputs; whole samples of
-// delay on the moments, as the BankSeparator does.
+// Band-limited inputs: the filters of the InputShaper on a ring of the last inputs; whole samples
+// of delay on the moments, as the BankSeparator does.
 inline constexpr const char* c_shaped_state = R"(
 #define @NAME_TAPS (2 * @NAME_LAG + 1)
 
@@ -132,7 +133,8 @@ static inline void @NAME_reset(@NAME_state *state) {
   state->seen = 0;
 }
 )";
-inline constexpr const char* c_shaped_step = R"(/* Input @NAME_LAG samples ago, filtered; the ring begins with the oldest one */
+inline constexpr const char* c_shaped_step =
+    R"(/* Input @NAME_LAG samples ago, filtered; the ring begins with the oldest one */
 static inline float @NAME_shaped(const @NAME_state *state, const float *tap) {
   float sum = 0.0f;
   int j, at = state->next;

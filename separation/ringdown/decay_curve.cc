@@ -144,9 +144,8 @@ std::vector<DecayPoint> points_of(const GrownLaw& grown, std::size_t piece, doub
     if (std::vector<DecayPoint> points = points_of({other, piece, duration_s}, amplitudes);
         points.size() == chosen.size() && std::ranges::all_of(points, is_finite))
       laws.emplace_back(criterion(other), std::move(points));
-  const double least = std::ranges::min_element(laws, {}, [](const auto& law) {
-                         return law.first;
-                       })->first;
+  const double least =
+      std::ranges::min_element(laws, {}, [](const auto& law) { return law.first; })->first;
   double sum = 0.;
   for (auto& [weight, points] : laws) sum += weight = std::exp(0.5 * (least - weight));
   std::vector<DecayPoint> out = chosen;

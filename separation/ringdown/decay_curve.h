@@ -33,15 +33,15 @@ Envelope envelope_of(const FittedCurve& curve);
 std::vector<double> amplitudes_of(const FittedCurve& curve, double noise_rms, std::size_t n);
 
 /// Frequency and damping of the periods of the curve, by its maxima, at these amplitudes;
-/// deviations from the covariance of the fit, by differences over a tenth of a standard deviation to
-/// either side: the maxima of friction have corners, which smaller steps would show as noise. Empty
-/// where a decay has no period.
+/// deviations from the covariance of the fit, by differences over a tenth of a standard deviation
+/// to either side: the maxima of friction have corners, which smaller steps would show as noise.
+/// Empty where a decay has no period.
 std::vector<DecayPoint> points_of(const FittedCurve& curve,
                                   const std::vector<double>& log_amplitudes);
 
 /// n points of the grown law; their deviations allow for the other laws, each with its probability
-/// by Schwarz's criterion (Bayesian model averaging: Hoeting et al. 1999, Statistical Science 14(4),
-/// 382-417): mean over all laws of their variance and squared distance from the grown one.
+/// by Schwarz's criterion (Bayesian model averaging: Hoeting et al. 1999, Statistical Science
+/// 14(4), 382-417): mean over all laws of their variance and squared distance from the grown one.
 std::vector<DecayPoint> points_of(const GrownLaw& grown, std::size_t piece, double duration_s,
                                   double noise_rms, std::size_t n);
 

@@ -57,7 +57,7 @@ std::vector<DecayLaw> starts_with(const DecayLaw& law, const LawParts& part, dou
 }
 
 constexpr std::array<bool LawParts::*, 3> all_parts{&LawParts::cubic, &LawParts::drag,
-                                                   &LawParts::friction};
+                                                    &LawParts::friction};
 
 DecayLaw without(DecayLaw law, bool LawParts::*part) {
   if (part == &LawParts::cubic) law.cubic = 0.;

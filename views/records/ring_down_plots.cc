@@ -31,8 +31,7 @@ report::Panel decay_panel(const RingDown& found, std::span<const double> moment,
                             .x = envelope.upper_s,
                             .y = envelope.upper_n_m,
                             .colour = law_colour});
-    panel.curves.push_back(
-        {.x = envelope.lower_s, .y = envelope.lower_n_m, .colour = law_colour});
+    panel.curves.push_back({.x = envelope.lower_s, .y = envelope.lower_n_m, .colour = law_colour});
   }
   return panel;
 }
@@ -98,8 +97,9 @@ report::Figure ring_down_figure(const RingDown& found, std::span<const double> m
                                 const double sampling_rate_hz) {
   return {.name = "ring_down",
           .title = "Free decay: frequency and damping against amplitude",
-          .caption = "Band and bars: 95 % intervals. Law: one law fitted to all samples. Without a "
-                     "law: damped sines, a few periods each.",
+          .caption =
+              "Band and bars: 95 % intervals. Law: one law fitted to all samples. Without a "
+              "law: damped sines, a few periods each.",
           .panels = {decay_panel(found, moment, sampling_rate_hz),
                      against_amplitude(found, &DecayPoint::frequency_hz, "Frequency [Hz]"),
                      against_amplitude(found, &DecayPoint::damping_ratio, "Damping ratio")}};

@@ -142,35 +142,6 @@ TEST(RingDown, OfTwentySensors) {
   EXPECT_GE(n_laws, 16);
 }
 
-// The law of this sensor grows by a cubic spring, drag and friction, of which friction alone explains
-// the others; with all three the decay does not determine the parameters.
-TEST(RingDown, DropsPartsThatALaterOneExplains) {
-  constexpr unsigned number = 85;
-  std::mt19937 random(3);
-  std::pair<Released, Laws> last;
-  for (unsigned seed = 0; seed <= number; ++seed) last = drawn(seed, random);
-  const RingDown found = found_of(last.first, number);
-  EXPECT_FALSE(found.fit.parts.cubic || found.fit.parts.drag);
-  EXPECT_EQ(found.damping_laws, last.second);
-  const DecayPoint& low = found.fitted.back();
-  const auto [hz, damping] = last.first.mode_at(low.amplitude_n_m);
-  EXPECT_NEAR(low.frequency_hz.value, hz, 4. * low.frequency_hz.standard_deviation);
-  EXPECT_NEAR(low.damping_ratio.value, damping, 4. * low.damping_ratio.standard_deviation);
-}
-
-// Here the chosen form of friction is not much more probable than the other one, and the decay tells
-// its parts little: the interval of the chosen law alone misses the damping by 2.7 of its deviations.
-TEST(RingDown, AllowsForTheOtherLaws) {
-  constexpr unsigned number = 91;
-  std::mt19937 random(3);
-  std::pair<Released, Laws> last;
-  for (unsigned seed = 0; seed <= number; ++seed) last = drawn(seed, random);
-  const DecayPoint low = found_of(last.first, number).fitted.back();
-  const double damping = last.first.mode_at(low.amplitude_n_m).second;
-  EXPECT_NEAR(low.damping_ratio.value, damping,
-              signals::normal_quantile_975 * low.damping_ratio.standard_deviation);
-}
-
 TEST(RingDown, TellsASpringThatStiffens) {
   const Released sensor{.cubic = 0.2, .noise = 0.002};
   const RingDown found = identify_ring_down(
