@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -5,10 +6,12 @@
 #include <vector>
 
 #include "apps/command_line/command.h"
+#include "apps/command_line/programs.h"
 #include "apps/command_line/record_options.h"
 #include "apps/command_line/refused_options.h"
 #include "apps/command_line/results.h"
 #include "apps/jobs/fault_warnings.h"
+#include "report/files/run_folder.h"
 #include "separation/identification/identify.h"
 #include "separation/identification/identify_response.h"
 #include "separation/identification/output_only.h"
@@ -22,6 +25,7 @@
 #include "signals/files/response_file.h"
 #include "views/records/identification_report.h"
 #include "views/records/nonlinear_report.h"
+#include "views/records/ring_down_plots.h"
 
 namespace vibrissa::apps {
 
@@ -67,8 +71,7 @@ void say_written(const IdentifyCommandOptions& options, const std::optional<std:
 void refuse_what_needs_an_input(const CLI::App& command, const std::string& given) {
   const std::string reason = "needs the base acceleration; " + given + " does not use it";
   refuse_given(command, options_of_records(), reason);
-  refuse_given(command, {"-o", "--no-direct-term", "--frequency-response", "--response-as"},
-               reason);
+  refuse_given(command, {"--no-direct-term", "--frequency-response", "--response-as"}, reason);
 }
 
 void refuse_what_needs_a_record(const CLI::App& command) {
@@ -121,6 +124,8 @@ void identify_from_response(const IdentifyCommandOptions& options) {
 
 void identify_from_output(const IdentifyCommandOptions& options) {
   refuse_what_needs_an_input(*options.command, "--output-only");
+  refuse_given(*options.command, {"-o"},
+               "is for a model, which needs the base acceleration; --output-only does not use it");
   refuse_given(*options.command, {"--ring-down"}, "and --output-only are two ways; give one");
   refuse_given(*options.command, {"--max-order"},
                "is not used by --output-only, whose highest is --order");
@@ -138,26 +143,39 @@ void identify_from_output(const IdentifyCommandOptions& options) {
   std::cout << views::output_only_table(found).to_text() << found.words << "\n";
 }
 
+void write_ring_down(const report::RunFolder& folder, const separation::RingDown& found,
+                     const report::Figure& figure) {
+  folder.write_run({.command_line = given_command_line()});
+  folder.write_json("ring_down.json", separation::ring_down_json(found));
+  folder.write_text("ring_down.csv", views::ring_down_table(found).to_csv());
+  report::write_figure(folder.path(), figure);
+}
+
 void identify_from_decay(const IdentifyCommandOptions& options) {
-  refuse_given(*options.command, {"-o"},
-               "writes a model, and --ring-down has none; '--json > FILE' keeps the result");
   refuse_what_needs_an_input(*options.command, "--ring-down");
   refuse_given(*options.command, {"--order", "--max-order"}, "is not used by --ring-down");
+  const std::optional<std::filesystem::path> told = options.model_file;
+  report::RunFolder::refuse_taken(told);
   std::string unit;
   const signals::Record record = options.record.read_in_own_unit(options.record_file, unit);
-  const auto found = separation::identify_ring_down(record.channel(signals::channel::base_moment),
-                                                    record.sampling_rate_hz(), unit);
-  if (options.common.json) {
+  const auto& moment = record.channel(signals::channel::base_moment);
+  const auto found = separation::identify_ring_down(moment, record.sampling_rate_hz(), unit);
+  if (options.common.json)
     print_json(separation::ring_down_json(found));
-    return;
-  }
-  std::cout
-      << found.words << "\n"
-      << views::ring_down_table(found).to_text()
-      << "law: one law fitted to all samples; without a law: damped sines, a few periods each; "
-         "amplitude: peak of the moment; sd: standard deviation\n"
-         "drag: damping that grows with the speed squared; friction: sticks before it slips "
-         "(docs/nonlinear.md)\n";
+  else
+    std::cout
+        << found.words << "\n"
+        << views::ring_down_table(found).to_text()
+        << "law: one law fitted to all samples; without a law: damped sines, a few periods each; "
+           "amplitude: peak of the moment; sd: standard deviation\n"
+           "drag: damping that grows with the speed squared; friction: sticks before it slips "
+           "(docs/nonlinear.md)\n";
+  if (options.common.json && !told) return;
+  const auto folder = report::RunFolder::given_or_free(told, "results/ring-down");
+  write_ring_down(folder, found, views::ring_down_figure(found, moment, record.sampling_rate_hz()));
+  const auto pictures = draw_pictures(folder.path());
+  if (options.common.is_talkative())
+    std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
 
 void say_identified(const IdentifyCommandOptions& options, const separation::Identification& result,
@@ -290,8 +308,9 @@ void add_other_inputs(CLI::App& command, IdentifyCommandOptions& options) {
   command.add_flag(
       "--ring-down", options.ring_down,
       "The base_moment decays after flicks or hits: gives frequency and damping against the "
-      "amplitude, and the law of the damping (viscous, drag, friction); gives no gain and no "
-      "model");
+      "amplitude, and the law of the damping (viscous, drag, friction), with a picture; gives no "
+      "gain and no model, so -o is a new folder (default: results/ring-down, or "
+      "results/ring-down-2, ... if it exists; with --json only if -o is given)");
   command
       .add_option("--lags", options.max_lags,
                   "For --output-only: half of the longest lag of the covariances [samples], which "

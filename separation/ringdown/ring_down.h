@@ -18,6 +18,7 @@ struct RingDown {
   std::vector<DecayPoint> measured;
   /// Of the largest decay by the fitted law, from the largest to the smallest amplitude.
   std::vector<DecayPoint> fitted;
+  std::vector<Envelope> envelopes;        // of each fitted decay, at the record's times and moments
   EquivalentMode largest, smallest;       // shares of the damping at both ends
   std::vector<std::string> damping_laws;  // of "viscous", "drag", "friction": 5 % or more
   double error_rms_n_m = 0.;              // that the law leaves

@@ -331,9 +331,27 @@ TEST(Identify, GivesTheDampingOfADecayAgainstItsAmplitude) {
   EXPECT_NEAR(found["law"]["frequency_hz"].get<double>(), 31. * std::hypot(1., 0.02), 0.01);
   EXPECT_NEAR(found["fitted"].back()["damping_ratio"].get<double>(), 0.02, 2e-4);
   EXPECT_EQ(found["damping_laws"], json({"viscous"}));
-  const auto text = vibrissa("identify '" + record + "' --ring-down");
+  const std::string out = folder.file("out");
+  const auto text = vibrissa("identify '" + record + "' --ring-down -o '" + out + "'");
   EXPECT_THAT(text.output, HasSubstr("The damping is viscous"));
   EXPECT_THAT(text.output, HasSubstr("without a law"));
+  EXPECT_EQ(json::parse(content(out + "/ring_down.json")), found);
+  EXPECT_TRUE(std::filesystem::exists(out + "/figures/ring_down.png"));
+  // The envelope meets the sine's own at its end: 1e-4 exp(-0.02 angle).
+  const json figure = json::parse(content(out + "/figures/ring_down.json"));
+  ASSERT_EQ(figure["panels"].size(), 3u);
+  const json& upper = figure["panels"][0]["curves"][1];
+  const double t = upper["x"].back().get<double>() - 0.2;
+  EXPECT_NEAR(upper["y"].back().get<double>(),
+              1e-4 * std::exp(-0.02 * 2. * std::numbers::pi * 31. * t), 2e-8);
+  // All points of both panels have their interval.
+  for (const int panel : {1, 2}) {
+    const json& curves = figure["panels"][panel]["curves"];
+    EXPECT_EQ(curves[0]["y_low"].size(), found["fitted"].size());
+    EXPECT_EQ(curves[2]["x"].size(), 3 * found["measured"].size());
+  }
+  const auto again = vibrissa("identify '" + record + "' --ring-down -o '" + out + "'");
+  EXPECT_EQ(again.status, 2);
 }
 
 TEST(Identify, OffersTheOutputAloneWhereTheInputIsMissing) {
@@ -393,6 +411,13 @@ TEST(Identify, NonlinearGivesAModelThatSeparateTakesAlsoAsStream) {
   EXPECT_THAT(content(folder.file("m.h")), HasSubstr("law of mode 1: cubic_stiffness"));
   const auto text = vibrissa("identify " + record + " --nonlinear --hold first_order -o " + model);
   EXPECT_THAT(text.output, HasSubstr("the record asks for cubic_stiffness"));
+  const json bode = vibrissa("bode " + model + " --low 20 --high 50 --json").json();
+  EXPECT_THAT(bode["words"].get<std::string>(), HasSubstr("small amplitude"));
+  const auto& points = bode["points"];
+  const auto peak = std::ranges::max_element(points, {}, [](const json& point) {
+    return std::hypot(point["real"].get<double>(), point["imaginary"].get<double>());
+  });
+  EXPECT_NEAR((*peak)["frequency_hz"].get<double>(), 31.47, 0.1);
   for (const std::string stream : {"", " --stream"}) {
     const std::string output = folder.file("s" + std::to_string(stream.size()) + ".csv");
     const auto separated = vibrissa("separate " + record + " --model " + model + stream +
