@@ -10,8 +10,9 @@
 
 namespace vibrissa::checks {
 
-/// The reasons of all commands, each once: the findings of the records that are a reason, in the
-/// order of the records, then what concerns all records together. They count from 1. Proven by
+/// The reasons of all commands, each once, also where several records have it: the findings of the
+/// records that are a reason, in the order of the records, then what concerns all records together.
+/// They count from 1. Proven by
 /// tests/checks/check_file_test.cc.
 class NumberedReasons {
  public:
@@ -19,6 +20,8 @@ class NumberedReasons {
 
   /// Number of a finding of a record; nothing where no command is worse for it.
   std::optional<std::size_t> of_finding(std::size_t record, std::size_t finding) const;
+  /// Whether an earlier record has this finding, too.
+  bool is_repeated(std::size_t record, std::size_t finding) const;
   /// "[1] [3]"; empty for a command that works.
   std::string of_command(const CommandVerdict& verdict) const;
   bool is_reason(const std::string& sentence) const { return number_of(sentence) > 0; }
@@ -27,9 +30,10 @@ class NumberedReasons {
 
  private:
   struct Entry {
-    std::size_t record = 0, finding = 0;
-    std::string sentence, with_name;
-    bool is(const std::string& reason) const { return reason == sentence || reason == with_name; }
+    std::string sentence;
+    std::vector<std::string> with_name;                       // of each record that has it
+    std::vector<std::pair<std::size_t, std::size_t>> places;  // record and finding, likewise
+    bool is(const std::string& reason) const;
   };
   std::size_t number_of(const std::string& reason) const;  // 0: it is none
 

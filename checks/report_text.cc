@@ -66,9 +66,16 @@ std::string record_text(const RecordReport& report, const std::size_t place,
   for (const ChannelFacts& facts : report.channels) text += channel_text(facts);
   text += drive_text(report.drive);
   if (report.response && report.response->n_coherent > 0) text += response_text(*report.response);
-  for (std::size_t i = 0; i < report.findings.size(); ++i)
-    text += wrapped("  " + number_text(reasons.of_finding(place, i)) +
-                    to_string(report.findings[i].severity) + ": " + report.findings[i].sentence);
+  std::string repeated;
+  for (std::size_t i = 0; i < report.findings.size(); ++i) {
+    const std::string number = number_text(reasons.of_finding(place, i));
+    if (reasons.is_repeated(place, i))
+      repeated += number;
+    else
+      text += wrapped("  " + number + to_string(report.findings[i].severity) + ": " +
+                      report.findings[i].sentence);
+  }
+  if (!repeated.empty()) text += "  as above: " + repeated + "\n";
   return text;
 }
 

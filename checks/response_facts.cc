@@ -140,6 +140,11 @@ PartModel model_of_part(const signals::Record& record) {
   const signals::Record part = record.slice(0, std::min(record.n_samples(), most_samples));
   auto found = separation::identify_record(part, {.max_order = few_poles});
   auto verdict = separation::judge(found, part);
+  // The response to a hit is short, and a structure rings in many modes.
+  if (!verdict.usable && found.n_hits > 0) {
+    found = separation::identify_record(part);
+    verdict = separation::judge(found, part);
+  }
   return {std::move(found), std::move(verdict), part.duration_s()};
 }
 
@@ -325,11 +330,16 @@ void ResponseCheck::report_delay(const separation::Estimate& delay_s) {
 void ResponseCheck::check_model() {
   try {
     const auto& [found, verdict, duration_s] = model_of_part(record_);
-    if (verdict.usable && found.found_delay_s) report_delay(*found.found_delay_s);
+    // Noise hides much of the moment, not the delay of what is left.
+    const auto& delay_s = found.found_delay_s;
+    const bool is_told = delay_s && !verdict.determined.empty() &&
+                         std::abs(delay_s->value) > 2. * delay_s->standard_deviation;
+    if (delay_s && (verdict.usable || is_told)) report_delay(*delay_s);
     if (!verdict.usable)
       add(FindingKind::no_usable_model, channel::base_moment, found.held_out_vaf_percent, "%",
-          "a model of up to three modes of " + three_digits(duration_s) + " s is not usable: " +
-              verdict.sentence + " Drive a wide band at a steady level to the end of the record",
+          "a model of " + std::string(found.n_hits > 0 ? "" : "up to three modes of ") +
+              three_digits(duration_s) + " s is not usable: " + verdict.sentence +
+              " Drive a wide band at a steady level to the end of the record",
           Severity::limits);
   } catch (const signals::UserError& error) {
     add(FindingKind::no_usable_model, channel::base_moment, std::nullopt, "", error.what(),

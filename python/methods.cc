@@ -76,9 +76,9 @@ std::pair<SampledBvrm, std::string> identify(
       held_out ? separation::SplitRecord{record, *held_out} : separation::hold_out_part(record);
   const auto found = held_out ? separation::identify_bvrm(fit, scored, options)
                               : separation::identify_record(record, options);
-  const auto report =
-      separation::identification_report(found, separation::examine(found, fit, scored), method);
-  return {{found.fit.model, found.hold}, report.dump()};
+  const auto evidence = separation::examine(found, fit, scored);
+  return {{found.fit.model, found.hold, evidence.verdict.stated()},
+          separation::identification_report(found, evidence, method).dump()};
 }
 
 using AnyBvrm = std::variant<SampledBvrm, NonlinearBvrm>;
@@ -98,6 +98,9 @@ std::map<std::string, py::array_t<double>> separate(const Record& record,
                                                     const std::size_t block, const std::size_t taps,
                                                     const std::optional<double> step,
                                                     const std::optional<std::string>& hold) {
+  if (const auto* bvrm = model ? std::get_if<SampledBvrm>(&*model) : nullptr)
+    if (const std::string warning = bvrm->warning(); !warning.empty())
+      if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
   std::map<std::string, std::vector<double>> found;
   {
     const py::gil_scoped_release released;

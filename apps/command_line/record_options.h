@@ -32,8 +32,14 @@ struct RecordOptions {
   /// which magnitudes look like another unit's. Throws UserError as read_recording does, and for
   /// rows that are not FIRST:LAST.
   signals::Record read(const std::string& file) const;
-  /// All pieces; says the same.
+  /// The same, but a base_moment whose unit is that of no moment, as a Hall sensor's uT without its
+  /// calibration, stays in it. Sets the unit of base_moment. Proven by
+  /// tests/apps/identify_command_test.cc.
+  signals::Record read_in_own_unit(const std::string& file, std::string& unit) const;
+  /// All pieces; says the same, but for the piece.
   signals::Recording read_pieces(const std::string& file) const;
+  /// Takes the longest piece out of the recording; says which it is.
+  static signals::Record take_longest(const std::string& file, signals::Recording& recording);
   /// What read_record is told. Throws UserError as read does, and for --join, which needs read().
   signals::ReadOptions read_options() const;
   /// Throws UserError for options of a text table where the file is none.
@@ -44,6 +50,7 @@ struct RecordOptions {
  private:
   bool is_quiet() const;
   signals::ReadOptions options_of_each() const;
+  signals::Recording read_said(const std::string& file, const signals::ReadOptions& options) const;
   signals::Recording read_joined(const std::string& file) const;
   signals::Recording join_clocks(const signals::Recording& one,
                                  const signals::Recording& other) const;

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -5,10 +6,12 @@
 #include <vector>
 
 #include "apps/command_line/command.h"
+#include "apps/command_line/programs.h"
 #include "apps/command_line/record_options.h"
 #include "apps/command_line/refused_options.h"
 #include "apps/command_line/results.h"
 #include "apps/jobs/fault_warnings.h"
+#include "report/files/run_folder.h"
 #include "separation/identification/identify.h"
 #include "separation/identification/identify_response.h"
 #include "separation/identification/output_only.h"
@@ -17,10 +20,12 @@
 #include "separation/nonlinear/identify_nonlinear.h"
 #include "separation/nonlinear/nonlinear_c_header.h"
 #include "separation/ringdown/ring_down.h"
+#include "separation/segments/hit_blocks.h"
 #include "signals/base/error.h"
 #include "signals/files/response_file.h"
 #include "views/records/identification_report.h"
 #include "views/records/nonlinear_report.h"
+#include "views/records/ring_down_plots.h"
 
 namespace vibrissa::apps {
 
@@ -66,8 +71,7 @@ void say_written(const IdentifyCommandOptions& options, const std::optional<std:
 void refuse_what_needs_an_input(const CLI::App& command, const std::string& given) {
   const std::string reason = "needs the base acceleration; " + given + " does not use it";
   refuse_given(command, options_of_records(), reason);
-  refuse_given(command, {"-o", "--no-direct-term", "--frequency-response", "--response-as"},
-               reason);
+  refuse_given(command, {"--no-direct-term", "--frequency-response", "--response-as"}, reason);
 }
 
 void refuse_what_needs_a_record(const CLI::App& command) {
@@ -97,10 +101,11 @@ void identify_from_response(const IdentifyCommandOptions& options) {
                                                .direct_term = !options.no_direct_term});
   const bool is_moment = response.unit == signals::formats::moment_per_acceleration;
   const std::optional<std::string> model_file = is_moment ? model_file_of(options) : std::nullopt;
-  if (model_file) separation::write_bvrm(*model_file, {found.fit.model});
+  const separation::Verdict verdict = separation::judge(found, response);
+  if (model_file)
+    separation::write_bvrm(*model_file, {found.fit.model, std::nullopt, verdict.stated()});
   if (!is_moment)
     std::cerr << "warning: no model is written: its gains would be in " << response.unit << "\n";
-  const separation::Verdict verdict = separation::judge(found, response);
   const std::string gain_unit = is_moment ? separation::moment_gain_unit : response.unit;
   if (options.common.json) {
     print_json(separation::identified_response_json(found, verdict, gain_unit));
@@ -119,10 +124,13 @@ void identify_from_response(const IdentifyCommandOptions& options) {
 
 void identify_from_output(const IdentifyCommandOptions& options) {
   refuse_what_needs_an_input(*options.command, "--output-only");
+  refuse_given(*options.command, {"-o"},
+               "is for a model, which needs the base acceleration; --output-only does not use it");
   refuse_given(*options.command, {"--ring-down"}, "and --output-only are two ways; give one");
   refuse_given(*options.command, {"--max-order"},
                "is not used by --output-only, whose highest is --order");
-  const signals::Record record = options.record.read(options.record_file);
+  std::string unit;
+  const signals::Record record = options.record.read_in_own_unit(options.record_file, unit);
   separation::OutputOnlyOptions output_only;
   output_only.max_lags = options.max_lags;
   if (options.identify.order) output_only.max_order = *options.identify.order;
@@ -135,29 +143,43 @@ void identify_from_output(const IdentifyCommandOptions& options) {
   std::cout << views::output_only_table(found).to_text() << found.words << "\n";
 }
 
+void write_ring_down(const report::RunFolder& folder, const separation::RingDown& found,
+                     const report::Figure& figure) {
+  folder.write_run({.command_line = given_command_line()});
+  folder.write_json("ring_down.json", separation::ring_down_json(found));
+  folder.write_text("ring_down.csv", views::ring_down_table(found).to_csv());
+  report::write_figure(folder.path(), figure);
+}
+
 void identify_from_decay(const IdentifyCommandOptions& options) {
-  refuse_given(*options.command, {"-o"},
-               "writes a model, and --ring-down has none; '--json > FILE' keeps the result");
   refuse_what_needs_an_input(*options.command, "--ring-down");
   refuse_given(*options.command, {"--order", "--max-order"}, "is not used by --ring-down");
-  const signals::Record record = options.record.read(options.record_file);
-  const auto found = separation::identify_ring_down(record.channel(signals::channel::base_moment),
-                                                    record.sampling_rate_hz());
-  if (options.common.json) {
+  const std::optional<std::filesystem::path> told = options.model_file;
+  report::RunFolder::refuse_taken(told);
+  std::string unit;
+  const signals::Record record = options.record.read_in_own_unit(options.record_file, unit);
+  const auto& moment = record.channel(signals::channel::base_moment);
+  const auto found = separation::identify_ring_down(moment, record.sampling_rate_hz(), unit);
+  if (options.common.json)
     print_json(separation::ring_down_json(found));
-    return;
-  }
-  std::cout
-      << found.words << "\n"
-      << views::ring_down_table(found).to_text()
-      << "law: one law fitted to all samples; without a law: damped sines, a few periods each; "
-         "amplitude: peak of the moment; sd: standard deviation\n"
-         "drag: damping that grows with the speed squared; friction: sticks before it slips "
-         "(docs/nonlinear.md)\n";
+  else
+    std::cout
+        << found.words << "\n"
+        << views::ring_down_table(found).to_text()
+        << "law: one law fitted to all samples; without a law: damped sines, a few periods each; "
+           "amplitude: peak of the moment; sd: standard deviation\n"
+           "drag: damping that grows with the speed squared; friction: sticks before it slips "
+           "(docs/nonlinear.md)\n";
+  if (options.common.json && !told) return;
+  const auto folder = report::RunFolder::given_or_free(told, "results/ring-down");
+  write_ring_down(folder, found, views::ring_down_figure(found, moment, record.sampling_rate_hz()));
+  const auto pictures = draw_pictures(folder.path());
+  if (options.common.is_talkative())
+    std::cout << pictures.message << "\nResults: " << folder.path().string() << "\n";
 }
 
 void say_identified(const IdentifyCommandOptions& options, const separation::Identification& result,
-                    const separation::ModelEvidence& evidence) {
+                    const separation::ModelEvidence& evidence, const bool scored_by_piece) {
   std::cout << views::verdict_text(result.fit, evidence.verdict) << "direct term "
             << result.fit.direct_term_kg_m.value << " kg m"
             << (result.direct_term ? "" : " (not told from zero)") << "; order " << result.order
@@ -168,7 +190,10 @@ void say_identified(const IdentifyCommandOptions& options, const separation::Ide
             << (result.order_words.empty() ? "" : "order: " + result.order_words + "\n")
             << (result.scatter_words.empty() ? "" : result.scatter_words + "\n")
             << views::evidence_text(evidence);
-  if (!options.held_out_file && !options.common.quiet)
+  if (options.common.quiet) return;
+  if (scored_by_piece)
+    std::cout << "Held out: the longest other piece of the file with a hit scored the model.\n";
+  else if (!options.held_out_file)
     std::cout << "Held out: the last "
               << (result.n_hits > 1 ? "of " + std::to_string(result.n_hits) + " hits" : "third")
               << " of the record scored a model of the rest; the model above is of the whole "
@@ -187,11 +212,27 @@ void offer_output_only(const signals::Record& record, const std::string& file) {
       "--ring-down, after flicks or hits, gives them against the amplitude");
 }
 
-signals::Record read_checked(const IdentifyCommandOptions& options) {
-  signals::Record record = options.record.read(options.record_file);
+signals::Record read_checked(const IdentifyCommandOptions& options, signals::Recording& others) {
+  others = options.record.read_pieces(options.record_file);
+  signals::Record record = RecordOptions::take_longest(options.record_file, others);
   offer_output_only(record, options.record_file);
   warn_of_faults(options.record_file, record);
   return record;
+}
+
+std::size_t n_hits(const signals::Record& record) {
+  return separation::hits_of(record.channel(signals::channel::base_acceleration)).size();
+}
+
+/// The longest other piece of the file with a hit, where the record has no second hit to score the
+/// model.
+std::optional<signals::Record> piece_that_scores(const signals::Record& record,
+                                                 const signals::Recording& others) {
+  const signals::Record* best = nullptr;
+  if (n_hits(record) == 1)
+    for (const signals::Record& piece : others.pieces)
+      if (n_hits(piece) > 0 && (!best || piece.n_samples() > best->n_samples())) best = &piece;
+  return best ? std::optional(*best) : std::nullopt;
 }
 
 separation::IdentifyOptions identify_options(const IdentifyCommandOptions& options) {
@@ -205,7 +246,8 @@ separation::IdentifyOptions identify_options(const IdentifyCommandOptions& optio
 
 void identify_with_law(const IdentifyCommandOptions& options) {
   refuse_given(*options.command, {"--method"}, "is not used by --nonlinear, an output-error fit");
-  const signals::Record record = read_checked(options);
+  signals::Recording others;
+  const signals::Record record = read_checked(options, others);
   std::optional<signals::Record> held_out;
   if (options.held_out_file) held_out = options.record.read(*options.held_out_file);
   const auto found = separation::identify_nonlinear(record, held_out, identify_options(options));
@@ -227,15 +269,19 @@ void identify_with_law(const IdentifyCommandOptions& options) {
 }
 
 void identify(const IdentifyCommandOptions& options) {
-  const signals::Record all = read_checked(options);
+  signals::Recording others;
+  const signals::Record all = read_checked(options, others);
   const separation::IdentifyOptions identify = identify_options(options);
-  // Without a second file the last third scores the model, then the model is fitted to all.
+  const std::optional<signals::Record> scoring = options.held_out_file
+                                                     ? options.record.read(*options.held_out_file)
+                                                     : piece_that_scores(all, others);
+  // Without it the last third scores the model, then the model is fitted to all.
   const auto [fit, held_out] =
-      options.held_out_file
-          ? separation::SplitRecord{all, options.record.read(*options.held_out_file)}
-          : separation::hold_out_part(all);
-  const auto result = options.held_out_file ? separation::identify_bvrm(fit, held_out, identify)
-                                            : separation::identify_record(all, identify);
+      scoring ? separation::SplitRecord{all, *scoring} : separation::hold_out_part(all);
+  auto result = scoring ? separation::identify_bvrm(fit, held_out, identify)
+                        : separation::identify_record(all, identify);
+  const bool is_scored_by_piece = scoring && !options.held_out_file;
+  if (is_scored_by_piece) result.n_hits = n_hits(all) + n_hits(*scoring);
   const separation::ModelEvidence evidence = separation::examine(result, fit, held_out);
   // The header comes first: it may be refused, and then nothing has been written.
   if (options.c_header_file) {
@@ -243,12 +289,13 @@ void identify(const IdentifyCommandOptions& options) {
                                {all.sampling_rate_hz(), result.hold});
   }
   const std::optional<std::string> model_file = model_file_of(options);
-  if (model_file) separation::write_bvrm(*model_file, {result.fit.model, result.hold});
+  if (model_file)
+    separation::write_bvrm(*model_file, {result.fit.model, result.hold, evidence.verdict.stated()});
   if (options.common.json) {
     print_json(separation::identification_report(result, evidence, options.method));
     return;
   }
-  say_identified(options, result, evidence);
+  say_identified(options, result, evidence, is_scored_by_piece);
   say_written(options, model_file);
 }
 
@@ -261,8 +308,9 @@ void add_other_inputs(CLI::App& command, IdentifyCommandOptions& options) {
   command.add_flag(
       "--ring-down", options.ring_down,
       "The base_moment decays after flicks or hits: gives frequency and damping against the "
-      "amplitude, and the law of the damping (viscous, drag, friction); gives no gain and no "
-      "model");
+      "amplitude, and the law of the damping (viscous, drag, friction), with a picture; gives no "
+      "gain and no model, so -o is a new folder (default: results/ring-down, or "
+      "results/ring-down-2, ... if it exists; with --json only if -o is given)");
   command
       .add_option("--lags", options.max_lags,
                   "For --output-only: half of the longest lag of the covariances [samples], which "

@@ -66,6 +66,8 @@ std::unique_ptr<separation::Separator> bvrm_separator(const SeparateOptions& opt
                                                             hold_of(options, model));
   }
   const separation::SampledBvrm bvrm = separation::read_bvrm(*options.model_file);
+  if (const std::string warning = bvrm.warning(); !warning.empty())
+    std::cerr << "warning: " << *options.model_file << ": " << warning << "\n";
   return std::make_unique<separation::BvrmSeparator>(bvrm.model, sampling_rate_hz,
                                                      hold_of(options, bvrm));
 }

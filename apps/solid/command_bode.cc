@@ -13,6 +13,7 @@
 #include "case/rig.h"
 #include "fem/linalg/solver_session.h"
 #include "fem/sensor/reduction.h"
+#include "separation/nonlinear/nonlinear_bvrm.h"
 #include "signals/base/error.h"
 #include "signals/files/response_file.h"
 #include "signals/system/output_file.h"
@@ -56,6 +57,27 @@ views::BodeCurve of_case(const BodeOptions& options) {
   return of_model(model, options);
 }
 
+/// The linear part of a model with a joint law; the words say so.
+MeasuredResponse of_nonlinear(const BodeOptions& options) {
+  const separation::NonlinearBvrm model = separation::read_nonlinear_bvrm(options.input);
+  const separation::Bvrm linear = separation::at_small_amplitude(model);
+  std::vector<double> resonance_hz;
+  for (const auto& mode : linear.modes) resonance_hz.push_back(mode.frequency_hz());
+  MeasuredResponse out{
+      .curve = views::bode_curve(
+          linear, views::bode_frequencies(options.low_hz, options.high_hz, resonance_hz)),
+      .evidence = {},
+      .detection = {},
+      .words = {}};
+  out.curve.label = "at small amplitude";
+  std::string law;
+  for (const auto& term : model.law) law += (law.empty() ? "" : ", ") + term.name();
+  out.words = "the diagram is of the linear part at small amplitude: mode " +
+              std::to_string(model.mode + 1) + " has a law (" + law +
+              "), so no diagram is right at all amplitudes; 'vibrissa separate' uses the law";
+  return out;
+}
+
 MeasuredResponse of_record(const BodeOptions& options) {
   if (!options.realisations.empty())
     refuse_given(*options.command, {"--join"},
@@ -83,6 +105,8 @@ MeasuredResponse make_response(const BodeOptions& options) {
   const std::string reason = "is for records, and " + options.input + " is a model";
   refuse_given(*options.command, {"--method", "--period", "--realisation", "--segment"}, reason);
   refuse_given(*options.command, record_option_names(), reason);
+  if (extension == ".json" && separation::is_nonlinear_bvrm(options.input))
+    return of_nonlinear(options);
   return {extension == ".prm" ? of_case(options)
                               : of_model(signals::read_reduced_model(options.input), options),
           {},
@@ -138,8 +162,10 @@ void add_bode_command(CLI::App& app) {
                                      "Computes the frequency response base acceleration -> base "
                                      "moment of a case, a model or a record");
   command
-      ->add_option("input", options->input,
-                   "Case file (.prm), reduced model (model.json of 'vibrissa run') or record")
+      ->add_option(
+          "input", options->input,
+          "Case file (.prm), reduced model (model.json of 'vibrissa run'), model of 'vibrissa "
+          "identify --nonlinear' (drawn at small amplitude) or record")
       ->required();
   options->command = command;
   options->chosen.add_settings_to(*command, sensor_case::CaseUse::response);

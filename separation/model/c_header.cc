@@ -192,9 +192,6 @@ void check(const Bvrm& model, const CHeaderOptions& options) {
   if (!(options.sampling_rate_hz > 0.) || !std::isfinite(options.sampling_rate_hz))
     throw UserError("C header: the sampling rate " + signals::to_text(options.sampling_rate_hz) +
                     " Hz is not positive and finite");
-  if (options.hold == Hold::band_limited)
-    throw UserError(
-        "C header: the hold band_limited needs future samples; take first_order or zero_order");
   if (sampled_delay(model.delay_s, options.sampling_rate_hz).shift < 0)
     throw UserError("C header: the moment leads the acceleration by " +
                     signals::to_text(-model.delay_s) +
@@ -208,6 +205,9 @@ void check(const Bvrm& model, const CHeaderOptions& options) {
 
 std::string c_header(const Bvrm& model, const CHeaderOptions& options) {
   check(model, options);
+  if (options.hold == Hold::band_limited)
+    throw UserError(
+        "C header: the hold band_limited needs future samples; take first_order or zero_order");
   const SampledModel sampled = sample(model, options.sampling_rate_hz, options.hold);
   const auto& sections = sampled.sections;
   std::string text = body;

@@ -14,7 +14,7 @@ struct CHeaderOptions {
   std::string name = "vibrissa_bvrm";  // prefix of every name in the header
 };
 
-/// Throws UserError for what c_header() refuses.
+/// Throws UserError for what c_header() refuses, other than the hold.
 void check(const Bvrm& model, const CHeaderOptions& options);
 
 /// The begin of a header's comment, open: what it holds, rate, hold, delay and modes.

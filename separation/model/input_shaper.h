@@ -35,8 +35,13 @@ class InputShaper {
   /// midpoint may be null when there are none.
   void shape(const double* x, std::size_t n, double* node, double* midpoint, double* direct) const;
 
+  /// Of the samples from -reach to reach around the present one; empty: samples are not changed.
+  const std::vector<double>& node_taps() const { return node_; }
+  const std::vector<double>& midpoint_taps() const { return midpoint_; }
+  const std::vector<double>& direct_taps() const { return direct_; }
+
  private:
-  std::vector<double> node_, midpoint_, direct_;  // empty: samples are not changed
+  std::vector<double> node_, midpoint_, direct_;
 };
 
 /// Shapes a whole record; outside its ends it is extended by point reflection.

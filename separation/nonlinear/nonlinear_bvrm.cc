@@ -26,6 +26,20 @@ Hold NonlinearBvrm::hold_or(const std::optional<Hold>& told) const {
   return told.value_or(hold.value_or(Hold::first_order));
 }
 
+Bvrm at_small_amplitude(const NonlinearBvrm& model) {
+  Bvrm out = model.linear;
+  ModalTerm& mode = out.modes[model.mode];
+  const double gain = model.law_gain_kg_m();
+  for (const LawTerm& term : model.law) {
+    const LawValue slope = law_function(term, 0., 0.);
+    mode.a0 += term.coefficient * slope.by_deflection;
+    mode.a1 += term.coefficient * slope.by_velocity;
+    mode.b0 += gain * term.coefficient * slope.by_deflection;
+    mode.b1 += gain * term.coefficient * slope.by_velocity;
+  }
+  return out;
+}
+
 void check(const NonlinearBvrm& model) {
   check(model.linear);
   check(model.law);

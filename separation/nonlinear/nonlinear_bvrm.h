@@ -41,6 +41,11 @@ struct NonlinearBvrm {
   Hold hold_or(const std::optional<Hold>& told) const;
 };
 
+/// The linear model that it is in the limit of small amplitude: a1, a0 and with LawReadout::moment
+/// b1, b0 grow by the slopes of the law at rest, which only friction (c / v) and monomials of
+/// degree one have. Proven by tests/separation/nonlinear/nonlinear_bvrm_test.cc.
+Bvrm at_small_amplitude(const NonlinearBvrm& model);
+
 /// Deflection in multiples of the largest one of the fit beyond which the state counts as diverged
 /// and starts again at rest, for a law that softens can run away.
 inline constexpr double diverged_in_largest_deflections = 1e3;

@@ -4,120 +4,16 @@
 #include <sstream>
 
 #include "separation/model/c_text.h"
+#include "separation/model/input_shaper.h"
 #include "separation/model/mode_step.h"
 #include "separation/nonlinear/mode_integrator.h"
+#include "separation/nonlinear/nonlinear_c_text.h"
 #include "signals/base/number_text.h"
 #include "signals/system/output_file.h"
 
 namespace vibrissa::separation {
 
 namespace {
-
-// @X stands for what differs from model to model.
-constexpr const char* body = R"(#ifndef @NAME_H
-#define @NAME_H
-
-#define @NAME_MODES @COUNT
-#define @NAME_DELAY @DELAY /* whole samples */
-
-typedef struct {
-  float x[@NAME_MODES], v[@NAME_MODES]; /* in units of the largest ones */
-  float past[@NAME_DELAY + 1];          /* ring buffer of the inputs */
-  float first, last, older;
-  int next, seen;
-} @NAME_state;
-
-static inline void @NAME_reset(@NAME_state *state) {
-  state->next = 0;
-  state->seen = 0;
-}
-@TANH
-/* Force of the joint law per modal mass and unit of speed [1/s] */
-static inline float @NAME_law(float x, float v) {
-  (void)x;
-  (void)v;
-  return @LAW;
-}
-
-/* Rate of the speed of mode k */
-static inline float @NAME_rate(int k, float x, float v, float input) {
-  static const float gain[@NAME_MODES] = {@GAIN};
-  static const float stiffness[@NAME_MODES] = {@STIFFNESS};
-  static const float damping[@NAME_MODES] = {@DAMPING};
-  float rate = gain[k] * input - stiffness[k] * x - damping[k] * v;
-  return k == @MODE ? rate - @NAME_law(x, v) : rate;
-}
-
-/* n steps of the classical Runge-Kutta rule with an input along a straight line */
-static inline void @NAME_advance(@NAME_state *state, int k, int n, float h, float start,
-                                 float end) {
-  static const float ratio[@NAME_MODES] = {@RATIO}; /* unit of speed per unit of deflection */
-  const float r = ratio[k], slope = (end - start) / (float)n;
-  float x = state->x[k], v = state->v[k];
-  int i;
-  for (i = 0; i < n; ++i) {
-    const float u1 = start + (float)i * slope, u2 = u1 + 0.5f * slope, u4 = u1 + slope;
-    const float k1 = @NAME_rate(k, x, v, u1);
-    const float v2 = v + 0.5f * h * k1;
-    const float k2 = @NAME_rate(k, x + 0.5f * h * r * v, v2, u2);
-    const float v3 = v + 0.5f * h * k2;
-    const float k3 = @NAME_rate(k, x + 0.5f * h * r * v2, v3, u2);
-    const float v4 = v + h * k3;
-    const float k4 = @NAME_rate(k, x + h * r * v3, v4, u4);
-    x += h * r / 6.0f * (v + 2.0f * (v2 + v3) + v4);
-    v += h / 6.0f * (k1 + 2.0f * (k2 + k3) + k4);
-  }
-  if (k == @MODE && !(x < @LIMIT && x > -@LIMIT && v - v == 0.0f)) x = v = 0.0f; /* diverged */
-  state->x[k] = x;
-  state->v[k] = v;
-}
-
-/* Takes one sample of the base acceleration [m/s^2] and returns the base moment of the vibration
-   [N m]. The function assumes that the sensor is at rest at the first sample after a reset. */
-static inline float @NAME_step(@NAME_state *state, float acceleration) {
-  static const float by_x[@NAME_MODES] = {@BYX};
-  static const float by_v[@NAME_MODES] = {@BYV};
-  float u0, u1, u2, moment;
-  int k;
-  state->past[state->next] = acceleration;
-  state->next = state->next == @NAME_DELAY ? 0 : state->next + 1;
-  if (state->seen == 0) state->first = acceleration;
-  if (state->seen <= @NAME_DELAY) {
-    ++state->seen;
-    state->last = state->older = state->first;
-    for (k = 0; k < @NAME_MODES; ++k) state->x[k] = state->v[k] = 0.0f;
-    return @DIRECT * state->first;
-  }
-  u0 = state->older;
-  u1 = state->last;
-  u2 = state->past[state->next];
-  (void)u0;
-  moment = @DIRECT * (@NOW);
-  for (k = 0; k < @NAME_MODES; ++k) {
-@PIECES    moment += by_x[k] * state->x[k] + by_v[k] * state->v[k];
-  }
-@READOUT  state->older = u1;
-  state->last = u2;
-  return moment;
-}
-
-#endif
-)";
-
-// tanh by its continued fraction at an eighth of the argument and three times the double angle.
-constexpr const char* tanh_function = R"(
-static inline float @NAME_tanh(float z) {
-  float y, t;
-  int i;
-  if (z > 9.0f) return 1.0f;
-  if (z < -9.0f) return -1.0f;
-  z *= 0.125f;
-  y = z * z;
-  t = z / (1.0f + y / (3.0f + y / (5.0f + y / (7.0f + y / 9.0f))));
-  for (i = 0; i < 3; ++i) t = 2.0f * t / (1.0f + t * t);
-  return t;
-}
-)";
 
 struct Units {
   double deflection = 1., speed = 1.;
@@ -198,6 +94,36 @@ std::string pieces_in_c(const NonlinearBvrm& model, const CHeaderOptions& option
   return text;
 }
 
+std::string taps_in_c(const std::vector<double>& taps) {
+  std::string text;
+  for (std::size_t j = 0; j < taps.size(); ++j) text += (j ? ", " : "") + c_number(taps[j]);
+  return text;
+}
+
+/// State and step of the hold, and what they need.
+void replace_step(std::string& text, const CHeaderOptions& options, const SampledDelay& delay,
+                  const InputPath& path) {
+  const bool is_shaped = options.hold == Hold::band_limited;
+  replace_all(text, "@STATE", is_shaped ? c_shaped_state : c_held_state);
+  replace_all(text, "@STEP", is_shaped ? c_shaped_step : c_held_step);
+  replace_all(text, "@LAG", std::to_string(is_shaped ? InputShaper::half_length : 0));
+  if (!is_shaped) {
+    replace_all(text, "@NOW", sum_of_inputs(path.direct));
+    return;
+  }
+  const InputShaper shaper(options.hold, delay.fraction);
+  const std::vector<double>& direct = shaper.direct_taps();
+  replace_all(text, "@NODE", taps_in_c(shaper.node_taps()));
+  replace_all(text, "@MIDPOINT", taps_in_c(shaper.midpoint_taps()));
+  replace_all(text, "@DIRECTTAPS",
+              direct.empty()
+                  ? ""
+                  : "  static const float direct_tap[@NAME_TAPS] = {" + taps_in_c(direct) + "};\n");
+  replace_all(text, "@NOW",
+              direct.empty() ? "state->past[(state->next + @NAME_LAG) % @NAME_TAPS]"
+                             : "@NAME_shaped(state, direct_tap)");
+}
+
 std::string readout_in_c(const NonlinearBvrm& model) {
   const std::string k = std::to_string(model.mode);
   if (model.readout == LawReadout::deflection || model.law.empty()) return "";
@@ -228,10 +154,11 @@ std::string nonlinear_c_header(const NonlinearBvrm& model, const CHeaderOptions&
   check(model.linear, options);
   check(model);
   const SampledDelay delay = sampled_delay(model.linear.delay_s, options.sampling_rate_hz);
-  const InputPath path(options.hold, delay.fraction);
-  std::string text = body;
+  const InputPath path(options.hold, options.hold == Hold::band_limited ? 0. : delay.fraction);
+  std::string text = c_body;
+  replace_step(text, options, delay, path);
   replace_all(text, "@COUNT", std::to_string(model.linear.modes.size()));
-  replace_all(text, "@TANH", has_friction(model) ? tanh_function : "");
+  replace_all(text, "@TANH", has_friction(model) ? c_tanh : "");
   replace_all(text, "@LAW", law_in_c(model, options.name));
   replace_all(text, "@DELAY", std::to_string(delay.shift));
   replace_all(text, "@GAIN",
@@ -251,7 +178,6 @@ std::string nonlinear_c_header(const NonlinearBvrm& model, const CHeaderOptions&
                 return mode.b1 * unit.speed;
               }));
   replace_all(text, "@DIRECT", c_number(model.linear.direct_term_kg_m));
-  replace_all(text, "@NOW", sum_of_inputs(path.direct));
   replace_all(text, "@PIECES", pieces_in_c(model, options, path));
   replace_all(text, "@READOUT", readout_in_c(model));
   replace_all(text, "@LIMIT", c_number(diverged_in_largest_deflections));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "separation/model/fitted_bvrm.h"
@@ -21,26 +20,29 @@ struct FittedCurve {
   double duration_s = 0.;
 };
 
+/// Largest and smallest moments of each period.
+struct Envelope {
+  std::vector<double> upper_s{}, upper_n_m{}, lower_s{}, lower_n_m{};
+};
+
+/// Of the curve with its offset, by the maxima and minima; times from the start of the piece.
+Envelope envelope_of(const FittedCurve& curve);
+
 /// Logarithms of amplitudes in equal steps over a decay, as far as they exceed three times the
 /// noise; empty where it has less than two periods.
 std::vector<double> amplitudes_of(const FittedCurve& curve, double noise_rms, std::size_t n);
 
 /// Frequency and damping of the periods of the curve, by its maxima, at these amplitudes;
-/// deviations from the covariance of the fit.
+/// deviations from the covariance of the fit, by differences over a tenth of a standard deviation
+/// to either side: the maxima of friction have corners, which smaller steps would show as noise.
+/// Empty where a decay has no period.
 std::vector<DecayPoint> points_of(const FittedCurve& curve,
                                   const std::vector<double>& log_amplitudes);
 
-/// The better one of a fit and the same law with the other form of friction; of the other one the
-/// probability by Schwarz's criterion.
-struct FrictionForms {
-  FittedDecay fit;
-  std::optional<FittedDecay> other{};
-  double probability_of_other = 0.;
-};
-FrictionForms compare_frictions(FittedDecay fit, const DecayMoments& pieces, double rate_hz);
-
-/// n points of the better form; their deviations allow for the other one.
-std::vector<DecayPoint> points_of(const FrictionForms& forms, std::size_t piece, double duration_s,
+/// n points of the grown law; their deviations allow for the other laws, each with its probability
+/// by Schwarz's criterion (Bayesian model averaging: Hoeting et al. 1999, Statistical Science
+/// 14(4), 382-417): mean over all laws of their variance and squared distance from the grown one.
+std::vector<DecayPoint> points_of(const GrownLaw& grown, std::size_t piece, double duration_s,
                                   double noise_rms, std::size_t n);
 
 }  // namespace vibrissa::separation

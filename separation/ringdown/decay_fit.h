@@ -12,6 +12,8 @@ namespace vibrissa::separation {
 /// Parts of a law beside frequency and viscous damping.
 struct LawParts {
   bool cubic = false, drag = false, friction = false;
+
+  bool operator==(const LawParts&) const = default;
 };
 
 /// A law fitted to decays. The parameters of the law are, in turn: ln frequency, ln damping ratio,

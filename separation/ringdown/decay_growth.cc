@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -55,38 +56,106 @@ std::vector<DecayLaw> starts_with(const DecayLaw& law, const LawParts& part, dou
   return out;
 }
 
+constexpr std::array<bool LawParts::*, 3> all_parts{&LawParts::cubic, &LawParts::drag,
+                                                    &LawParts::friction};
+
+DecayLaw without(DecayLaw law, bool LawParts::*part) {
+  if (part == &LawParts::cubic) law.cubic = 0.;
+  if (part == &LawParts::drag) law.drag = 0.;
+  if (part == &LawParts::friction) law.slip = law.stick_ratio = law.reversal = 0.;
+  return law;
+}
+
+/// Are all parameters told better than by a factor of e? A part of unknown size is a smaller law
+/// again, with more than its probability.
+bool is_told(const FittedDecay& fit) {
+  for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i)
+    if (!(fit.parts.cubic && i == 2) && fit.covariance(i, i) > 1.) return false;
+  return true;
+}
+
 class LawGrowth {
  public:
   LawGrowth(const DecayMoments& pieces, double rate_hz) : pieces_(pieces), rate_hz_(rate_hz) {}
 
-  FittedDecay grown(FittedDecay fit) const {
-    constexpr double decisive = 10.;  // Kass and Raftery 1995, table in section 3.2
-    while (auto next = best_further(fit)) {
-      if (criterion(*next) > criterion(fit) - decisive) break;
+  GrownLaw grown(FittedDecay fit) {
+    tried_ = {fit};
+    for (auto next = best_further(fit); next && gains(*next, fit); next = best_further(fit))
       fit = std::move(*next);
-    }
-    return fit;
+    for (auto next = best_smaller(fit); next && !gains(fit, *next); next = best_smaller(fit))
+      fit = std::move(*next);
+    std::erase_if(tried_, [&](const FittedDecay& tried) {
+      return is_alike(tried, fit) || !std::isfinite(criterion(tried)) || !is_told(tried);
+    });
+    return {std::move(fit), std::move(tried_)};
   }
 
  private:
-  std::optional<FittedDecay> best_further(const FittedDecay& fit) const {
+  static bool gains(const FittedDecay& larger, const FittedDecay& smaller) {
+    constexpr double decisive = 10.;  // Kass and Raftery 1995, table in section 3.2
+    return criterion(larger) < criterion(smaller) - decisive;
+  }
+  static bool is_alike(const FittedDecay& a, const FittedDecay& b) {
+    return a.parts == b.parts && a.law.reversal == b.law.reversal;
+  }
+
+  std::optional<FittedDecay> best_further(const FittedDecay& fit) {
     double largest = 0.;
     for (const DecayStart& start : fit.starts) largest = std::max(largest, start.amplitude());
     std::optional<FittedDecay> best;
-    for (bool LawParts::*const part : {&LawParts::cubic, &LawParts::drag, &LawParts::friction}) {
+    for (bool LawParts::*const part : all_parts) {
       if (fit.parts.*part) continue;
       LawParts alone, parts = fit.parts;
       alone.*part = parts.*part = true;
-      for (const DecayLaw& start : starts_with(fit.law, alone, largest)) {
-        FittedDecay tried = fit_decay(start, parts, pieces_, rate_hz_);
-        if (!best || criterion(tried) < criterion(*best)) best = std::move(tried);
-      }
+      take_better(best, best_of(starts_with(fit.law, alone, largest), parts));
     }
     return best;
   }
 
+  /// The best law with one part less; none of a viscous one.
+  std::optional<FittedDecay> best_smaller(const FittedDecay& fit) {
+    std::optional<FittedDecay> best;
+    for (bool LawParts::*const part : all_parts) {
+      if (!(fit.parts.*part)) continue;
+      LawParts parts = fit.parts;
+      parts.*part = false;
+      take_better(best, best_of({without(fit.law, part)}, parts));
+    }
+    return best;
+  }
+
+  /// The best fit from these laws, of friction with the better form.
+  FittedDecay best_of(const std::vector<DecayLaw>& starts, const LawParts& parts) {
+    std::optional<FittedDecay> best;
+    for (const DecayLaw& start : starts)
+      take_better(best, fit_decay(start, parts, pieces_, rate_hz_));
+    keep(*best);
+    if (parts.friction && std::isfinite(best->squares)) {
+      DecayLaw other = best->law;
+      other.reversal = 1. - other.reversal;
+      FittedDecay fit = fit_decay(other, parts, pieces_, rate_hz_);
+      keep(fit);
+      take_better(best, std::move(fit));
+    }
+    return std::move(*best);
+  }
+
+  static void take_better(std::optional<FittedDecay>& best, FittedDecay fit) {
+    if (!best || criterion(fit) < criterion(*best)) best = std::move(fit);
+  }
+
+  void keep(const FittedDecay& fit) {
+    const auto known = std::ranges::find_if(
+        tried_, [&](const FittedDecay& tried) { return is_alike(tried, fit); });
+    if (known == tried_.end())
+      tried_.push_back(fit);
+    else if (criterion(fit) < criterion(*known))
+      *known = fit;
+  }
+
   const DecayMoments& pieces_;
   double rate_hz_;
+  std::vector<FittedDecay> tried_{};  // the best fit of each structure
 };
 
 double rms(std::span<const double> x) {
@@ -118,7 +187,7 @@ void refuse_what_is_no_decay(const FittedDecay& fit, const DecayMoments& pieces)
   double power = 0.;
   for (const std::span<const double> piece : pieces)
     for (const double value : signals::remove_mean(piece)) power += value * value;
-  if (fit.squares > most_left * power)
+  if (!std::isfinite(criterion(fit)) || fit.squares > most_left * power)
     throw signals::UserError(
         "ring-down: no decaying mode explains half of the moment behind its largest values; record "
         "a flick or a hit and the rest that follows, without motion of the base");
@@ -127,26 +196,26 @@ void refuse_what_is_no_decay(const FittedDecay& fit, const DecayMoments& pieces)
 }  // namespace
 
 double criterion(const FittedDecay& fit) {
-  if (!std::isfinite(fit.squares)) return fit.squares;
+  if (!std::isfinite(fit.squares) || fit.covariance.size() == 0)
+    return std::numeric_limits<double>::infinity();
   const double n = fit.n_samples();
   return n * std::log(fit.squares / n) + static_cast<double>(fit.n_unknowns) * std::log(n);
 }
 
-FittedDecay grow_law(const double frequency_hz, const double sampling_rate_hz,
-                     DecayMoments& pieces) {
+GrownLaw grow_law(const double frequency_hz, const double sampling_rate_hz, DecayMoments& pieces) {
   constexpr int most_trims = 6;
-  const LawGrowth growth(pieces, sampling_rate_hz);
-  FittedDecay fit = growth.grown(first_fit(frequency_hz, pieces, sampling_rate_hz));
+  LawGrowth growth(pieces, sampling_rate_hz);
+  GrownLaw grown = growth.grown(first_fit(frequency_hz, pieces, sampling_rate_hz));
   bool is_trimmed = false;
-  for (int i = 0; i < most_trims && trim(fit, sampling_rate_hz, pieces); ++i) {
+  for (int i = 0; i < most_trims && trim(grown.fit, sampling_rate_hz, pieces); ++i) {
     is_trimmed = true;
-    FittedDecay again = fit_decay(fit.law, fit.parts, pieces, sampling_rate_hz);
+    FittedDecay again = fit_decay(grown.fit.law, grown.fit.parts, pieces, sampling_rate_hz);
     if (!std::isfinite(again.squares)) break;
-    fit = std::move(again);
+    grown.fit = std::move(again);
   }
-  if (is_trimmed) fit = growth.grown(first_fit(frequency_hz, pieces, sampling_rate_hz));
-  refuse_what_is_no_decay(fit, pieces);
-  return fit;
+  if (is_trimmed) grown = growth.grown(first_fit(frequency_hz, pieces, sampling_rate_hz));
+  refuse_what_is_no_decay(grown.fit, pieces);
+  return grown;
 }
 
 }  // namespace vibrissa::separation

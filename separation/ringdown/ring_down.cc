@@ -57,6 +57,21 @@ double deviation_of_rows(const RingDown& found) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(found.measured.size(), 1)));
 }
 
+/// Of each piece of the moment, which lies above the centred one by its mean.
+std::vector<Envelope> envelopes_of(const FittedDecay& fit, const DecayMoments& pieces,
+                                   std::span<const double> centred, double mean, double rate_hz) {
+  std::vector<Envelope> out;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    out.push_back(envelope_of({fit, p, static_cast<double>(pieces[p].size()) / rate_hz}));
+    const double first_s = static_cast<double>(pieces[p].data() - centred.data()) / rate_hz;
+    for (double& time : out.back().upper_s) time += first_s;
+    for (double& time : out.back().lower_s) time += first_s;
+    for (double& moment : out.back().upper_n_m) moment += mean;
+    for (double& moment : out.back().lower_n_m) moment += mean;
+  }
+  return out;
+}
+
 /// At most so many samples are fitted, the first ones of all pieces.
 void shorten(DecayMoments& pieces) {
   constexpr std::size_t most_samples = 12000, fewest_of_a_piece = 100;
@@ -93,21 +108,22 @@ bool RingDown::is_doubtful() const {
   return error_rms_n_m > much * decays.noise_rms || deviation_of_rows > much;
 }
 
-RingDown identify_ring_down(std::span<const double> moment, const double sampling_rate_hz) {
+RingDown identify_ring_down(std::span<const double> moment, const double sampling_rate_hz,
+                            const std::string& unit) {
   constexpr std::size_t n_points = 12;
   RingDown out;
+  out.unit = unit;
   out.decays = find_decays(moment, sampling_rate_hz);
   const std::vector<double> centred = signals::remove_mean(moment);
   DecayMoments pieces;
   for (const DecayPiece& piece : out.decays.pieces)
     pieces.push_back(std::span(centred).subspan(piece.first, piece.end - piece.first));
   shorten(pieces);
-  out.fit = grow_law(out.decays.frequency_hz, sampling_rate_hz, pieces);
-  FrictionForms forms = compare_frictions(std::move(out.fit), pieces, sampling_rate_hz);
-  const std::size_t piece = strongest_piece(forms.fit);
-  out.fitted = points_of(forms, piece, static_cast<double>(pieces[piece].size()) / sampling_rate_hz,
+  GrownLaw grown = grow_law(out.decays.frequency_hz, sampling_rate_hz, pieces);
+  const std::size_t piece = strongest_piece(grown.fit);
+  out.fitted = points_of(grown, piece, static_cast<double>(pieces[piece].size()) / sampling_rate_hz,
                          out.decays.noise_rms, n_points);
-  out.fit = std::move(forms.fit);
+  out.fit = std::move(grown.fit);
   if (out.fitted.empty())
     throw signals::UserError(
         "ring-down: the fit of the decay swings for less than three periods; record a longer "
@@ -116,6 +132,8 @@ RingDown identify_ring_down(std::span<const double> moment, const double samplin
   out.largest = equivalent_mode(out.fit.law, out.fitted.front().amplitude_n_m);
   out.smallest = equivalent_mode(out.fit.law, out.fitted.back().amplitude_n_m);
   out.damping_laws = laws_of(out);
+  out.envelopes =
+      envelopes_of(out.fit, pieces, centred, moment.front() - centred.front(), sampling_rate_hz);
   out.measured = measured_points(out, pieces, sampling_rate_hz);
   out.deviation_of_rows = deviation_of_rows(out);
   out.words = words_of(out);

@@ -18,12 +18,14 @@ struct RingDown {
   std::vector<DecayPoint> measured;
   /// Of the largest decay by the fitted law, from the largest to the smallest amplitude.
   std::vector<DecayPoint> fitted;
+  std::vector<Envelope> envelopes;        // of each fitted decay, at the record's times and moments
   EquivalentMode largest, smallest;       // shares of the damping at both ends
   std::vector<std::string> damping_laws;  // of "viscous", "drag", "friction": 5 % or more
   double error_rms_n_m = 0.;              // that the law leaves
   /// By how much the damping of the measured points differs from the law's, in their standard
   /// deviations (rms); 5 % are allowed for.
   double deviation_of_rows = 0.;
+  std::string unit = "N m";  // of the amplitudes: that of the samples
   std::string words;
 
   /// Does the law leave much more than the noise of the quietest part, or differ from the points?
@@ -37,13 +39,14 @@ struct RingDown {
 /// fitted. Throws UserError as find_decays(), and where no mode explains half of the moment. Proven
 /// by tests/separation/ringdown/ring_down_test.cc: twenty oscillators that another method
 /// integrates.
-RingDown identify_ring_down(std::span<const double> moment, double sampling_rate_hz);
+RingDown identify_ring_down(std::span<const double> moment, double sampling_rate_hz,
+                            const std::string& unit = "N m");
 
 /// The answer in sentences.
 std::string words_of(const RingDown& found);
 
-/// {"words", "doubtful", "error_rms_n_m", "noise_rms_n_m", "deviation_of_rows", "damping_laws",
-/// "law": {"frequency_hz", ...}, "pieces", "measured", "fitted": [{"amplitude_n_m",
+/// {"words", "unit", "doubtful", "error_rms_n_m", "noise_rms_n_m", "deviation_of_rows",
+/// "damping_laws", "law": {"frequency_hz", ...}, "pieces", "measured", "fitted": [{"amplitude_n_m",
 /// "frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd"}]}.
 nlohmann::json ring_down_json(const RingDown& found);
 

@@ -23,8 +23,8 @@ std::string with_interval(const Estimate& estimate) {
   return rounded(estimate.value, n) + " ± " + rounded(half, 2);
 }
 
-std::string at_amplitude(const DecayPoint& point) {
-  return rounded(point.amplitude_n_m, 3) + " N m: " + with_interval(point.frequency_hz) +
+std::string at_amplitude(const DecayPoint& point, const std::string& unit) {
+  return rounded(point.amplitude_n_m, 3) + " " + unit + ": " + with_interval(point.frequency_hz) +
          " Hz, damping ratio " + with_interval(point.damping_ratio);
 }
 
@@ -45,16 +45,16 @@ std::string words_of(const RingDown& found) {
   for (const std::string& law : found.damping_laws) laws += (laws.empty() ? "" : " and ") + law;
   std::string out;
   if (found.is_doubtful())
-    out = "Doubtful: the law leaves an error of " + rounded(found.error_rms_n_m, 2) +
-          " N m (rms), the quietest part of the record has " + rounded(found.decays.noise_rms, 2) +
-          " N m, and the rows without a law differ from it by " +
-          rounded(found.deviation_of_rows, 2) +
+    out = "Doubtful: the law leaves an error of " + rounded(found.error_rms_n_m, 2) + " " +
+          found.unit + " (rms), the quietest part of the record has " +
+          rounded(found.decays.noise_rms, 2) + " " + found.unit +
+          ", and the rows without a law differ from it by " + rounded(found.deviation_of_rows, 2) +
           " of their standard deviations (rms): another mode near by, a base that moves, or a law "
           "that is not tried. The intervals are too narrow; believe the rows without a law. ";
-  out += "At the largest amplitude that was fitted, " + at_amplitude(found.fitted.front()) +
-         "; at the smallest, " + at_amplitude(found.fitted.back()) +
-         " (95 % intervals). The damping is " + laws +
-         " (at the largest amplitude: " + shares_of(found.largest) +
+  out += "At the largest amplitude that was fitted, " +
+         at_amplitude(found.fitted.front(), found.unit) + "; at the smallest, " +
+         at_amplitude(found.fitted.back(), found.unit) + " (95 % intervals). The damping is " +
+         laws + " (at the largest amplitude: " + shares_of(found.largest) +
          "; at the smallest: " + shares_of(found.smallest) + ").";
   if (found.fit.parts.cubic)
     out += found.fit.law.cubic > 0. ? " The spring stiffens with the deflection."
@@ -78,6 +78,7 @@ nlohmann::json ring_down_json(const RingDown& found) {
     pieces.push_back({{"first_sample", piece.first}, {"end_sample", piece.end}});
   const DecayLaw& law = found.fit.law;
   return {{"words", found.words},
+          {"unit", found.unit},
           {"doubtful", found.is_doubtful()},
           {"error_rms_n_m", found.error_rms_n_m},
           {"noise_rms_n_m", found.decays.noise_rms},

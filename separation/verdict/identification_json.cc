@@ -67,6 +67,8 @@ void add_verdict(const Verdict& verdict, nlohmann::json& document) {
     for (const UndeterminedMode& entry : entries) {
       list.push_back(all[entry.mode]);
       list.back()["reason"] = entry.reason;
+      if (!entry.damping_is_resolved)
+        list.back()["damping_ratio"] = list.back()["damping_sd"] = nullptr;
       if (!entry.peak_hz) continue;
       list.back()["frequency_hz"] = entry.peak_hz->value;
       list.back()["frequency_sd_hz"] = entry.peak_hz->standard_deviation;
@@ -84,6 +86,7 @@ nlohmann::json identified_response_json(const IdentifiedResponse& identified,
   add_verdict(verdict, document);
   document["fit_percent"] = identified.held_out_fit_percent;
   document["conjugated"] = identified.conjugated;
+  document["order_words"] = identified.order_words;
   return document;
 }
 

@@ -10,6 +10,7 @@
 #include "separation/model/simulation.h"
 #include "separation/verdict/coherence.h"
 #include "separation/verdict/peak_phase.h"
+#include "signals/base/median.h"
 #include "signals/base/significant_digits.h"
 #include "signals/spectra/frequency_response.h"
 
@@ -28,6 +29,8 @@ std::string band_of_record(const Identification& identification) {
   return identification.n_hits > 0 ? "the band that the hit excites"
                                    : "the band in which the moment follows the base acceleration";
 }
+/// Below it noise and other sources give more of a line than the base does.
+constexpr double least_coherence = 0.5;
 const std::string band_of_response = "the lines of the response";
 
 /// Why this pair of poles cannot be a mode of the band; nothing when it can.
@@ -80,7 +83,7 @@ void conclude(const FittedBvrm& fit, double explained_percent, const std::string
   }
   if (verdict.determined.empty() && !verdict.frequency_only.empty()) {
     verdict.sentence =
-        "Usable for the frequencies of peaks, not as a model: no damping is resolved.";
+        "Not usable as a model, only for the frequencies of peaks: no damping is resolved.";
     return;
   }
   verdict.sentence = "Not usable: ";
@@ -135,6 +138,28 @@ Estimate amplitude_peak(const signals::FrequencyResponse& response, const double
   return {amplitude_peak_hz(response, at_hz), line_spacing_hz(response, at_hz) / std::sqrt(12.)};
 }
 
+/// The band of its lines, without the ends where the response does not follow the base.
+Band band_of_lines(const signals::FrequencyResponse& response) {
+  Band band{response.frequency_hz.front(), response.frequency_hz.back()};
+  const auto is_coherent = [](const double coherence) { return coherence > least_coherence; };
+  const auto& c = response.coherence;
+  const auto first = std::ranges::find_if(c, is_coherent);
+  if (first == c.end()) return band;
+  const auto last = std::find_if(c.rbegin(), c.rend(), is_coherent).base() - 1;
+  return {response.frequency_hz[std::size_t(first - c.begin())],
+          response.frequency_hz[std::size_t(last - c.begin())]};
+}
+
+/// The coherence of an analyser, which weights the lines.
+std::string coherence_sentence(const signals::FrequencyResponse& response) {
+  const auto& c = response.coherence;
+  if (c.empty()) return {};
+  const auto n_low = std::ranges::count_if(c, [](double x) { return x <= least_coherence; });
+  return " Coherence of the file: median " + rounded(signals::median(c), 3) + "; at most " +
+         rounded(least_coherence, 2) + " at " + std::to_string(n_low) + " of " +
+         std::to_string(c.size()) + " lines, which count for less.";
+}
+
 /// Takes the peaks whose frequency is told from those that are not determined.
 void set_frequencies_apart(const FittedBvrm& fit, const signals::FrequencyResponse& response,
                            Verdict& verdict) {
@@ -151,6 +176,9 @@ void set_frequencies_apart(const FittedBvrm& fit, const signals::FrequencyRespon
     (is_told ? verdict.frequency_only : others).push_back(std::move(entry));
   }
   verdict.undetermined = std::move(others);
+  for (auto* entries : {&verdict.frequency_only, &verdict.undetermined})
+    for (UndeterminedMode& entry : *entries)
+      entry.damping_is_resolved = is_resolved(fit.modes[entry.mode], response);
 }
 
 /// A resonance that is narrower than Welch's lines leaks over them and is coherent at none: the
@@ -212,7 +240,7 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
 Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& measured) {
   const auto response = identified.conjugated ? conjugate_of(measured) : measured;
   Verdict verdict;
-  verdict.band = {response.frequency_hz.front(), response.frequency_hz.back()};
+  verdict.band = band_of_lines(response);
   const bool exact = identified.held_out_fit_percent > 100. * (1. - exact_share);
   const FittedBvrm& fit = identified.fit;
   sort_modes(
@@ -225,6 +253,7 @@ Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResp
   if (!exact) set_frequencies_apart(fit, response, verdict);
   const double left = 1. - identified.held_out_fit_percent / 100.;
   conclude(fit, 100. * (1. - left * left), "the variance of lines that it has not seen", verdict);
+  verdict.sentence += coherence_sentence(response);
   if (identified.conjugated)
     verdict.sentence +=
         " The response has the sign convention exp(-j w t); its conjugate was "

@@ -7,6 +7,7 @@
 #include "separation/identification/identify.h"
 #include "separation/identification/identify_response.h"
 #include "separation/metrics/metrics.h"
+#include "separation/model/sampled_bvrm.h"
 #include "signals/record/record.h"
 
 namespace vibrissa::separation {
@@ -18,6 +19,7 @@ struct UndeterminedMode {
   /// Of the peak, where the phase of the response contradicts the mode and the amplitude alone
   /// tells its frequency.
   std::optional<Estimate> peak_hz = std::nullopt;
+  bool damping_is_resolved = true;
 };
 
 /// The frequency [Hz] of such a pair of poles.
@@ -32,6 +34,9 @@ struct Verdict {
   std::vector<std::size_t> determined;           // places in the fit
   std::vector<UndeterminedMode> frequency_only;  // peaks whose damping the lines do not tell
   std::vector<UndeterminedMode> undetermined;
+
+  /// What the file of the model states.
+  StatedVerdict stated() const { return {usable, sentence}; }
 };
 
 /// A pair of poles is a mode when the fit converged, it lies within the band, oscillates, decays
@@ -40,11 +45,12 @@ struct Verdict {
 /// tests/separation/verdict/verdict_test.cc.
 Verdict judge(const Identification& identification, const signals::Record& fitted);
 
-/// The same for a frequency response, whose band is that of its lines. A resonance with less than
-/// two lines within its half-power width 2 zeta f has no damping that the lines tell, unless the
-/// model is exact; its frequency is told where the noise moves it by less than the lines are apart.
-/// A peak whose phase rises (phase_rises()) is no answer to the base; it has the frequency of its
-/// amplitude.
+/// The same for a frequency response, whose band is that of its lines, those where the response
+/// follows the base more than not (coherence above 0.5) when their coherence is known; it is said.
+/// A resonance with less than two lines within its half-power width 2 zeta f has no damping that
+/// the lines tell, unless the model is exact; its frequency is told where the noise moves it by
+/// less than the lines are apart. A peak whose phase rises (phase_rises()) is no answer to the
+/// base; it has the frequency of its amplitude.
 Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& measured);
 
 }  // namespace vibrissa::separation

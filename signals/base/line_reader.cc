@@ -15,7 +15,7 @@
 namespace vibrissa::signals {
 namespace {
 
-constexpr std::size_t block = std::size_t{1} << 20;
+constexpr std::size_t block = std::size_t{1} << 17;
 
 [[noreturn]] void refuse(const std::string& name) {
   throw UserError(name + ": cannot be read: " + std::generic_category().message(errno));

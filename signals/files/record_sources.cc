@@ -7,6 +7,7 @@
 #include "signals/base/error.h"
 #include "signals/base/number_text.h"
 #include "signals/base/unit.h"
+#include "signals/formats/text/fields.h"
 #include "signals/record/channel_name.h"
 #include "signals/record/column_unit.h"
 
@@ -277,6 +278,16 @@ void refuse_spectrum(const formats::RecordTable& file) {
       (others.empty() ? "" : "; of other lengths, which --column can choose: " + listed(others)));
 }
 
+// Dates and times of day are read as seconds, whatever unit is stated beside them.
+void ignore_unit_of_dates(const formats::RecordTable& file, Sources& sources) {
+  if (!sources.time || sources.time->unit.empty() || file.n_rows() == 0) return;
+  const std::string first = file.text(1, sources.time->column);
+  if (sources.time->scale == 1. || to_number(first) || !formats::time_in(first)) return;
+  sources.time->scale = 1.;
+  sources.time->offset = 0.;
+  sources.ignored_time_unit = sources.time->unit;
+}
+
 }  // namespace
 
 Sources find_sources(const formats::RecordTable& file, const ReadOptions& options) {
@@ -287,6 +298,7 @@ Sources find_sources(const formats::RecordTable& file, const ReadOptions& option
   finder.add_time_by_name(sources, !has_exact_clock, options.sampling_rate_hz.has_value());
   if (!sources.time && !options.sampling_rate_hz && (!file.clock() || sources.channels.empty()))
     refuse_spectrum(file);
+  ignore_unit_of_dates(file, sources);
   if (sources.channels.empty() && options.takes_all_columns) finder.add_all_numbers(sources);
   if (sources.channels.empty())
     throw UserError(
@@ -314,6 +326,9 @@ std::string to_string(const Sources& sources, const formats::RecordTable& file) 
     if (source.scale != 1.) text.append(" * ").append(to_text(source.scale));
     if (source.offset != 0.) text.append(" + ").append(to_text(source.offset));
   }
+  if (!sources.ignored_time_unit.empty())
+    text.append("; '" + file.columns()[sources.time->column] + "' holds dates, so its unit '" +
+                sources.ignored_time_unit + "' is not used");
   return text;
 }
 

@@ -21,8 +21,9 @@ struct Source {
 struct Sources {
   std::vector<Source> channels;
   std::optional<Source> time;  // without it the clock is stated in the file or in the options
-  bool time_unit_is_unknown = false;  // then times with fractions are in seconds
-  bool time_is_beside_rate = false;   // found by its name although a rate is given
+  bool time_unit_is_unknown = false;   // then times with fractions are in seconds
+  bool time_is_beside_rate = false;    // found by its name although a rate is given
+  std::string ignored_time_unit = {};  // of a column of dates, which have none
 };
 
 /// Finds which columns of a file become which channels, and converts the units that the file

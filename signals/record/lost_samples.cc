@@ -1,8 +1,11 @@
 #include "signals/record/lost_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
 #include <map>
+#include <utility>
 
 namespace vibrissa::signals {
 namespace {
@@ -12,6 +15,10 @@ constexpr double phase_gain = 0.08, period_gain = 0.002;
 constexpr double cost_of_a_loss = 6.;  // -log of the prior probability, 1 in 400
 constexpr double highest_cost = 20.;   // of one stamp, so that a late one is no loss
 constexpr std::size_t n_paths = 6;
+// So close to its prediction no stamp speaks for a loss; after so many of them in a row all paths
+// have one phase, and the best one stays the best.
+constexpr double plain_periods = 0.4;
+constexpr std::size_t n_settled = 64;
 
 struct Path {
   double cost = 0.;
@@ -26,7 +33,7 @@ struct Decision {
 
 Path extended(const Path& path, const JitteringStamps& stamps, const std::size_t i,
               const double n_new) {
-  const double steps = stamps.samples[i] - stamps.samples[i - 1] + n_new;
+  const double steps = stamps.steps(i) + n_new;
   const double predicted = path.phase_s + steps * path.period_s;
   const double innovation = stamps.times_s[i] - predicted;
   const double clipped = std::clamp(innovation, -0.5 * stamps.period_s, 0.5 * stamps.period_s);
@@ -42,7 +49,7 @@ Path extended(const Path& path, const JitteringStamps& stamps, const std::size_t
 // No loss, and the losses that explain the stamp best.
 std::vector<double> possible_losses(const Path& path, const JitteringStamps& stamps,
                                     const std::size_t i) {
-  const double steps = stamps.samples[i] - stamps.samples[i - 1];
+  const double steps = stamps.steps(i);
   const double quantum = static_cast<double>(stamps.quantum);
   const double late = (stamps.times_s[i] - path.phase_s - steps * path.period_s) / path.period_s;
   const double nearest = std::round(late / quantum) * quantum;
@@ -58,23 +65,36 @@ struct Candidate {
   Decision decision;
 };
 
-/// The decisions of all paths at all stamps. A record has millions, so each takes two bytes; the
-/// few long losses stand beside them.
+/// The decisions of all paths at all stamps since there was one path. A record has millions, so
+/// each takes two bytes; the few long losses stand beside them.
 class Decisions {
  public:
-  explicit Decisions(const std::size_t n_stamps) : all_(n_stamps * n_paths) {}
+  bool empty() const { return all_.empty(); }
 
-  void set(const std::size_t stamp, const std::size_t path, const Decision& decision) {
-    const std::size_t i = stamp * n_paths + path;
-    all_[i] = {.lost = static_cast<std::uint16_t>(std::min(decision.lost, is_long) & is_long),
-               .parent = static_cast<std::uint16_t>(decision.parent & 7)};
-    if (decision.lost >= is_long) long_losses_[i] = decision.lost;
+  void add(const std::vector<Candidate>& chosen) {
+    auto& stamp = all_.emplace_back();
+    for (std::size_t p = 0; p < chosen.size(); ++p) {
+      const Decision& decision = chosen[p].decision;
+      stamp[p] = {.lost = static_cast<std::uint16_t>(std::min(decision.lost, is_long) & is_long),
+                  .parent = static_cast<std::uint16_t>(decision.parent & 7)};
+      if (decision.lost >= is_long) long_losses_[{all_.size(), p}] = decision.lost;
+    }
   }
-  Decision at(const std::size_t stamp, const std::size_t path) const {
-    const std::size_t i = stamp * n_paths + path;
-    const Short& found = all_[i];
-    return {found.lost == is_long ? long_losses_.at(i) : found.lost,
-            static_cast<std::uint8_t>(found.parent)};
+
+  /// Appends the losses that led to the best path, the last stamp before `end`, and forgets all.
+  void trace_back(std::size_t end, std::vector<Loss>& losses) {
+    const auto n_before = static_cast<std::ptrdiff_t>(losses.size());
+    for (std::size_t path = 0; !all_.empty(); all_.pop_back()) {
+      const Short& found = all_.back()[path];
+      --end;
+      if (found.lost == is_long)
+        losses.push_back({end, long_losses_.at({all_.size(), path})});
+      else if (found.lost > 0)
+        losses.push_back({end, found.lost});
+      path = found.parent;
+    }
+    std::reverse(losses.begin() + n_before, losses.end());
+    long_losses_.clear();
   }
 
  private:
@@ -82,8 +102,8 @@ class Decisions {
   struct Short {
     std::uint16_t lost : 13, parent : 3;
   };
-  std::vector<Short> all_;
-  std::map<std::size_t, std::uint32_t> long_losses_;
+  std::deque<std::array<Short, n_paths>> all_;
+  std::map<std::pair<std::size_t, std::size_t>, std::uint32_t> long_losses_;  // stamp, path
 };
 
 // Of the paths with the same number of losses the best one; of these the best few.
@@ -101,34 +121,43 @@ void keep_best(std::vector<Candidate>& candidates) {
   candidates = std::move(kept);
 }
 
+bool is_plain(const Path& path, const JitteringStamps& stamps, const std::size_t i) {
+  const double steps = stamps.steps(i);
+  const double innovation = stamps.times_s[i] - path.phase_s - steps * path.period_s;
+  return std::abs(innovation) < plain_periods * stamps.period_s;
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> lost_before_each(const JitteringStamps& stamps) {
+std::vector<Loss> find_losses(const JitteringStamps& stamps) {
   const std::size_t n = stamps.times_s.size();
   std::vector<Path> paths{{0., stamps.times_s[0], stamps.period_s, 0.}};
-  Decisions decisions(n);
+  Decisions decisions;
   std::vector<Candidate> candidates;
+  std::vector<Loss> losses;
+  std::size_t n_plain = 0;
   for (std::size_t i = 1; i < n; ++i) {
+    n_plain = is_plain(paths.front(), stamps, i) ? n_plain + 1 : 0;
+    if (n_plain >= n_settled && !decisions.empty()) {
+      decisions.trace_back(i, losses);
+      paths.resize(1);
+    }
+    if (n_plain > 0 && decisions.empty()) {
+      paths.front() = extended(paths.front(), stamps, i, 0.);
+      continue;
+    }
     candidates.clear();
     for (std::size_t p = 0; p < paths.size(); ++p)
-      for (const double lost : possible_losses(paths[p], stamps, i))
-        candidates.push_back({extended(paths[p], stamps, i, lost),
-                              {static_cast<std::uint32_t>(lost), static_cast<std::uint8_t>(p)}});
+      for (const double n_new : possible_losses(paths[p], stamps, i))
+        candidates.push_back({extended(paths[p], stamps, i, n_new),
+                              {static_cast<std::uint32_t>(n_new), static_cast<std::uint8_t>(p)}});
     keep_best(candidates);
+    decisions.add(candidates);
     paths.clear();
-    for (std::size_t p = 0; p < candidates.size(); ++p) {
-      paths.push_back(candidates[p].path);
-      decisions.set(i, p, candidates[p].decision);
-    }
+    for (const Candidate& candidate : candidates) paths.push_back(candidate.path);
   }
-  std::vector<std::uint32_t> lost(n);
-  std::size_t path = 0;
-  for (std::size_t i = n; i-- > 1;) {
-    const Decision decision = decisions.at(i, path);
-    lost[i] = decision.lost;
-    path = decision.parent;
-  }
-  return lost;
+  decisions.trace_back(n, losses);
+  return losses;
 }
 
 }  // namespace vibrissa::signals

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "signals/base/median.h"
@@ -16,33 +17,52 @@ namespace {
 constexpr std::size_t least_events = 16;
 constexpr double most_lost = 0.05;
 
-// Samples with one stamp are one event, at the mean of their numbers.
+// Samples with one stamp are one event, at the mean of their numbers. Where no stamp is shared,
+// which is usual, nothing is stored.
 struct Events {
-  std::vector<double> times_s, samples;
+  std::span<const double> times_s;
+  std::vector<double> distinct_s, samples;
   std::vector<std::uint32_t> first;  // first row of each event
   std::size_t packet = 1;            // number of samples of most events
+
+  double sample(const std::size_t i) const { return samples.empty() ? double(i) : samples[i]; }
+  std::size_t row(const std::size_t i) const { return first.empty() ? i : first[i]; }
 };
 
 Events events_of(const std::span<const double> times_s) {
   Events events;
-  std::vector<std::uint32_t> sizes;
-  for (auto* values : {&events.times_s, &events.samples}) values->reserve(times_s.size());
-  for (auto* values : {&events.first, &sizes}) values->reserve(times_s.size());
+  events.times_s = times_s;
+  if (std::ranges::adjacent_find(times_s) == times_s.end()) return events;
   for (std::size_t i = 0, next; i < times_s.size(); i = next) {
     for (next = i + 1; next < times_s.size() && times_s[next] == times_s[i];) ++next;
-    events.times_s.push_back(times_s[i]);
+    events.distinct_s.push_back(times_s[i]);
     events.samples.push_back(0.5 * static_cast<double>(i + next - 1));
     events.first.push_back(static_cast<std::uint32_t>(i));
-    sizes.push_back(static_cast<std::uint32_t>(next - i));
   }
-  std::vector<std::uint32_t> sorted = sizes;
-  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
-                   sorted.end());
-  const std::size_t usual = sorted[sorted.size() / 2];
+  events.times_s = events.distinct_s;
+  std::vector<std::uint32_t> sizes;
+  for (std::size_t e = 1; e < events.first.size(); ++e)
+    sizes.push_back(events.first[e] - events.first[e - 1]);
+  sizes.push_back(static_cast<std::uint32_t>(times_s.size()) - events.first.back());
+  const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const std::size_t usual = *middle;
   const auto n_usual = std::count(sizes.begin(), sizes.end(), usual);
   constexpr double nearly_all = 0.9;
   if (double(n_usual) > nearly_all * double(sizes.size())) events.packet = usual;
   return events;
+}
+
+// Calls visit(i) for the events before `end`; of a long record for short stretches of them, which
+// tell a median as well.
+template <typename Visit>
+void visit_spread(const std::size_t end, const Visit& visit) {
+  constexpr std::size_t enough = 1 << 16, stretch = 64;
+  const std::size_t skipped = end / enough * stretch;
+  for (std::size_t i = 0; i < end; ++i) {
+    if (i > 0 && i % stretch == 0) i += skipped;
+    if (i < end) visit(i);
+  }
 }
 
 // Median slope over a lag that is long beside a packet and short beside the usual way between
@@ -51,19 +71,19 @@ double first_period(const Events& events) {
   const std::size_t n = events.times_s.size();
   const std::size_t lag = std::clamp<std::size_t>(n / 8, 2, 24);
   std::vector<double> slopes;
-  slopes.reserve(n);
-  for (std::size_t i = 0; i + lag < n; ++i)
+  visit_spread(n - lag, [&](const std::size_t i) {
     slopes.push_back((events.times_s[i + lag] - events.times_s[i]) /
-                     (events.samples[i + lag] - events.samples[i]));
+                     (events.sample(i + lag) - events.sample(i)));
+  });
   return median(std::move(slopes));
 }
 
 double local_jitter(const Events& events, const double period_s) {
   std::vector<double> changes;
-  changes.reserve(events.times_s.size());
-  for (std::size_t i = 1; i < events.times_s.size(); ++i)
-    changes.push_back(std::abs(events.times_s[i] - events.times_s[i - 1] -
-                               period_s * (events.samples[i] - events.samples[i - 1])));
+  visit_spread(events.times_s.size() - 1, [&](const std::size_t i) {
+    changes.push_back(std::abs(events.times_s[i + 1] - events.times_s[i] -
+                               period_s * (events.sample(i + 1) - events.sample(i))));
+  });
   return robust_deviation(std::move(changes)) / std::numbers::sqrt2;  // of a difference
 }
 
@@ -80,13 +100,17 @@ bool runs_backward(const std::span<const double> times_s, const double jitter_s,
 // One line for each run of events between which the number of lost samples is certain; the lines
 // have one slope.
 struct Lines {
-  std::vector<std::uint32_t> run;  // of each event
-  std::vector<double> samples;     // of each event, with those that are lost
+  std::vector<std::uint32_t> run;  // of each event; empty: nothing is lost
+  std::vector<double> samples;     // of each event, with those that are lost; empty likewise
   std::vector<double> start_s;     // of each run: time of its sample 0
   double period_s = 0., period_error_s = 0., deviation_s = 0.;
 
+  std::size_t run_of(const std::size_t i) const { return run.empty() ? 0 : run[i]; }
+  double sample(const Events& events, const std::size_t i) const {
+    return samples.empty() ? events.sample(i) : samples[i];
+  }
   double residual_s(const Events& events, const std::size_t i) const {
-    return events.times_s[i] - start_s[run[i]] - period_s * samples[i];
+    return events.times_s[i] - start_s[run_of(i)] - period_s * sample(events, i);
   }
 };
 
@@ -94,7 +118,7 @@ constexpr std::size_t most_certain = 20;  // a longer loss is not counted exactl
 
 // Standard deviation of the sum of correlated residuals over that of independent ones, squared.
 double correlation_factor(const Events& events, const Lines& lines) {
-  const std::size_t n_blocks = 30, length = lines.samples.size() / n_blocks;
+  const std::size_t n_blocks = 30, length = events.times_s.size() / n_blocks;
   if (length < 2) return 1.;
   double power = 0., of_means = 0.;
   for (std::size_t b = 0; b < n_blocks; ++b) {
@@ -109,32 +133,34 @@ double correlation_factor(const Events& events, const Lines& lines) {
   return power > 0. ? std::max(1., of_means / power * double(length)) : 1.;
 }
 
-Lines fitted_lines(const Events& events, const std::vector<std::uint32_t>& lost,
-                   const double rounding_s) {
+Lines fitted_lines(const Events& events, const std::vector<Loss>& losses, const double rounding_s) {
   const std::size_t n = events.times_s.size();
   Lines lines;
-  lines.run.reserve(n);
-  lines.samples.reserve(n);
   double n_lost = 0.;
   std::uint32_t run = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    n_lost += double(lost[i]);
-    if (lost[i] > most_certain) ++run;
+  auto loss = losses.begin();
+  for (std::size_t i = 0; i < n && !losses.empty(); ++i) {
+    if (loss != losses.end() && loss->stamp == i) {
+      n_lost += double(loss->count);
+      if (loss->count > most_certain) ++run;
+      ++loss;
+    }
     lines.run.push_back(run);
-    lines.samples.push_back(events.samples[i] + n_lost);
+    lines.samples.push_back(events.sample(i) + n_lost);
   }
   std::vector<double> count(run + 1), mean_x(run + 1), mean_t(run + 1);
   for (std::size_t i = 0; i < n; ++i) {
-    count[lines.run[i]] += 1.;
-    mean_x[lines.run[i]] += lines.samples[i];
-    mean_t[lines.run[i]] += events.times_s[i] - events.times_s[0];
+    const std::size_t r = lines.run_of(i);
+    count[r] += 1.;
+    mean_x[r] += lines.sample(events, i);
+    mean_t[r] += events.times_s[i] - events.times_s[0];
   }
   for (std::size_t r = 0; r <= run; ++r) mean_x[r] /= count[r], mean_t[r] /= count[r];
   double xx = 0., xt = 0.;
   for (std::size_t i = 0; i < n; ++i) {
-    const double x = lines.samples[i] - mean_x[lines.run[i]];
+    const double x = lines.sample(events, i) - mean_x[lines.run_of(i)];
     xx += x * x;
-    xt += x * (events.times_s[i] - events.times_s[0] - mean_t[lines.run[i]]);
+    xt += x * (events.times_s[i] - events.times_s[0] - mean_t[lines.run_of(i)]);
   }
   lines.period_s = xt / xx;
   for (std::size_t r = 0; r <= run; ++r)
@@ -151,17 +177,17 @@ Lines fitted_lines(const Events& events, const std::vector<std::uint32_t>& lost,
 // last event.
 Lines mean_line(const Events& events, Lines lines) {
   const double span_s = events.times_s.back() - events.times_s.front();
-  const double n = events.samples.back() - events.samples.front();
+  const double n = events.sample(events.times_s.size() - 1) - events.sample(0);
   lines.period_s = span_s / n;
   lines.period_error_s = std::sqrt(2.) * lines.deviation_s / n;
-  lines.start_s.front() = events.times_s.front() - lines.period_s * events.samples.front();
+  lines.start_s.front() = events.times_s.front() - lines.period_s * events.sample(0);
   return lines;
 }
 
 // Whether the stamps leave every grid: their difference to it grows with the lag, as the sum of
 // uneven steps does. Slow drift of a clock does not count.
 bool wander(const Events& events, const Lines& lines) {
-  const std::size_t n = lines.samples.size();
+  const std::size_t n = events.times_s.size();
   const auto r = [&](const std::size_t i) { return lines.residual_s(events, i); };
   constexpr std::size_t long_lag = 32;
   if (n < 4 * long_lag) return lines.deviation_s > lines.period_s;
@@ -194,17 +220,20 @@ bool come_in_bursts(const std::span<const double> times_s, const double rounding
   return n_lengths > 1 && n_lengths <= most_lengths && 2 * n_short > steps.size();
 }
 
-void set_pieces(const Events& events, const std::vector<std::uint32_t>& lost, const Lines& lines,
+void set_pieces(const Events& events, const std::vector<Loss>& losses, const Lines& lines,
                 const std::size_t n_rows, Clock& clock) {
   std::vector<std::size_t> firsts;
-  for (std::size_t i = 0; i < lost.size(); ++i) {
-    if (i > 0 && lost[i] == 0) continue;
-    firsts.push_back(events.first[i]);
-    const double ahead = events.samples[i] - double(events.first[i]);
+  const auto begin_at = [&](const std::size_t i) {
+    firsts.push_back(events.row(i));
+    const double ahead = events.sample(i) - double(events.row(i));
     clock.pieces.push_back(
-        {events.first[i], 0,
-         lines.start_s[lines.run[i]] + lines.period_s * (lines.samples[i] - ahead)});
-    clock.n_lost += lost[i];
+        {events.row(i), 0,
+         lines.start_s[lines.run_of(i)] + lines.period_s * (lines.sample(events, i) - ahead)});
+  };
+  begin_at(0);
+  for (const Loss& loss : losses) {
+    begin_at(loss.stamp);
+    clock.n_lost += loss.count;
   }
   firsts.push_back(n_rows);
   for (std::size_t p = 0; p < clock.pieces.size(); ++p)
@@ -219,28 +248,29 @@ std::optional<Clock> regress_stamps(const std::span<const double> times_s,
   if (events.times_s.size() < least_events) return {};
   double period_s = first_period(events);
   if (!(period_s > 0.)) return {};
-  if (runs_backward(times_s, local_jitter(events, period_s), rounding_s)) return {};
-  std::vector<std::uint32_t> lost;
+  double deviation_s = local_jitter(events, period_s);
+  if (runs_backward(times_s, deviation_s, rounding_s)) return {};
+  std::vector<Loss> losses;
   Lines lines;
   constexpr int n_rounds = 3;
   for (int round = 0; round < n_rounds; ++round) {
-    lines = {};  // Of a long record these are large.
-    lost = {};
+    const std::vector<Loss> before = std::move(losses);
     constexpr double least_jitter_periods = 0.03;
-    const double jitter_s =
-        std::max({local_jitter(events, period_s), rounding_s, least_jitter_periods * period_s});
-    lost = lost_before_each({events.times_s, events.samples, period_s, jitter_s, events.packet});
-    lines = fitted_lines(events, lost, rounding_s);
+    const double jitter_s = std::max({deviation_s, rounding_s, least_jitter_periods * period_s});
+    losses = find_losses({events.times_s, events.samples, period_s, jitter_s, events.packet});
+    if (round > 0 && losses == before) break;
+    lines = {};  // Of a long record these are large.
+    lines = fitted_lines(events, losses, rounding_s);
     if (!(lines.period_s > 0.)) return {};
     period_s = lines.period_s;
+    deviation_s = local_jitter(events, period_s);
   }
-  const auto n_losses = std::count_if(lost.begin(), lost.end(), [](auto n) { return n > 0; });
-  const bool is_burst =
-      double(n_losses) > most_lost * double(lost.size()) && come_in_bursts(times_s, rounding_s);
+  const bool is_often_lost = double(losses.size()) > most_lost * double(events.times_s.size());
+  const bool is_burst = is_often_lost && come_in_bursts(times_s, rounding_s);
   if (is_burst) {
-    std::fill(lost.begin(), lost.end(), 0);
-    lines = mean_line(events, fitted_lines(events, lost, rounding_s));
-  } else if (wander(events, lines) || double(n_losses) > most_lost * double(lost.size())) {
+    losses.clear();
+    lines = mean_line(events, fitted_lines(events, losses, rounding_s));
+  } else if (is_often_lost || wander(events, lines)) {
     return {};
   }
   Clock clock{.sampling_rate_hz = 1. / lines.period_s,
@@ -248,7 +278,7 @@ std::optional<Clock> regress_stamps(const std::span<const double> times_s,
               .jitter_s = lines.deviation_s,
               .is_from_bursts = is_burst,
               .packet = events.packet};
-  set_pieces(events, lost, lines, times_s.size(), clock);
+  set_pieces(events, losses, lines, times_s.size(), clock);
   // A stamp that stands twice is a sample without a step of time, and what follows seems lost.
   const double room = std::ceil((times_s.back() - times_s.front()) / lines.period_s) + 1. -
                       static_cast<double>(times_s.size());

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <numbers>
 #include <random>
 
+#include "separation/model/sampled_bvrm.h"
 #include "separation/model/simulation.h"
 #include "separation/nonlinear/nonlinear_bank.h"
+#include "signals/base/number_text.h"
 #include "signals/files/record_io.h"
 #include "tests/apps/program.h"
 #include "tests/signals/rate.h"
@@ -140,6 +143,83 @@ TEST(Separate, TakesTheInputBetweenSamplesAsTheModelWasFitted) {
   EXPECT_EQ(wind("--stream"), wind("--stream --hold zero_order"));
 }
 
+TEST(Separate, SaysInOneLineThatIdentifyCalledTheModelNotUsable) {
+  const Folder folder;
+  const std::string record = folder.file("r.csv"), model = folder.file("model.json");
+  signals::write_record(record, measured(3000));
+  separation::SampledBvrm bvrm{{.modes = {separation::make_modal_term(31.47, 0.027, -9e-6)}}};
+  const auto errors = [&](const std::string& options) {
+    separation::write_bvrm(model, bvrm);
+    return vibrissa("separate '" + record + "' --model '" + model + "' -q -o '" +
+                    folder.file("w.csv") + "'" + options)
+        .errors;
+  };
+  const std::string sentence = "Not usable: the model explains nothing.";
+  for (const std::string options : {"", " --stream"}) {
+    bvrm.verdict = {false, sentence};
+    EXPECT_THAT(errors(options),
+                StartsWith("warning: " + model + ": 'identify' said of this model: " + sentence));
+    bvrm.verdict = std::nullopt;
+    EXPECT_THAT(errors(options), Not(HasSubstr("this model")));
+  }
+  ASSERT_EQ(vibrissa("identify '" + record + "' --order 2 -o '" + model + "'").status, 0);
+  EXPECT_TRUE(separation::read_bvrm(model).verdict->usable);
+}
+
+/// Two recordings of one hit each, one after the other, and then without the second hit.
+TEST(Identify, ScoresAHitByTheOneInTheOtherPieceOfTheFile) {
+  const Folder folder;
+  const std::string file = folder.file("hits.csv");
+  const separation::Bvrm sensor{.modes = {separation::make_modal_term(31.47, 0.01, -9e-6)}};
+  for (const bool has_second : {true, false}) {
+    std::string text = "time_s,base_acceleration_m_s2,base_moment_N_m\n";
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal;
+    for (const std::size_t n : {4000u, 2000u}) {
+      std::vector<double> a(n, 0.);
+      for (std::size_t i = 0; i < 3; ++i) a[50 + i] = n == 4000 || has_second ? 100. : 0.;
+      const auto m = separation::simulate(sensor, a, rate_hz);
+      for (std::size_t i = 0; i < n; ++i)
+        text += signals::to_text(double(i) / rate_hz + (n == 2000 ? 100. : 0.)) + "," +
+                signals::to_text(a[i] + 1e-3 * normal(random)) + "," +
+                signals::to_text(m[i] + 1e-9 * normal(random)) + "\n";
+    }
+    std::ofstream(file) << text;
+    const auto found =
+        vibrissa("identify '" + file + "' --order 2 -o '" + folder.file("m.json") + "'");
+    ASSERT_EQ(found.status, 0) << found.errors;
+    EXPECT_EQ(found.output.find("record a second hit") == std::string::npos, has_second)
+        << found.output;
+    EXPECT_EQ(found.output.find("other piece of the file") != std::string::npos, has_second);
+  }
+}
+
+TEST(Identify, TakesAColumnWithoutCalibrationForFrequencyAndDamping) {
+  const Folder folder;
+  const std::string record = folder.file("hall.csv");
+  std::string text = "time_s,hall\n";
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 8000; ++i) {
+    const double t = i / 500.;
+    const double decay = 50. * std::exp(-0.02 * 2. * std::numbers::pi * 31. * t);
+    text += signals::to_text(t) + "," +
+            signals::to_text(decay * std::cos(2. * std::numbers::pi * 31. * t) +
+                             0.01 * normal(random)) +
+            "\n";
+  }
+  std::ofstream(record) << text;
+  const std::string column = " --column 'base_moment=hall[uT]' ";
+  for (const std::string way : {"--output-only", "--ring-down"}) {
+    const auto found = vibrissa("identify '" + record + "'" + column + way);
+    EXPECT_EQ(found.status, 0) << found.errors;
+    EXPECT_THAT(found.errors, HasSubstr("amplitudes are in uT"));
+    EXPECT_THAT(found.output, HasSubstr(way == "--ring-down" ? " uT: " : "31.0"));
+    EXPECT_THAT(found.output, Not(HasSubstr("N m")));
+  }
+  EXPECT_EQ(vibrissa("identify '" + record + "'" + column).status, 2);
+}
+
 TEST(Separate, NeitherReplacesARecordingNorTrustsADeadAccelerometer) {
   const Folder folder;
   const std::string record = folder.file("r.csv");
@@ -251,9 +331,27 @@ TEST(Identify, GivesTheDampingOfADecayAgainstItsAmplitude) {
   EXPECT_NEAR(found["law"]["frequency_hz"].get<double>(), 31. * std::hypot(1., 0.02), 0.01);
   EXPECT_NEAR(found["fitted"].back()["damping_ratio"].get<double>(), 0.02, 2e-4);
   EXPECT_EQ(found["damping_laws"], json({"viscous"}));
-  const auto text = vibrissa("identify '" + record + "' --ring-down");
+  const std::string out = folder.file("out");
+  const auto text = vibrissa("identify '" + record + "' --ring-down -o '" + out + "'");
   EXPECT_THAT(text.output, HasSubstr("The damping is viscous"));
   EXPECT_THAT(text.output, HasSubstr("without a law"));
+  EXPECT_EQ(json::parse(content(out + "/ring_down.json")), found);
+  EXPECT_TRUE(std::filesystem::exists(out + "/figures/ring_down.png"));
+  // The envelope meets the sine's own at its end: 1e-4 exp(-0.02 angle).
+  const json figure = json::parse(content(out + "/figures/ring_down.json"));
+  ASSERT_EQ(figure["panels"].size(), 3u);
+  const json& upper = figure["panels"][0]["curves"][1];
+  const double t = upper["x"].back().get<double>() - 0.2;
+  EXPECT_NEAR(upper["y"].back().get<double>(),
+              1e-4 * std::exp(-0.02 * 2. * std::numbers::pi * 31. * t), 2e-8);
+  // All points of both panels have their interval.
+  for (const int panel : {1, 2}) {
+    const json& curves = figure["panels"][panel]["curves"];
+    EXPECT_EQ(curves[0]["y_low"].size(), found["fitted"].size());
+    EXPECT_EQ(curves[2]["x"].size(), 3 * found["measured"].size());
+  }
+  const auto again = vibrissa("identify '" + record + "' --ring-down -o '" + out + "'");
+  EXPECT_EQ(again.status, 2);
 }
 
 TEST(Identify, OffersTheOutputAloneWhereTheInputIsMissing) {
@@ -313,6 +411,13 @@ TEST(Identify, NonlinearGivesAModelThatSeparateTakesAlsoAsStream) {
   EXPECT_THAT(content(folder.file("m.h")), HasSubstr("law of mode 1: cubic_stiffness"));
   const auto text = vibrissa("identify " + record + " --nonlinear --hold first_order -o " + model);
   EXPECT_THAT(text.output, HasSubstr("the record asks for cubic_stiffness"));
+  const json bode = vibrissa("bode " + model + " --low 20 --high 50 --json").json();
+  EXPECT_THAT(bode["words"].get<std::string>(), HasSubstr("small amplitude"));
+  const auto& points = bode["points"];
+  const auto peak = std::ranges::max_element(points, {}, [](const json& point) {
+    return std::hypot(point["real"].get<double>(), point["imaginary"].get<double>());
+  });
+  EXPECT_NEAR((*peak)["frequency_hz"].get<double>(), 31.47, 0.1);
   for (const std::string stream : {"", " --stream"}) {
     const std::string output = folder.file("s" + std::to_string(stream.size()) + ".csv");
     const auto separated = vibrissa("separate " + record + " --model " + model + stream +

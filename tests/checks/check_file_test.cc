@@ -89,6 +89,18 @@ std::string unnamed_columns() {
   return text;
 }
 
+TEST(CheckFile, SaysOnceWhatAllPiecesHave) {
+  const TemporaryFolder folder;
+  const CheckResult result =
+      check_file(folder.file("unnamed.csv", unnamed_columns()),
+                 {.columns = {{signals::time_channel, "column_1"}}, .gaps = signals::Gaps::pieces});
+  ASSERT_THAT(result.records, SizeIs(2));
+  const std::string text = check_text(result);
+  EXPECT_EQ(n_times(text, "no column is base_moment_N_m"), 1u) << text;
+  EXPECT_THAT(text, HasSubstr("as above: [1] [2]"));
+  EXPECT_THAT(text, HasSubstr("diagnose  no: [1] [2]\n"));
+}
+
 TEST(CheckFile, ListsColumnsWithoutNamesWhereOnlyTheTimeIsChosen) {
   const TemporaryFolder folder;
   const CheckResult result =

@@ -62,8 +62,11 @@ std::string verdict_text(const separation::FittedBvrm& fit, const separation::Ve
         "frequency only: " + frequency_text(frequency_of(entry, fit)) + ": " + entry.reason + "\n";
   for (const auto& entry : verdict.undetermined) {
     const auto& mode = fit.modes[entry.mode];
-    text += "not determined: " + frequency_text(mode.frequency_hz) + ", damping ratio " +
-            report::Cell(mode.damping_ratio.value).rounded(4) + ": " + entry.reason + "\n";
+    text += "not determined: " + frequency_text(mode.frequency_hz) +
+            (entry.damping_is_resolved
+                 ? ", damping ratio " + report::Cell(mode.damping_ratio.value).rounded(4)
+                 : "") +
+            ": " + entry.reason + "\n";
   }
   return text;
 }
@@ -88,7 +91,7 @@ report::Table output_only_table(const separation::OutputOnlyIdentification& foun
 
 report::Table ring_down_table(const separation::RingDown& found) {
   report::Table table({{"from", ""},
-                       {"amplitude", "N m", 3},
+                       {"amplitude", found.unit, 3},
                        {"frequency", "Hz", 6},
                        {"± sd", "Hz", 2},
                        {"damping ratio", "", 4},

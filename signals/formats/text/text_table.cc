@@ -54,9 +54,9 @@ void TextTable::refuse_field(const std::size_t line, const std::size_t column,
 }
 
 ColumnValues TextTable::read(const ColumnRange& range) const {
-  ColumnValues values{.columns = {range.columns.size(), std::vector<double>(range.n_rows)},
+  ColumnValues values{.columns = std::vector<std::vector<double>>(range.columns.size()),
                       .time_digits = {}};
-  std::size_t i = 0;
+  for (std::vector<double>& column : values.columns) column.reserve(range.n_rows);
   const char decimal = file_.layout().spelling.decimal;
   const auto read_row = [&](const std::size_t line,
                             const std::span<const std::string_view> fields) {
@@ -67,14 +67,13 @@ ColumnValues TextTable::read(const ColumnRange& range) const {
       if (range.time_column == range.columns[c]) time_is_number = number.has_value();
       if (!number) number = time_in(field);
       if (!number) refuse_field(line, range.columns[c], field);
-      values.columns[c][i] = *number;
+      values.columns[c].push_back(*number);
     }
     if (range.time_column) {
       const std::string_view field = fields[*range.time_column];
       if (!time_is_number) time_is_number = number_in(field, decimal).has_value();
       see_digits(field, *time_is_number, decimal, values.time_digits);
     }
-    ++i;
   };
   file_.for_each_row(range.first_row, range.n_rows, read_row);
   return values;

@@ -42,6 +42,24 @@ TEST(BvrmFile, ReadsBackExactlyWhatWasWritten) {
   std::filesystem::remove(file);
 }
 
+TEST(BvrmFile, KeepsTheVerdictAndWarnsOfAModelThatIsNotUsable) {
+  const auto read = [](const SampledBvrm& model) {
+    return sampled_bvrm_from_json(to_json(model), "model.json");
+  };
+  SampledBvrm model{test::sensor(1)};
+  EXPECT_FALSE(read(model).verdict);  // as in a file of before
+  EXPECT_EQ(read(model).warning(), "");
+  model.verdict = {true, "Usable from 1 Hz to 2 Hz."};
+  EXPECT_EQ(read(model).verdict->sentence, model.verdict->sentence);
+  EXPECT_EQ(read(model).warning(), "");
+  model.verdict = {false, "Not usable: the model explains nothing."};
+  EXPECT_THAT(read(model).warning(), HasSubstr(model.verdict->sentence));
+  nlohmann::json bad = to_json(model);
+  bad["usable"] = "no";
+  EXPECT_THAT([&] { sampled_bvrm_from_json(bad, "model.json"); },
+              ThrowsMessage<UserError>(HasSubstr("model.json: 'usable'")));
+}
+
 TEST(BvrmFile, NamesTheFileThatIsMissingOrNoJson) {
   const auto file = std::filesystem::temp_directory_path() / "vibrissa_bvrm_test_bad.json";
   std::filesystem::remove(file);

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "separation/model/sampled_bvrm.h"
+#include "separation/model/simulation.h"
+#include "separation/nonlinear/nonlinear_bank.h"
 #include "signals/base/error.h"
 #include "tests/separation/test_signals.h"
 
@@ -43,6 +45,22 @@ TEST(NonlinearBvrm, IsReadBackAsItWasWritten) {
   write_bvrm(file, {joint_of_three_terms().linear});
   EXPECT_FALSE(is_nonlinear_bvrm(file));
   std::filesystem::remove(file);
+}
+
+// A motion so small that all but the slope of the friction vanishes.
+TEST(NonlinearBvrm, IsLinearAtSmallAmplitude) {
+  for (const LawReadout readout : {LawReadout::moment, LawReadout::deflection}) {
+    NonlinearBvrm model = joint_of_three_terms();
+    model.readout = readout;
+    test::Signal input = test::white_noise(2000, 1e-6, 1);
+    const test::Signal expected =
+        simulate(at_small_amplitude(model), input, 500., Hold::first_order);
+    const test::Signal found = simulate(model, input, 500., Hold::first_order);
+    double error = 0.;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      error = std::max(error, std::abs(found[i] - expected[i]));
+    EXPECT_LT(error, 1e-4 * test::rms(expected)) << to_string(readout);
+  }
 }
 
 TEST(NonlinearBvrm, NamesThePlaceOfWhatIsWrong) {

@@ -19,6 +19,7 @@ using test::make_record;
 using test::rate_hz;
 using test::Signal;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -154,7 +155,22 @@ TEST(Verdict, TakesThePeakBetweenTwoLinesForAFrequencyWithoutDamping) {
   EXPECT_THAT(verdict.frequency_only[0].reason, HasSubstr("not resolved"));
   EXPECT_TRUE(verdict.undetermined.empty());
   EXPECT_FALSE(verdict.usable);
-  EXPECT_THAT(verdict.sentence, StartsWith("Usable for the frequencies"));
+  EXPECT_THAT(verdict.sentence, StartsWith("Not usable as a model, only for the frequencies"));
+}
+
+// An analyser's coherence falls where the drive ends.
+TEST(Verdict, GoesByTheCoherenceOfAResponse) {
+  signals::FrequencyResponse response =
+      at_lines_of_an_analyser({.modes = {make_modal_term(212., 0.02, 30.)}});
+  for (const double f : response.frequency_hz) response.coherence.push_back(f < 250. ? 0.99 : 0.1);
+  IdentifiedResponse found;
+  found.fit = known_fit({make_modal_term(212., 0.02, 30.), make_modal_term(290., 0.02, 1.)}, 0.01);
+  const Verdict verdict = judge(found, response);
+  EXPECT_NEAR(verdict.band.high_hz, 250., 0.4);
+  EXPECT_THAT(verdict.determined, ElementsAre(0u));
+  EXPECT_THAT(verdict.sentence, HasSubstr("median 0.99; at most 0.5 at 160 of 640 lines"));
+  response.coherence.clear();
+  EXPECT_THAT(judge(found, response).determined, ElementsAre(0u, 1u));
 }
 
 TEST(Verdict, NamesTheBandOfAHitAndTheLinesOfAResponse) {
@@ -230,6 +246,20 @@ TEST(Verdict, WritesTheFrequencyOfTheAmplitudeIntoItsJson) {
   add_verdict(verdict, document);
   EXPECT_EQ(document["frequency_only"][0]["frequency_hz"], 192.6);
   EXPECT_EQ(document["frequency_only"][0]["frequency_sd_hz"], 0.09);
+}
+
+TEST(Verdict, WritesADampingThatIsNotResolvedAsNull) {
+  const signals::FrequencyResponse response =
+      at_lines_of_an_analyser({.modes = {make_modal_term(212.1, 8e-4, 30.)}});
+  IdentifiedResponse found;
+  found.fit = known_fit({make_modal_term(212.1, 8e-4, 30.), make_modal_term(150., 0.02, 1.)}, 1e-3);
+  found.order_words = "both select order 4";
+  const auto document = identified_response_json(found, judge(found, response), "kg m");
+  ASSERT_EQ(document["frequency_only"].size(), 1u) << document;
+  EXPECT_TRUE(document["frequency_only"][0]["damping_ratio"].is_null());
+  EXPECT_TRUE(document["frequency_only"][0]["damping_sd"].is_null());
+  EXPECT_EQ(document["modes"][0]["damping_ratio"], found.fit.modes[1].damping_ratio.value);
+  EXPECT_EQ(document["order_words"], found.order_words);
 }
 
 // An analyser's Hann window makes the lines beside a narrow peak, which looks like a second mode.

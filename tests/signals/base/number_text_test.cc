@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <locale>
+#include <random>
+#include <string>
 
 namespace vibrissa::signals {
 namespace {
@@ -23,6 +27,22 @@ TEST(NumberText, TakesOnlyTextThatIsANumberAsAWhole) {
   EXPECT_EQ(to_number(".5"), 0.5);
   for (const char* const text :
        {"", " 1", "1 ", "1,5", "1.5x", "0x10", "+-1", "++1", "--1", "e5", "-"})
+    EXPECT_FALSE(to_number(text)) << text;
+}
+
+// strtod of the C library rounds to nearest, whatever the number of digits.
+TEST(NumberText, RoundsNumbersOfAnyLengthToTheNearest) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 20000; ++i) {
+    const std::size_t n_digits = 1 + random() % 19, n_decimals = random() % 24;
+    std::string text = std::to_string(random()).substr(0, n_digits);
+    text.insert(std::min(n_decimals, text.size()), 1, '.');
+    if (random() % 2) text = "-" + text;
+    if (random() % 2) text += "e" + std::to_string(int(random() % 80) - 40);
+    EXPECT_EQ(to_number(text), std::strtod(text.c_str(), nullptr)) << text;
+  }
+  EXPECT_TRUE(std::signbit(to_number("-0.0").value()));
+  for (const char* const text : {"1e", "1e+", "1e+-2", "1e2147483648", ".", "-.", "1.2.3"})
     EXPECT_FALSE(to_number(text)) << text;
 }
 

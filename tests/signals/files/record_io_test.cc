@@ -162,6 +162,17 @@ TEST_F(ReadRecord, TakesAForeignColumnOfTime) {
   EXPECT_THAT(record.channel_names(), ElementsAre("base_moment_N_m"));
 }
 
+TEST_F(ReadRecord, UsesNoUnitForAColumnOfDates) {
+  const std::string content = csv("column_1,base_moment_N_m", [](const std::size_t i) {
+    return "2024-05-01T10:00:0" + to_text(0.01 * static_cast<double>(i) + 1.005) + ",1";
+  });
+  const auto file = folder_.file("dates.csv", content);
+  const Recording found =
+      read_recording(file, {.columns = {parse_column_choice("time=column_1[ms]")}});
+  EXPECT_EQ(found.pieces.front().sampling_rate_hz(), 100.);
+  EXPECT_THAT(found.words, HasSubstr("'column_1' holds dates, so its unit 'ms' is not used"));
+}
+
 TEST_F(ReadRecord, ListsTheColumnsWhenOneIsMissing) {
   EXPECT_THAT(reading(csv(plain_header, plain), {.columns = {{"base_moment_N_m", "hall"}}}),
               ThrowsMessage<UserError>(EndsWith("r.csv:1: unknown column 'hall'. Known: time_s, "

@@ -150,6 +150,16 @@ TEST(Clock, FindsRateAndLostSamplesOfFortyDevices) {
   EXPECT_LE(double(n_false), 0.01 * double(n_lost));
 }
 
+TEST(Clock, FindsTheFewLossesOfALongRecord) {
+  const Device device{.n = 300000, .jitter_periods = 0.1, .lost_share = 1e-4};
+  const Stamps stamps = stamps_of(device);
+  const Clock clock = clock_of(stamps, device.unit_s);
+  EXPECT_EQ(clock.n_lost, stamps.n_lost);
+  EXPECT_EQ(n_found(stamps, clock), stamps.first_behind_loss.size());
+  EXPECT_EQ(clock.pieces.size(), stamps.first_behind_loss.size() + 1);
+  EXPECT_NEAR(clock.sampling_rate_hz, device.rate_hz, 4. * clock.rate_error_hz);
+}
+
 TEST(Clock, IsTheExactGridWhereTheStampsAreOne) {
   const Stamps stamps = stamps_of({.rate_hz = 500.});
   const Clock clock = clock_of(stamps, 1e-6);
