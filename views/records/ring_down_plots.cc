@@ -19,7 +19,8 @@ using separation::RingDown;
 constexpr std::size_t law_colour = 1, measured_colour = 0;
 
 report::Panel decay_panel(const RingDown& found, std::span<const double> moment, double rate_hz) {
-  report::Panel panel{.title = "Free decay", .x_label = "Time [s]", .y_label = "Moment [" + found.unit + "]"};
+  report::Panel panel{
+      .title = "Free decay", .x_label = "Time [s]", .y_label = "Moment [" + found.unit + "]"};
   report::Curve measured{.label = "measured", .y = {moment.begin(), moment.end()}};
   for (std::size_t i = 0; i < moment.size(); ++i)
     measured.x.push_back(static_cast<double>(i) / rate_hz);
@@ -77,7 +78,8 @@ void add_law(const std::vector<DecayPoint>& points, Estimate DecayPoint::*value,
 
 report::Panel against_amplitude(const RingDown& found, Estimate DecayPoint::*value,
                                 const std::string& label) {
-  report::Panel panel{.x_label = "Amplitude of the moment [" + found.unit + "]", .y_label = label, .log_x = true};
+  report::Panel panel{
+      .x_label = "Amplitude of the moment [" + found.unit + "]", .y_label = label, .log_x = true};
   // Wider than the amplitudes, so that no bar lies on the frame.
   constexpr double margin = 1.1;
   double low = found.fitted.back().amplitude_n_m, high = found.fitted.front().amplitude_n_m;
