@@ -69,7 +69,7 @@ Complex pole_of(const JointModel& joint) {
 /// and its true start differ by twice the variance of the motion.
 double variance_of_start(const PreparedRecord& record, const Complex& pole) {
   const double n = static_cast<double>(record.n_evaluated),
-               decayed = std::exp(std::min(0., pole.real()) * static_cast<double>(record.first) /
+               decayed = std::exp(pole.real() * static_cast<double>(record.first) /
                                   record.sampling_rate_hz);
   return 4. * total_power(record.moment) / (n * n) * decayed * decayed;
 }
@@ -236,18 +236,20 @@ std::vector<RecordNuisance> ChainSimulator::unknowns_of(const PreparedRecord& re
   if (chain_.ramp_variance_rate > 0.)
     out.push_back(
         unknown_ramp(chain_.ramp_variance_rate * evaluated_s, record.n_evaluated, record.n_bins()));
-  const auto add_wave = [&](const double variance, const Complex pole) {
+  const auto add_wave = [&](const double variance, const Complex pole, const bool of_start) {
+    if (!(variance > 0.)) return;
     for (RecordNuisance& part : unknown_wave(variance, pole / record.sampling_rate_hz,
-                                             record.n_evaluated, record.n_bins()))
+                                             record.n_evaluated, record.n_bins())) {
+      part.of_start = of_start;
       out.push_back(std::move(part));
+    }
   };
   for (const Tone& tone : chain_.tones)
-    add_wave(0.5 * tone.amplitude * tone.amplitude,
-             {0., 2. * std::numbers::pi * tone.frequency_hz});
+    add_wave(0.5 * tone.amplitude * tone.amplitude, {0., 2. * std::numbers::pi * tone.frequency_hz},
+             false);
   if (response_.joint() && record.first > 0) {
     const Complex pole = pole_of(*response_.joint());
-    add_wave(variance_of_start(record, pole), pole);
-    for (auto part = out.end() - 2; part != out.end(); ++part) part->of_start = true;
+    if (pole.real() < 0.) add_wave(variance_of_start(record, pole), pole, true);
   }
   const double age = chain_.new_sample_share * record.unknown_age_s;
   if (age > 0.) {

@@ -23,7 +23,7 @@ RecordNuisance unknown_ramp(double variance, std::size_t n_samples, std::size_t 
 
 /// Cosine and sine parts of a wave exp(pole i) over samples i = 0 .. n_samples - 1, each of this
 /// variance [(N m)^2]: a tone, or a decay. Bins: sums of geometric series (Harris 1978, leakage of
-/// a line).
+/// a line). Proven by tests/diagnosis/prediction/record_nuisances_test.cc.
 std::array<RecordNuisance, 2> unknown_wave(double variance, Complex pole_per_sample,
                                            std::size_t n_samples, std::size_t n_bins);
 

@@ -121,8 +121,8 @@ std::vector<double> DrawnSensor::with_noise(std::span<const double> x, const dou
   return out;
 }
 
-/// Process noise of the effects: a random signal with their spectrum, and the straight line of a
-/// random walk.
+/// Process noise of the effects: a random signal with their spectrum, tones, and the straight line
+/// of a random walk.
 void DrawnSensor::add_own_noise(const diagnosis::Chain& chain, const signals::DatasetRecord& entry,
                                 std::vector<double>& moment) {
   const std::size_t n = moment.size() - moment.size() % 2;
@@ -148,6 +148,14 @@ void DrawnSensor::add_own_noise(const diagnosis::Chain& chain, const signals::Da
   for (std::size_t b = 0; b < variance.size(); ++b)
     spectrum[b + 1] = std::sqrt(0.5 * variance[b]) * Complex(normal(random_), normal(random_));
   const std::vector<double> course = diagnosis::samples_of(spectrum, n);
+  const auto add_tone = [&](const diagnosis::Tone& tone) {
+    const Complex size =
+        tone.amplitude * std::sqrt(0.5) * Complex(normal(random_), normal(random_));
+    for (std::size_t i = 0; i < n; ++i)
+      moment[i] += std::real(size * std::polar(1., 2. * std::numbers::pi * tone.frequency_hz *
+                                                       static_cast<double>(i) / rate_hz));
+  };
+  for (const diagnosis::Tone& tone : chain.tones) add_tone(tone);
   const double rise =
       std::sqrt(chain.ramp_variance_rate * static_cast<double>(n) / rate_hz) * normal(random_);
   for (std::size_t i = 0; i < n; ++i)
