@@ -258,7 +258,7 @@ TEST(Verdict, WritesADampingThatIsNotResolvedAsNull) {
   ASSERT_EQ(document["frequency_only"].size(), 1u) << document;
   EXPECT_TRUE(document["frequency_only"][0]["damping_ratio"].is_null());
   EXPECT_TRUE(document["frequency_only"][0]["damping_sd"].is_null());
-  EXPECT_EQ(document["modes"][0]["damping_ratio"], found.fit.modes[1].damping_ratio.value);
+  EXPECT_EQ(document["modes"][0]["damping_ratio"], found.fit.modes[0].damping_ratio.value);
   EXPECT_EQ(document["order_words"], found.order_words);
 }
 

@@ -169,7 +169,7 @@ TEST_F(ReadRecord, UsesNoUnitForAColumnOfDates) {
   const auto file = folder_.file("dates.csv", content);
   const Recording found =
       read_recording(file, {.columns = {parse_column_choice("time=column_1[ms]")}});
-  EXPECT_EQ(found.pieces.front().sampling_rate_hz(), 100.);
+  EXPECT_NEAR(found.pieces.front().sampling_rate_hz(), 100., 1e-6);
   EXPECT_THAT(found.words, HasSubstr("'column_1' holds dates, so its unit 'ms' is not used"));
 }
 
