@@ -28,11 +28,11 @@ struct Overlap {
   double cross = 0., own = 0., residual = 0.;
   std::vector<NoisyBin> noisy{};
   std::vector<Addition> additions{};
-  /// Gain in twice the log likelihood when the noise levels follow what is left.
+  /// Gain in twice the log likelihood when the noise levels follow what is left. First order does
+  /// not tell less than least_share.
   double of_mean() const {
-    constexpr double least_left = 1e-6;
     if (!(own > 0.)) return 0.;
-    return -2. * residual * std::log(std::max(least_left, 1. - cross * cross / (own * residual)));
+    return -2. * residual * std::log(std::max(least_share, 1. - cross * cross / (own * residual)));
   }
 
   /// Gain in twice the log likelihood by a multiple of the new noise's variance.
