@@ -161,13 +161,14 @@ std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Predi
 }
 
 FitPosterior::WhitenedErrors FitPosterior::whitened_errors(const std::vector<Prediction>& at,
-                                                           const BinVariances& s) const {
+                                                           const BinVariances& s,
+                                                           const Nuisances& nuisances) const {
   WhitenedErrors out{Eigen::VectorXcd(discrepancy_.n_rows()),
                      Eigen::VectorXd(discrepancy_.n_rows())};
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < at.size(); ++r) {
     std::vector<Complex> error = difference(experiment_.records[r].moment, at[r].mean);
-    IntegratedNuisances(at[r].unknowns, error, s[r]).remove_from(error);
+    nuisances[r].remove_from(error);
     for (std::size_t b = 0; b < error.size(); ++b, ++row) {
       out.per_deviation(row) = 1. / std::sqrt(s[r][b]);
       out.error(row) = error[b] * out.per_deviation(row);
@@ -178,7 +179,8 @@ FitPosterior::WhitenedErrors FitPosterior::whitened_errors(const std::vector<Pre
 
 FitPosterior::WhitenedErrors FitPosterior::whitened_errors(
     const Eigen::VectorXd& x, const std::vector<Prediction>& at) const {
-  return whitened_errors(at, variances(x, at, acceleration_variance(x)));
+  const BinVariances s = variances(x, at, acceleration_variance(x));
+  return whitened_errors(at, s, nuisances_of(at, s));
 }
 
 ModelDiscrepancy::Solution FitPosterior::discrepancy(const Eigen::VectorXd& x,
@@ -195,15 +197,16 @@ double FitPosterior::log_likelihood(const Eigen::VectorXd& x,
                                     const std::vector<Prediction>& at) const {
   const double a_variance = acceleration_variance(x);
   const BinVariances s = variances(x, at, a_variance);
+  const Nuisances nuisances = nuisances_of(at, s);
   double sum = 0.;
   for (std::size_t r = 0; r < at.size(); ++r) {
     const std::vector<Complex> error = difference(experiment_.records[r].moment, at[r].mean);
     for (std::size_t b = 0; b < s[r].size(); ++b)
       sum -= std::norm(error[b]) / s[r][b] + std::log(s[r][b]);
-    sum += IntegratedNuisances(at[r].unknowns, error, s[r]).log_likelihood_gain() -
-           accelerometer_term(experiment_.records[r], a_variance);
+    sum +=
+        nuisances[r].log_likelihood_gain() - accelerometer_term(experiment_.records[r], a_variance);
   }
-  sum += discrepancy(x, whitened_errors(at, s)).log_likelihood_gain();
+  sum += discrepancy(x, whitened_errors(at, s, nuisances)).log_likelihood_gain();
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
 }
 
@@ -333,7 +336,7 @@ void FitPosterior::add_means(const Nuisances& nuisances, const WhitenedErrors& e
       reinterpret_cast<const double*>(errors.error.data()), columns.rows());
   Eigen::VectorXd slope = 2. * columns.transpose() * error;
   Eigen::MatrixXd curvature = 2. * columns.transpose() * columns;
-  remove_unknowns(nuisances, columns, curvature);
+  remove_nuisances(nuisances, columns, &curvature);
   terms.project(columns, slope, curvature);
   gradient(of_chain_) += slope;
   information(of_chain_, of_chain_) += curvature;
@@ -376,11 +379,11 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
                              Eigen::MatrixXd& information) const {
   const double a_variance = acceleration_variance(x);
   const BinVariances s = variances(x, at, a_variance);
-  const WhitenedErrors errors = whitened_errors(at, s);
+  const Nuisances nuisances = nuisances_of(at, s);
+  const WhitenedErrors errors = whitened_errors(at, s, nuisances);
   const ModelDiscrepancy::Solution terms = discrepancy(x, errors);
   gradient.setZero(x.size());
   information.setZero(x.size(), x.size());
-  const Nuisances nuisances = nuisances_of(at, s);
   add_means(nuisances, errors, terms, derivatives, gradient, information);
   add_nuisances(nuisances, derivatives.nuisance_variance, gradient, information);
   add_variances(x, at, s, errors, terms, derivatives, gradient, information);
@@ -400,6 +403,11 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
     gradient(i) += prior.slope(x(i));
     information(i, i) += prior.curvature(x(i));
   }
+}
+
+FitPosterior::Nuisances FitPosterior::nuisances_of(const Eigen::VectorXd& x,
+                                                   const std::vector<Prediction>& at) const {
+  return nuisances_of(at, variances(x, at, acceleration_variance(x)));
 }
 
 FitPosterior::Nuisances FitPosterior::nuisances_of(const std::vector<Prediction>& at,
@@ -425,17 +433,16 @@ void FitPosterior::add_nuisances(const Nuisances& nuisances, const Eigen::Matrix
   }
 }
 
-/// Projects the per-record nuisance parameters out of the information and of the columns.
-void FitPosterior::remove_unknowns(const Nuisances& nuisances, Eigen::MatrixXd& columns,
-                                   Eigen::MatrixXd& information) const {
+void remove_nuisances(const FitPosterior::Nuisances& nuisances, Eigen::Ref<Eigen::MatrixXd> columns,
+                      Eigen::MatrixXd* const information) {
   Eigen::Index first = 0;
-  for (std::size_t r = 0; r < nuisances.size(); ++r) {
-    const auto n_rows = static_cast<Eigen::Index>(2 * experiment_.records[r].n_bins());
-    if (const IntegratedNuisances& unknowns = nuisances[r]; unknowns.any()) {
+  for (const IntegratedNuisances& unknowns : nuisances) {
+    const Eigen::Index n_rows = unknowns.n_rows();
+    if (unknowns.any()) {
       const Eigen::MatrixXd overlap =
           2. * columns.middleRows(first, n_rows).transpose() * unknowns.whitened_shapes();
       const Eigen::MatrixXd weighed = unknowns.covariance() * overlap.transpose();
-      information -= overlap * weighed;
+      if (information != nullptr) *information -= overlap * weighed;
       columns.middleRows(first, n_rows) -= unknowns.whitened_shapes() * weighed;
     }
     first += n_rows;

@@ -48,6 +48,10 @@ class FitPosterior {
   ModelDiscrepancy::Solution discrepancy(const Eigen::VectorXd& x,
                                          const std::vector<Prediction>& at) const;
 
+  using Nuisances = std::vector<IntegratedNuisances>;  // of each record
+  /// at: must outlive the result.
+  Nuisances nuisances_of(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
+
   /// Errors of all records, divided by the standard deviations of their noise, without the most
   /// probable per-record nuisance parameters.
   struct WhitenedErrors {
@@ -67,7 +71,6 @@ class FitPosterior {
 
  private:
   using BinVariances = std::vector<std::vector<double>>;  // [record][bin]
-  using Nuisances = std::vector<IntegratedNuisances>;     // of each record
 
   /// Does the last parameter scale the form errors of effects?
   bool has_form_errors() const {
@@ -108,9 +111,8 @@ class FitPosterior {
   BinVariances variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                          double acceleration_variance) const;
   Nuisances nuisances_of(const std::vector<Prediction>& at, const BinVariances& s) const;
-  void remove_unknowns(const Nuisances& nuisances, Eigen::MatrixXd& columns,
-                       Eigen::MatrixXd& information) const;
-  WhitenedErrors whitened_errors(const std::vector<Prediction>& at, const BinVariances& s) const;
+  WhitenedErrors whitened_errors(const std::vector<Prediction>& at, const BinVariances& s,
+                                 const Nuisances& nuisances) const;
   ModelDiscrepancy::Solution discrepancy(const Eigen::VectorXd& x,
                                          const WhitenedErrors& whitened) const;
   /// Parameter of the unknown cause for a bin.
@@ -126,5 +128,11 @@ class FitPosterior {
   BinVariances misfit_, power_, incoherent_, form_;
   ModelDiscrepancy discrepancy_;
 };
+
+/// Takes the per-record nuisance parameters out of whitened columns (real and imaginary parts in
+/// turn) of all records, and out of the columns' information: what they imitate tells nothing.
+/// Proven by tests/diagnosis/search/resemblance_test.cc.
+void remove_nuisances(const FitPosterior::Nuisances& nuisances, Eigen::Ref<Eigen::MatrixXd> columns,
+                      Eigen::MatrixXd* information = nullptr);
 
 }  // namespace vibrissa::diagnosis

@@ -61,10 +61,10 @@ std::array<RecordNuisance, 2> unknown_wave(const double variance, const Complex 
 IntegratedNuisances::IntegratedNuisances(const std::span<const RecordNuisance> unknowns,
                                          const std::span<const Complex> error,
                                          const std::span<const double> variance)
-    : unknowns_(unknowns) {
+    : unknowns_(unknowns), n_rows_(2 * std::ssize(variance)) {
   const auto n = static_cast<Eigen::Index>(unknowns.size());
   if (n == 0) return;
-  shapes_.resize(2 * static_cast<Eigen::Index>(variance.size()), n);
+  shapes_.resize(n_rows_, n);
   Eigen::VectorXd deviation(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const RecordNuisance& unknown = unknowns[static_cast<std::size_t>(i)];

@@ -39,6 +39,7 @@ class IntegratedNuisances {
   double log_likelihood_gain() const;
   bool any() const { return !unknowns_.empty(); }
   Eigen::Index size() const { return std::ssize(unknowns_); }
+  Eigen::Index n_rows() const { return n_rows_; }
   /// Shapes divided by the standard deviations of the bins, real and imaginary parts in turn: one
   /// column per parameter.
   const Eigen::MatrixXd& whitened_shapes() const { return shapes_; }
@@ -59,6 +60,7 @@ class IntegratedNuisances {
   Eigen::VectorXd variances() const;
 
   std::span<const RecordNuisance> unknowns_;
+  Eigen::Index n_rows_ = 0;  // two for each bin
   Eigen::MatrixXd shapes_, covariance_;
   Eigen::VectorXd score_;
   double log_determinant_ = 0.;  // of 1 + variance times information

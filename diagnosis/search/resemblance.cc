@@ -87,11 +87,13 @@ struct FitResidual::State {
   const HypothesisFit& fit;
   FitPosterior posterior;
   Chain chain;
+  std::vector<Prediction> at;
+  FitPosterior::Nuisances nuisances;
   Eigen::VectorXcd mean, error;  // whitened error, without per-record nuisance parameters
   Eigen::VectorXcd noise;        // the error without the discrepancy
   double residual = 0.;          // squared error, relative to noise and discrepancy
   Eigen::VectorXd per_deviation;
-  Eigen::MatrixXd columns;     // whitened derivatives of the mean
+  Eigen::MatrixXd columns;     // whitened derivatives of the mean, without nuisance parameters
   Eigen::MatrixXd covariance;  // of their parameters
   ModelDiscrepancy::Solution discrepancy;
 
@@ -99,10 +101,11 @@ struct FitResidual::State {
       : experiment(of),
         fit(best),
         posterior(of, best.fit_parameters, best.hypothesis),
-        chain(best.chain(of)) {
-    const std::vector<Prediction> at = posterior.predict(fit.x);
+        chain(best.chain(of)),
+        at(posterior.predict(fit.x)) {
     posterior.update_slow_variance(fit.x, at);
     discrepancy = posterior.discrepancy(fit.x, at);
+    nuisances = posterior.nuisances_of(fit.x, at);
     const FitPosterior::WhitenedErrors whitened = posterior.whitened_errors(fit.x, at);
     error = whitened.error;
     per_deviation = whitened.per_deviation;
@@ -116,6 +119,7 @@ struct FitResidual::State {
     covariance = fit.covariance(posterior.chain_parameters(), posterior.chain_parameters());
     for (Eigen::Index i = 0; i < per_deviation.size(); ++i)
       columns.middleRows(2 * i, 2) *= per_deviation(i);
+    remove_nuisances(nuisances, columns);
   }
 
   /// The addition to the record whose rows begin here.
@@ -158,6 +162,10 @@ struct FitResidual::State {
         out.noisy.push_back({v, std::norm(noise(row))});
       }
     }
+    // What the unknowns of a record imitate tells nothing of an effect.
+    const Eigen::Map<Eigen::VectorXd> change_parts(reinterpret_cast<double*>(change.data()),
+                                                   2 * change.size());
+    remove_nuisances(nuisances, change_parts);
     const Eigen::VectorXcd weighed = discrepancy.apply_inverse(change);
     out.cross = weighed.dot(error).real();
     out.residual = residual;

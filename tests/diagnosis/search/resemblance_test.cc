@@ -10,7 +10,15 @@ namespace {
 class ResemblanceTest : public testing::Test {
  protected:
   void measure(const test::OneModeRig& rig, const double rise = 0.) {
-    signals::Dataset records = test::rig_dataset(rig, {});
+    prepare(rig, test::rig_dataset(rig, {}), rise);
+  }
+  /// Records without periods, which begin while the whisker moves.
+  void measure_without_periods(const test::OneModeRig& rig) {
+    signals::Dataset records = test::rig_dataset(rig, {.quiet = false});
+    for (signals::DatasetRecord& entry : records.records) entry.period_samples = 0;
+    prepare(rig, std::move(records), 0.);
+  }
+  void prepare(const test::OneModeRig& rig, signals::Dataset records, const double rise) {
     for (signals::DatasetRecord& entry : records.records) {
       const auto moment = entry.record.channel(signals::channel::base_moment);
       std::vector<double> drifted(moment.begin(), moment.end());
@@ -48,6 +56,17 @@ TEST_F(ResemblanceTest, OfNoiseAloneIsThatOfChance) {
   // Chi-square of one degree: beyond 16 once in 16 000.
   for (const double hz : {50., 60., 70., 80., 90., 120.})
     EXPECT_LT(of("extra_mode", {{hz, 0.02, 0.05}}).gain, 16.) << hz;
+}
+
+TEST_F(ResemblanceTest, OfAnotherEffectIsSmallWhereTheStartOfARecordIsUnknown) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.damping_ratio = 0.02;
+  rig.cubic = 4e5;
+  measure_without_periods(rig);
+  const auto gain = [&](const char* effect) { return of(effect, find_effect(effect).starts).gain; };
+  const double own = gain("hardening");
+  for (const char* effect : {"delay", "base_compliance", "clock_drift"})
+    EXPECT_LT(gain(effect), 0.5 * own) << effect;
 }
 
 TEST_F(ResemblanceTest, TellsPlaceAndSizeOfATone) {
