@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/checks/data_checks.h"
+#include "diagnosis/model/parallel.h"
 #include "diagnosis/model/words.h"
 #include "diagnosis/nominal/nominal_identification.h"
 #include "diagnosis/records/experiment.h"
@@ -207,6 +208,7 @@ UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fi
 
 Diagnosis diagnose(const UpdatedModel& simulation, const signals::Dataset& recorded,
                    const DiagnoseOptions& options) {
+  const AvailableThreads threads(options.search.n_threads);
   check_menu_names(options.possible_experiments);
   const NominalModel& nominal = simulation.nominal;
   Diagnosis out;

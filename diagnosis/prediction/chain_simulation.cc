@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/model/parallel.h"
 #include "diagnosis/records/experiment.h"
 #include "diagnosis/records/spectrum.h"
 
@@ -134,7 +135,7 @@ std::vector<Complex> ChainSimulator::response_reading(const PreparedRecord& reco
                                                       const SweepStates* near) {
   std::vector<Complex> out = moment;
   if (is_nonlinear_sweep(chain_, record)) {
-    std::shared_ptr<const SweepStates>& own = sweeps_[record.number];
+    std::shared_ptr<const SweepStates>& own = sweeps_.at(record.number);
     if (near == nullptr && !own) own = std::make_shared<SweepStates>(chain_, record);
     const std::vector<Complex> readings =
         near == nullptr ? own->readings() : near->readings_of(chain_, record);
@@ -162,12 +163,13 @@ ChainSimulator::Spectra ChainSimulator::finish(std::span<const PreparedRecord> r
     std::vector<Complex>& moment = moments[begun.indices[i]];
     for (std::size_t k = 0; k < added.size(); ++k) moment[k] += added[k];
   }
+  std::vector<std::size_t> responses;
   for (std::size_t r = 0; r < records.size(); ++r) {
     const PreparedRecord& record = records[r];
     if (record.is_still()) continue;
     if (record.is_response()) {
-      moments[r] =
-          response_reading(record, moments[r], near.empty() ? nullptr : near[r].sweep.get());
+      responses.push_back(r);
+      sweeps_.try_emplace(record.number);
       continue;
     }
     if (!record.cross_acceleration.empty()) {
@@ -177,6 +179,11 @@ ChainSimulator::Spectra ChainSimulator::finish(std::span<const PreparedRecord> r
     }
     moments[r] = reading(record, std::move(moments[r]));
   }
+  for_each_parallel(responses.size(), available_threads(), [&](const std::size_t i) {
+    const std::size_t r = responses[i];
+    moments[r] =
+        response_reading(records[r], moments[r], near.empty() ? nullptr : near[r].sweep.get());
+  });
   return moments;
 }
 

@@ -159,22 +159,34 @@ std::optional<double> last_of_several(const PreparedRecord& record,
   return out;
 }
 
+/// The squares of what each state's magnitude misses; zero where there is no choice.
+Costs costs_of(const HarmonicBalance& balance, const PreparedRecord& record,
+               const std::vector<std::size_t>& order,
+               const std::vector<std::vector<PeriodicMotion>>& states) {
+  std::vector<PeriodicMotion> several;
+  for (const std::size_t b : order)
+    if (states[b].size() > 1) several.insert(several.end(), states[b].begin(), states[b].end());
+  const std::vector<Complex> readings = readings_at(balance, several);
+  Costs costs;
+  auto next = readings.begin();
+  for (const std::size_t b : order) {
+    std::vector<double>& cost = costs.emplace_back(states[b].size(), 0.);
+    if (cost.size() == 1) continue;
+    for (double& value : cost)
+      value =
+          std::pow(record.sines.per_amplitude * std::abs(*next++) - std::abs(record.moment[b]), 2);
+  }
+  return costs;
+}
+
 /// The states of the sweep by line.
 std::vector<PeriodicMotion> swept(const ResponseCurve& curve, const PreparedRecord& record,
                                   std::vector<std::vector<PeriodicMotion>> states) {
   if (states.empty()) return {};
   const std::vector<std::size_t> order = sweep_order(record);
   hold_ended_branches(record.sines.frequency_hz, order, states);
-  Costs costs;
-  for (const std::size_t b : order) {
-    std::vector<double>& cost = costs.emplace_back(states[b].size(), 0.);
-    if (cost.size() == 1) continue;
-    const std::vector<Complex> readings = readings_at(curve.balance(), states[b]);
-    for (std::size_t j = 0; j < cost.size(); ++j)
-      cost[j] = std::pow(
-          record.sines.per_amplitude * std::abs(readings[j]) - std::abs(record.moment[b]), 2);
-  }
-  const std::vector<std::size_t> choice = cheapest_rising(costs);
+  const std::vector<std::size_t> choice =
+      cheapest_rising(costs_of(curve.balance(), record, order, states));
   std::vector<PeriodicMotion> out(states.size());
   for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = states[order[i]][choice[i]];
   return out;

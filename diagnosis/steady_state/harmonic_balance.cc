@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "diagnosis/response/difference_integrator.h"
 
@@ -34,6 +36,10 @@ Complex order_of(const Eigen::VectorXd& coordinates, const Eigen::Index i) {
   return {coordinates(2 * i), coordinates(2 * i + 1)};
 }
 
+Complex order_of(const LaneRows& coordinates, const Eigen::Index i, const Eigen::Index lane) {
+  return {coordinates(2 * i, lane), coordinates(2 * i + 1, lane)};
+}
+
 void set_order(Eigen::VectorXd& coordinates, const Eigen::Index i, const Complex value) {
   coordinates(2 * i) = value.real();
   coordinates(2 * i + 1) = value.imag();
@@ -41,6 +47,12 @@ void set_order(Eigen::VectorXd& coordinates, const Eigen::Index i, const Complex
 
 LaneRows same_in_all_lanes(const Eigen::VectorXd& y) {
   return y.array().replicate<1, n_lanes>();
+}
+
+/// A response takes thousands of balances with few different bases.
+const FourierBasis& known_basis(const std::size_t highest, const bool only_odd) {
+  thread_local std::map<std::pair<std::size_t, bool>, FourierBasis> bases;
+  return bases.try_emplace({highest, only_odd}, highest, only_odd).first->second;
 }
 
 /// The motions in their own lanes; the last one also in those that are left.
@@ -69,7 +81,7 @@ HarmonicBalance::HarmonicBalance(const Chain& chain, const HarmonicDrive& drive,
       drive_(drive),
       response_(chain),
       joint_(known(response_.joint()).dynamic()),
-      basis_(highest_order, drive.wind_speed_m_s.value_or(0.) == 0.),
+      basis_(known_basis(highest_order, drive.wind_speed_m_s.value_or(0.) == 0.)),
       has_memory_(any_memory(chain)) {
   if (!drive.wind_speed_m_s) return;
   wind_gain_ = chain.structure.modes.front().wind_gain * chain.drag_factor;
@@ -113,7 +125,8 @@ HarmonicBalance::LaneLoads HarmonicBalance::lane_loads(const LaneRows& y, const 
   LaneRows rates = basis_.rates(y);
   rates.rowwise() *= w_rad_s.transpose();
   const Eigen::Index n = values.rows();
-  LaneRows torque = LaneRows::Zero(n, n_lanes), external = torque;
+  LaneRows torque = LaneRows::Zero(n, n_lanes),
+           external = LaneRows::Zero(basis_.n_coordinates(), n_lanes);
   const auto laws = laws_of(chain_, drive_.record_number);
   const Lanes dt = 2. * M_PI / (w_rad_s * static_cast<double>(basis_.n_samples_of_period()));
   const auto pass = [&](const double sign, const bool commit) {
@@ -137,26 +150,27 @@ HarmonicBalance::LaneLoads HarmonicBalance::lane_loads(const LaneRows& y, const 
         w_rad_s.unaryExpr([&](const double w) { return drive_.acceleration_at(w); });
     velocity.row(basis_.fundamental() + 1) = -drive_share * (acceleration / w_rad_s).transpose();
     const LaneRows base = basis_.samples(velocity);
+    LaneRows load(n, n_lanes);
     for (Eigen::Index i = 0; i < n; ++i)
-      external.row(i) =
+      load.row(i) =
           wind_gain_ * relative_drag(chain_.relative_wind, Lanes::Constant(*drive_.wind_speed_m_s),
                                      base.row(i).transpose(), rates.row(i).transpose())
                            .transpose();
+    external = basis_.coordinates(load);
   }
   return {.torque = basis_.coordinates(torque),
-          .external = basis_.coordinates(external),
+          .external = std::move(external),
           .peak = values.abs().colwise().maxCoeff().transpose()};
 }
 
 Eigen::VectorXd HarmonicBalance::error(const Eigen::VectorXd& y, const Coefficients& coefficients,
                                        const LaneLoads& loads, const Eigen::Index lane) const {
   Eigen::VectorXd out = y - coefficients.linear;
-  const Eigen::VectorXd torque = loads.torque.col(lane), external = loads.external.col(lane);
   for (std::size_t k = 0; k < coefficients.torque.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     set_order(out, i,
-              order_of(out, i) - coefficients.torque[k] * order_of(torque, i) -
-                  coefficients.external[k] * order_of(external, i));
+              order_of(out, i) - coefficients.torque[k] * order_of(loads.torque, i, lane) -
+                  coefficients.external[k] * order_of(loads.external, i, lane));
   }
   return out;
 }
@@ -209,15 +223,15 @@ Complex HarmonicBalance::reading(const PeriodicMotion& motion, const LaneLoads& 
   const LinearPart part = response_.at(s, drive_.readout);
   Eigen::VectorXd moment = Eigen::VectorXd::Zero(basis_.n_coordinates());
   const Eigen::VectorXd added = motion.y - linear_motion(motion.w_rad_s, 1., part);
-  const Eigen::VectorXd torque = loads.torque.col(lane);
   for (std::size_t k = 0; k < basis_.orders().size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     const Complex y = order_of(added, i);
     const Complex stiffness =
         joint_.changed_stiffness_ratio(static_cast<double>(basis_.orders()[k]) * s);
-    set_order(
-        moment, i,
-        drive_.readout == signals::Readout::rotation ? y : stiffness * y + order_of(torque, i));
+    set_order(moment, i,
+              drive_.readout == signals::Readout::rotation
+                  ? y
+                  : stiffness * y + order_of(loads.torque, i, lane));
   }
   const Eigen::Index i = basis_.fundamental() / 2;
   set_order(moment, i, order_of(moment, i) + part.base * drive_.acceleration_at(motion.w_rad_s));
@@ -257,15 +271,19 @@ void HarmonicBalance::correct(const std::span<PeriodicMotion> motions,
                               const int n_iterations) const {
   const std::vector<Coefficients> known = coefficients_of(motions);
   std::vector<PeriodicMotion> trial(motions.begin(), motions.end());
+  constexpr double accurate = 1e-6;  // of a motion; far below what higher harmonics change
   std::vector<double> least(motions.size(), std::numeric_limits<double>::infinity());
-  for (int k = 0; k <= n_iterations; ++k) {
+  bool is_accurate = false;
+  for (int k = 0; k <= n_iterations && !is_accurate; ++k) {
     const std::vector<Eigen::VectorXd> error = errors(trial, known);
+    is_accurate = true;
     for (std::size_t i = 0; i < motions.size(); ++i) {
       const Eigen::VectorXd step = *inverse[i] * error[i];
       if (!(step.norm() < least[i])) continue;
       least[i] = step.norm();
       motions[i] = trial[i];
       trial[i].y -= step;
+      is_accurate = is_accurate && least[i] <= accurate * motions[i].y.norm();
     }
   }
 }

@@ -169,6 +169,7 @@ class Segment {
   };
   /// In the order of the frequencies; by bisection within each part that does not turn.
   std::vector<Crossing> crossings(std::span<const double> w_rad_s) const {
+    constexpr double narrow = 1e-9;
     std::vector<Crossing> out;
     const double middle = turn().value_or(1.);
     for (const auto& [low, high] : {std::array{0., middle}, std::array{middle, 1.}}) {
@@ -178,7 +179,7 @@ class Segment {
         // A point of the curve belongs to the segment that begins there.
         if ((at_low != 0. && at_low * at_high >= 0.) || at_low == at_high) continue;
         double a = low, b = high;
-        for (int i = 0; i < 50 && at_low != 0.; ++i) {
+        while (at_low != 0. && b - a > narrow) {
           const double c = 0.5 * (a + b);
           ((frequency(c) - w_rad_s[line]) * at_low > 0. ? a : b) = c;
         }
@@ -209,11 +210,13 @@ ResponseCurve::ResponseCurve(const Chain& chain, const HarmonicDrive& drive,
 }
 
 double ResponseCurve::largest_neglected() const {
+  // Neighbouring points differ little.
+  constexpr std::size_t step = 3;
   double largest = 0.;
   std::vector<PeriodicMotion> motions;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+  for (std::size_t i = 0; i < points_.size(); i += step) {
     motions.push_back(points_[i].motion);
-    if (motions.size() < static_cast<std::size_t>(signals::n_lanes) && i + 1 < points_.size())
+    if (motions.size() < static_cast<std::size_t>(signals::n_lanes) && i + step < points_.size())
       continue;
     for (const double share : balance_->neglected(motions)) largest = std::max(largest, share);
     motions.clear();
