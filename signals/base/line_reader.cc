@@ -27,7 +27,8 @@ FileBytes::FileBytes(const std::filesystem::path& file)
     : name_(file.string()), descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
   struct ::stat status;
   if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) refuse(name_);
-  if (S_ISREG(status.st_mode)) return;
+  size_ = static_cast<std::size_t>(status.st_size);
+  if (S_ISREG(status.st_mode) && size_ > 0) return;
   std::string part(block, '\0');
   for (;;) {
     const ::ssize_t n = ::read(descriptor_, part.data(), part.size());
@@ -37,10 +38,11 @@ FileBytes::FileBytes(const std::filesystem::path& file)
     held_.append(part, 0, static_cast<std::size_t>(n));
   }
   ::close(std::exchange(descriptor_, -1));
+  size_ = held_.size();
 }
 
 FileBytes::FileBytes(const std::filesystem::path& file, std::string bytes)
-    : name_(file.string()), held_(std::move(bytes)) {}
+    : name_(file.string()), size_(bytes.size()), held_(std::move(bytes)) {}
 
 FileBytes::~FileBytes() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -49,6 +51,7 @@ FileBytes::~FileBytes() {
 FileBytes::FileBytes(FileBytes&& other) noexcept
     : name_(std::move(other.name_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_),
       held_(std::move(other.held_)) {}
 
 std::size_t FileBytes::read(const std::size_t at, char* const to, const std::size_t n_bytes) const {
@@ -71,7 +74,7 @@ std::size_t FileBytes::read(const std::size_t at, char* const to, const std::siz
 }
 
 LineReader::LineReader(const FileBytes& bytes, const std::size_t from, const std::size_t to)
-    : bytes_(bytes), end_(to), buffer_at_(from) {}
+    : bytes_(bytes), end_(std::min(to, bytes.size())), buffer_at_(from) {}
 
 // Drops what is used and appends a block, or what is left.
 bool LineReader::read_more() {

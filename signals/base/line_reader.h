@@ -20,10 +20,13 @@ class FileBytes {
 
   /// Fills the buffer from this position on; reads fewer bytes only at the end of the file.
   std::size_t read(std::size_t at, char* to, std::size_t n_bytes) const;
+  /// When the file was opened.
+  std::size_t size() const { return size_; }
 
  private:
   std::string name_;
   int descriptor_ = -1;
+  std::size_t size_ = 0;
   std::string held_;  // bytes of a pipe
 };
 
