@@ -46,7 +46,7 @@ class DecayProblem {
       largest_ = std::max(largest_, largest(piece));
   }
 
-  Eigen::Index n_law() const { return 2 + parts_.cubic + parts_.drag + 2 * parts_.friction; }
+  Eigen::Index n_law() const { return parts_.n_parameters(); }
   /// Index of the first unknown of a piece.
   Eigen::Index first_of(std::size_t piece) const {
     return n_law() + n_of_start(parts_) * static_cast<Eigen::Index>(piece);
@@ -92,7 +92,7 @@ class DecayProblem {
     constexpr double relative = 1e-6;
     if (i >= n_law())
       return relative * ((i - n_law()) % n_of_start(parts_) < n_moments ? largest_ : 1.);
-    return parts_.cubic && i == 2 ? relative / (largest_ * largest_) : relative;
+    return parts_.is_logarithm(i) ? relative : relative / (largest_ * largest_);
   }
 
   /// Of friction that slips at first, the state has no slope: its coordinate is about 0 to 2, at a

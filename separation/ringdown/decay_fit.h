@@ -14,6 +14,9 @@ struct LawParts {
   bool cubic = false, drag = false, friction = false;
 
   bool operator==(const LawParts&) const = default;
+  Eigen::Index n_parameters() const { return 2 + cubic + drag + 2 * friction; }
+  /// All parameters are logarithms but that of the cubic part, which may have either sign.
+  bool is_logarithm(Eigen::Index parameter) const { return !(cubic && parameter == 2); }
 };
 
 /// A law fitted to decays. The parameters of the law are, in turn: ln frequency, ln damping ratio,

@@ -70,7 +70,7 @@ DecayLaw without(DecayLaw law, bool LawParts::*part) {
 /// again, with more than its probability.
 bool is_told(const FittedDecay& fit) {
   for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i)
-    if (!(fit.parts.cubic && i == 2) && fit.covariance(i, i) > 1.) return false;
+    if (fit.parts.is_logarithm(i) && fit.covariance(i, i) > 1.) return false;
   return true;
 }
 
