@@ -45,9 +45,11 @@ RingDown identify_ring_down(std::span<const double> moment, double sampling_rate
 /// The answer in sentences.
 std::string words_of(const RingDown& found);
 
-/// {"words", "unit", "doubtful", "error_rms_n_m", "noise_rms_n_m", "deviation_of_rows",
-/// "damping_laws", "law": {"frequency_hz", ...}, "pieces", "measured", "fitted": [{"amplitude_n_m",
-/// "frequency_hz", "frequency_sd_hz", "damping_ratio", "damping_sd"}]}.
+/// {"words", "unit", "doubtful", "error_rms", "noise_rms", "deviation_of_rows", "damping_laws",
+/// "law": {"frequency_hz", "damping_ratio", "cubic", "drag", "slip", "stick_ratio"}, "pieces",
+/// "measured", "fitted": [{"amplitude", "frequency_hz", "frequency_sd_hz", "damping_ratio",
+/// "damping_sd"}]}. "unit" is that of amplitude, error_rms, noise_rms and slip; drag is per unit,
+/// cubic per its square.
 nlohmann::json ring_down_json(const RingDown& found);
 
 }  // namespace vibrissa::separation

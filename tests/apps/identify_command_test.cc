@@ -218,6 +218,12 @@ TEST(Identify, TakesAColumnWithoutCalibrationForFrequencyAndDamping) {
     EXPECT_THAT(found.output, Not(HasSubstr("N m")));
   }
   EXPECT_EQ(vibrissa("identify '" + record + "'" + column).status, 2);
+  const json found = vibrissa("identify '" + record + "' --ring-down --json" + column).json();
+  EXPECT_EQ(found["unit"], "uT");
+  EXPECT_NEAR(found["fitted"].front()["amplitude"].get<double>(), 35., 15.);
+  EXPECT_NEAR(found["error_rms"].get<double>(), 0.01, 1e-3);
+  EXPECT_NEAR(found["noise_rms"].get<double>(), 0.01, 5e-3);
+  EXPECT_THAT(found.dump(), Not(HasSubstr("n_m")));
 }
 
 TEST(Separate, NeitherReplacesARecordingNorTrustsADeadAccelerometer) {
