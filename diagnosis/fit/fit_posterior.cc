@@ -161,14 +161,13 @@ std::vector<double> FitPosterior::variance(const Eigen::VectorXd& x, const Predi
 }
 
 FitPosterior::WhitenedErrors FitPosterior::whitened_errors(const std::vector<Prediction>& at,
-                                                           const BinVariances& s,
-                                                           const Nuisances& nuisances) const {
+                                                           const BinVariances& s) const {
   WhitenedErrors out{Eigen::VectorXcd(discrepancy_.n_rows()),
-                     Eigen::VectorXd(discrepancy_.n_rows())};
+                     Eigen::VectorXd(discrepancy_.n_rows()), nuisances_of(at, s)};
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < at.size(); ++r) {
     std::vector<Complex> error = difference(experiment_.records[r].moment, at[r].mean);
-    nuisances[r].remove_from(error);
+    out.nuisances[r].remove_from(error);
     for (std::size_t b = 0; b < error.size(); ++b, ++row) {
       out.per_deviation(row) = 1. / std::sqrt(s[r][b]);
       out.error(row) = error[b] * out.per_deviation(row);
@@ -179,8 +178,7 @@ FitPosterior::WhitenedErrors FitPosterior::whitened_errors(const std::vector<Pre
 
 FitPosterior::WhitenedErrors FitPosterior::whitened_errors(
     const Eigen::VectorXd& x, const std::vector<Prediction>& at) const {
-  const BinVariances s = variances(x, at, acceleration_variance(x));
-  return whitened_errors(at, s, nuisances_of(at, s));
+  return whitened_errors(at, variances(x, at, acceleration_variance(x)));
 }
 
 ModelDiscrepancy::Solution FitPosterior::discrepancy(const Eigen::VectorXd& x,
@@ -188,25 +186,20 @@ ModelDiscrepancy::Solution FitPosterior::discrepancy(const Eigen::VectorXd& x,
   return discrepancy_.solve(whitened.error, whitened.per_deviation, levels(x, form_level(x)));
 }
 
-ModelDiscrepancy::Solution FitPosterior::discrepancy(const Eigen::VectorXd& x,
-                                                     const std::vector<Prediction>& at) const {
-  return discrepancy(x, whitened_errors(x, at));
-}
-
 double FitPosterior::log_likelihood(const Eigen::VectorXd& x,
                                     const std::vector<Prediction>& at) const {
   const double a_variance = acceleration_variance(x);
   const BinVariances s = variances(x, at, a_variance);
-  const Nuisances nuisances = nuisances_of(at, s);
+  const WhitenedErrors errors = whitened_errors(at, s);
   double sum = 0.;
   for (std::size_t r = 0; r < at.size(); ++r) {
     const std::vector<Complex> error = difference(experiment_.records[r].moment, at[r].mean);
     for (std::size_t b = 0; b < s[r].size(); ++b)
       sum -= std::norm(error[b]) / s[r][b] + std::log(s[r][b]);
-    sum +=
-        nuisances[r].log_likelihood_gain() - accelerometer_term(experiment_.records[r], a_variance);
+    sum += errors.nuisances[r].log_likelihood_gain() -
+           accelerometer_term(experiment_.records[r], a_variance);
   }
-  sum += discrepancy(x, whitened_errors(at, s, nuisances)).log_likelihood_gain();
+  sum += discrepancy(x, errors).log_likelihood_gain();
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
 }
 
@@ -325,8 +318,7 @@ Eigen::MatrixXd FitPosterior::relative_variance(const Eigen::VectorXd& x,
   return out;
 }
 
-void FitPosterior::add_means(const Nuisances& nuisances, const WhitenedErrors& errors,
-                             const ModelDiscrepancy::Solution& terms,
+void FitPosterior::add_means(const WhitenedErrors& errors, const ModelDiscrepancy::Solution& terms,
                              const Derivatives& derivatives, Eigen::VectorXd& gradient,
                              Eigen::MatrixXd& information) const {
   // Real and imaginary parts in turn.
@@ -336,7 +328,7 @@ void FitPosterior::add_means(const Nuisances& nuisances, const WhitenedErrors& e
       reinterpret_cast<const double*>(errors.error.data()), columns.rows());
   Eigen::VectorXd slope = 2. * columns.transpose() * error;
   Eigen::MatrixXd curvature = 2. * columns.transpose() * columns;
-  remove_nuisances(nuisances, columns, &curvature);
+  remove_nuisances(errors.nuisances, columns, &curvature);
   terms.project(columns, slope, curvature);
   gradient(of_chain_) += slope;
   information(of_chain_, of_chain_) += curvature;
@@ -379,13 +371,12 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
                              Eigen::MatrixXd& information) const {
   const double a_variance = acceleration_variance(x);
   const BinVariances s = variances(x, at, a_variance);
-  const Nuisances nuisances = nuisances_of(at, s);
-  const WhitenedErrors errors = whitened_errors(at, s, nuisances);
+  const WhitenedErrors errors = whitened_errors(at, s);
   const ModelDiscrepancy::Solution terms = discrepancy(x, errors);
   gradient.setZero(x.size());
   information.setZero(x.size(), x.size());
-  add_means(nuisances, errors, terms, derivatives, gradient, information);
-  add_nuisances(nuisances, derivatives.nuisance_variance, gradient, information);
+  add_means(errors, terms, derivatives, gradient, information);
+  add_nuisances(errors.nuisances, derivatives.nuisance_variance, gradient, information);
   add_variances(x, at, s, errors, terms, derivatives, gradient, information);
   Eigen::VectorXd slope = Eigen::VectorXd::Zero(x.size());
   slope(of_chain_) = derivatives.acceleration;
@@ -403,11 +394,6 @@ void FitPosterior::linearise(const Eigen::VectorXd& x, const std::vector<Predict
     gradient(i) += prior.slope(x(i));
     information(i, i) += prior.curvature(x(i));
   }
-}
-
-FitPosterior::Nuisances FitPosterior::nuisances_of(const Eigen::VectorXd& x,
-                                                   const std::vector<Prediction>& at) const {
-  return nuisances_of(at, variances(x, at, acceleration_variance(x)));
 }
 
 FitPosterior::Nuisances FitPosterior::nuisances_of(const std::vector<Prediction>& at,

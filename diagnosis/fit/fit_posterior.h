@@ -44,21 +44,20 @@ class FitPosterior {
                                std::size_t record, double acceleration_variance) const;
   double log_likelihood(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
   double log_prior(const Eigen::VectorXd& x) const;
-  /// The discrepancy given the errors at x.
-  ModelDiscrepancy::Solution discrepancy(const Eigen::VectorXd& x,
-                                         const std::vector<Prediction>& at) const;
 
   using Nuisances = std::vector<IntegratedNuisances>;  // of each record
-  /// at: must outlive the result.
-  Nuisances nuisances_of(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
-
   /// Errors of all records, divided by the standard deviations of their noise, without the most
   /// probable per-record nuisance parameters.
   struct WhitenedErrors {
     Eigen::VectorXcd error;
     Eigen::VectorXd per_deviation;
+    Nuisances nuisances;
   };
+  /// at: must outlive the result.
   WhitenedErrors whitened_errors(const Eigen::VectorXd& x, const std::vector<Prediction>& at) const;
+  /// The discrepancy given the errors at x.
+  ModelDiscrepancy::Solution discrepancy(const Eigen::VectorXd& x,
+                                         const WhitenedErrors& whitened) const;
 
   /// Indices of the free parameters that change predictions.
   const std::vector<Eigen::Index>& chain_parameters() const { return of_chain_; }
@@ -97,9 +96,9 @@ class FitPosterior {
                                const BinVariances& s, Eigen::Index index) const;
   /// Parts of linearise(): what the means and the sizes of the nuisance parameters tell about the
   /// parameters of the chain, and what the variances tell about all free ones.
-  void add_means(const Nuisances& nuisances, const WhitenedErrors& errors,
-                 const ModelDiscrepancy::Solution& terms, const Derivatives& derivatives,
-                 Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
+  void add_means(const WhitenedErrors& errors, const ModelDiscrepancy::Solution& terms,
+                 const Derivatives& derivatives, Eigen::VectorXd& gradient,
+                 Eigen::MatrixXd& information) const;
   void add_nuisances(const Nuisances& nuisances, const Eigen::MatrixXd& log_variance,
                      Eigen::VectorXd& gradient, Eigen::MatrixXd& information) const;
   void add_variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
@@ -111,10 +110,7 @@ class FitPosterior {
   BinVariances variances(const Eigen::VectorXd& x, const std::vector<Prediction>& at,
                          double acceleration_variance) const;
   Nuisances nuisances_of(const std::vector<Prediction>& at, const BinVariances& s) const;
-  WhitenedErrors whitened_errors(const std::vector<Prediction>& at, const BinVariances& s,
-                                 const Nuisances& nuisances) const;
-  ModelDiscrepancy::Solution discrepancy(const Eigen::VectorXd& x,
-                                         const WhitenedErrors& whitened) const;
+  WhitenedErrors whitened_errors(const std::vector<Prediction>& at, const BinVariances& s) const;
   /// Parameter of the unknown cause for a bin.
   Eigen::Index unknown_index(std::size_t record, std::size_t b) const;
   /// Variance of the accelerometer under a given chain.

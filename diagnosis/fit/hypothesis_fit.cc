@@ -126,7 +126,8 @@ std::vector<FittedRecord> fitted_records(const Experiment& experiment,
                                          const std::vector<Prediction>& predictions) {
   const double a_variance = posterior.acceleration_variance(fit.x);
   const double a_excess = fit.chain(experiment).reference_variance;
-  const Eigen::VectorXcd discrepancy = posterior.discrepancy(fit.x, predictions).mean();
+  const Eigen::VectorXcd discrepancy =
+      posterior.discrepancy(fit.x, posterior.whitened_errors(fit.x, predictions)).mean();
   std::vector<FittedRecord> records;
   Eigen::Index row = 0;
   for (std::size_t r = 0; r < predictions.size(); ++r) {

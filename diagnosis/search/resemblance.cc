@@ -104,11 +104,11 @@ struct FitResidual::State {
         chain(best.chain(of)),
         at(posterior.predict(fit.x)) {
     posterior.update_slow_variance(fit.x, at);
-    discrepancy = posterior.discrepancy(fit.x, at);
-    nuisances = posterior.nuisances_of(fit.x, at);
     const FitPosterior::WhitenedErrors whitened = posterior.whitened_errors(fit.x, at);
+    discrepancy = posterior.discrepancy(fit.x, whitened);
     error = whitened.error;
     per_deviation = whitened.per_deviation;
+    nuisances = whitened.nuisances;
     noise = error - discrepancy.mean();
     residual = discrepancy.apply_inverse(error).dot(error).real();
     mean.resize(error.size());
