@@ -194,6 +194,7 @@ UpdatedModel updated_model(const Experiment& experiment, const HypothesisFit& fi
   model.nominal.joint_share_deviation =
       std::min(experiment.nominal.joint_share_deviation, std::sqrt(fit.covariance(share, share)));
   model.nominal.joint_loss_factor = fit.x(static_cast<Eigen::Index>(index_of_joint_loss));
+  model.nominal.higher_joint_share = fit.x(static_cast<Eigen::Index>(index_of_higher_joint_share));
   for (std::size_t i = 0; i < fit.fit_parameters.size(); ++i) {
     const FitParameter& fit_parameter = fit.fit_parameters[i];
     if (fit_parameter.effect == nullptr) continue;

@@ -71,6 +71,9 @@ std::vector<FitParameter> common_parameters(const Experiment& experiment) {
   out[index_of_joint_loss].description =
       normal("joint_loss_factor", "1", experiment.nominal.joint_loss_factor, 0.05, 0.7,
              most_joint_loss(experiment.nominal), 1.);
+  out[index_of_higher_joint_share].description =
+      normal("higher_joint_share", "1", experiment.nominal.higher_joint_share,
+             experiment.nominal.higher_joint_share_deviation, 0., 1., 1.);
   const double accuracy = experiment.simulation_accuracy,
                without_cause = std::sqrt(power_without_cause(accuracy));
   for (std::size_t i = 0; i < n_discrepancy_levels; ++i)
@@ -100,6 +103,14 @@ void add_parameters(const Experiment& experiment, const Effect& effect, const bo
   }
 }
 
+/// Only an additional moment of the joint moves the modes above the first.
+bool moves_higher_modes(const Experiment& experiment, const Hypothesis& hypothesis) {
+  const auto has_law = [](const Effect* effect) { return !probe(*effect).joint.empty(); };
+  return experiment.nominal.modes.size() > 1 &&
+         (std::ranges::any_of(hypothesis.effects(), has_law) ||
+          !experiment.nominal_chain().joint.empty());
+}
+
 }  // namespace
 
 std::size_t n_unknown_bands() {
@@ -115,6 +126,8 @@ std::size_t unknown_band(const double frequency_ratio) {
 std::vector<FitParameter> make_fit_parameters(const Experiment& experiment,
                                               const Hypothesis& hypothesis) {
   std::vector<FitParameter> out = common_parameters(experiment);
+  if (!moves_higher_modes(experiment, hypothesis))
+    out[index_of_higher_joint_share].description.prior.fix();
   for (const std::string& id : nuisance_ids()) {
     const Effect& effect = find_effect(id);
     if (shows(experiment, effect) && !hypothesis.contains(id))
@@ -136,6 +149,7 @@ Chain make_chain(const Experiment& experiment, const std::vector<FitParameter>& 
   Chain chain = experiment.nominal_chain();
   chain.joint_share = x(index_of_joint_share);
   chain.joint_loss_factor = x(index_of_joint_loss);
+  chain.higher_joint_share = x(index_of_higher_joint_share);
   for (std::size_t i = n_common_parameters; i < fit_parameters.size();) {
     const Effect* effect = fit_parameters[i].effect;
     if (effect == nullptr) break;  // form errors and the unknown cause come last

@@ -26,8 +26,8 @@ struct FitParameter {
 /// the flicker noise of the moment (density as 1 / f, Keshner 1982) exceeds the white noise.
 inline constexpr std::size_t index_of_moment_noise = 0, index_of_acceleration_noise = 1,
                              index_of_flicker = 2, index_of_joint_share = 3,
-                             index_of_joint_loss = 4, index_of_discrepancy = 5,
-                             n_noise_parameters = 3,
+                             index_of_joint_loss = 4, index_of_higher_joint_share = 5,
+                             index_of_discrepancy = 6, n_noise_parameters = 3,
                              index_of_incoherence = index_of_discrepancy + n_discrepancy_levels,
                              n_common_parameters = index_of_incoherence + 1;
 

@@ -70,7 +70,7 @@ FitPosterior::FitPosterior(const Experiment& experiment,
     if (fit_parameters[i].description.prior.is_fixed()) continue;
     const auto index = static_cast<Eigen::Index>(i);
     if (fit_parameters[i].effect != nullptr || i == index_of_joint_share ||
-        i == index_of_joint_loss)
+        i == index_of_joint_loss || i == index_of_higher_joint_share)
       of_chain_.push_back(index);
     else
       levels_.push_back(index);

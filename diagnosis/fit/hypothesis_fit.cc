@@ -29,6 +29,7 @@ Eigen::VectorXd start_vector(const Experiment& experiment,
   x(index_of_flicker) = fit_parameters[index_of_flicker].description.prior.centre;
   x(index_of_joint_share) = experiment.nominal.joint_share;
   x(index_of_joint_loss) = 1.;
+  x(index_of_higher_joint_share) = experiment.nominal.higher_joint_share;
   x.segment(index_of_discrepancy, n_discrepancy_levels)
       .setConstant(std::log(experiment.simulation_accuracy));
   x(index_of_incoherence) = fit_parameters[index_of_incoherence].description.prior.centre;

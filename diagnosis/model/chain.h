@@ -82,6 +82,8 @@ struct Chain {
   /// Share p of the joint in the compliance of the first mode: 1 for a rigid whisker on a spring,
   /// less for a flexible whisker. The simulation's records do not determine it.
   double joint_share = 1.;
+  /// Part of 1 - joint_share that the joint has in the elastic energy of the modes above the first.
+  double higher_joint_share = 0.;
   /// Factor on the joint's share in the damping of the first mode, which follows from its viscous
   /// moment.
   double joint_loss_factor = 1.;

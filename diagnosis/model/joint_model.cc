@@ -23,26 +23,39 @@ JointModel::JointModel(const StructuralMode& mode, const double joint_share,
 
 JointModel JointModel::dynamic() const {
   JointModel model = *this;
-  model.share = std::min(share, most_share);
-  model.loss = std::max(loss, least_loss);
+  for (const HigherMode& mode : above) model.torque_share -= mode.share;
+  model.share = std::min(share / model.torque_share, most_share);
+  model.loss = std::max(loss * share / model.share, least_loss);
   return model;
 }
 
 JointModel::ElasticResponse JointModel::elastic_response(const Complex s) const {
   const Complex resisting = changed_inertia(s), whole = 1. + (1. - share) * resisting,
                 per_load = 1. / (share * resisting + whole * changed_stiffness_ratio(s));
-  return {.torque = -whole * per_load, .external = per_load};
+  Complex torque = -torque_share * whole * per_load;
+  for (const HigherMode& mode : above) torque += mode.response(s);
+  return {.torque = torque, .external = per_load};
 }
 
 std::optional<JointModel> joint_of(const Chain& chain) {
   if (chain.structure.modes.empty()) return std::nullopt;
-  return JointModel(chain.structure.modes.front(), chain.joint_share,
-                    chain.joint_loss_factor * chain.structure.joint_viscous_ratio(),
-                    chain.joint_change);
+  JointModel model(chain.structure.modes.front(), chain.joint_share,
+                   chain.joint_loss_factor * chain.structure.joint_viscous_ratio(),
+                   chain.joint_change);
+  const std::vector<double> weights = chain.structure.higher_joint_weights();
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const StructuralMode& mode = chain.structure.modes[k + 1];
+    model.above.push_back(
+        {.frequency_rad_s = mode.frequency_rad_s,
+         .damping_ratio = mode.damping_ratio,
+         .share = chain.higher_joint_share * (1. - chain.joint_share) * weights[k]});
+  }
+  return model;
 }
 
-JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) : dt_(dt) {
-  const JointModel model = joint.dynamic();
+JointIntegrator::JointIntegrator(const JointModel& model, const double dt)
+    : dt_(dt), above_(model.above, dt) {
+  beside_ = 1. - model.torque_share;
   share_ = model.share;
   rest_ = 1. / (1. - model.share);
   spring_ = model.change.spring;
@@ -59,7 +72,7 @@ JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) : dt_
   a(1, 4) = pull;
   a(2, 0) = relax * rest_;
   a(2, 2) = -relax * (rest_ * model.share + spring_);
-  a(2, 3) = -relax;
+  a(2, 3) = -relax * model.torque_share;
   a(3, 5) = 1.;
   a(4, 6) = 1.;
   const Eigen::Matrix<double, 7, 7> e = a.exp();
@@ -68,7 +81,7 @@ JointIntegrator::JointIntegrator(const JointModel& joint, const double dt) : dt_
   torque_old_ = e.block<3, 1>(0, 3) - torque_new_;
   external_new_ = e.block<3, 1>(0, 6);
   external_old_ = e.block<3, 1>(0, 4) - external_new_;
-  torque_rate_ = rate(torque_new_) - rate_factor_;
+  torque_rate_ = rate(torque_new_) - rate_factor_ * model.torque_share;
   external_rate_ = rate(external_new_);
   free_ = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
 }
@@ -91,9 +104,9 @@ void JointIntegrator::set_free(const Lanes& theta, const Lanes& speed, const Lan
   free_.rate = rate_factor_ * ((free_.theta - share_ * free_.y) * rest_ - spring_ * free_.y);
 }
 
-void JointIntegrator::start(const Lanes& theta, const Lanes& theta_rate, const Lanes& y,
-                            const Lanes& torque, const Lanes& external) {
-  set_free(theta, theta_rate * dt_, y, torque, external);
+void JointIntegrator::start(const State& state, const Lanes& torque, const Lanes& external) {
+  set_free(state.theta, state.theta_rate * dt_, state.y, torque, external);
+  above_.start(state.above, torque);
 }
 
 JointIntegrator::AtBase JointIntegrator::accept(const Lanes& torque, const Lanes& external) {
@@ -103,7 +116,11 @@ JointIntegrator::AtBase JointIntegrator::accept(const Lanes& torque, const Lanes
   const Lanes theta = loaded(free_.theta, 0), speed = loaded(free_.speed, 1),
               y = loaded(free_.y, 2);
   set_free(theta, speed, y, torque, external);
-  return {(theta - share_ * y) * rest_, y};
+  const Lanes higher = above_.elastic(torque), higher_rate = above_.rate(torque);
+  above_.accept(torque);
+  return {(theta - share_ * y) * rest_ + beside_ * torque + spring_ * higher +
+              higher_rate / rate_factor_,
+          y + higher};
 }
 
 }  // namespace vibrissa::diagnosis

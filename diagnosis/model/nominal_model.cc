@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace vibrissa::diagnosis {
 namespace {
@@ -79,6 +80,19 @@ double NominalModel::joint_viscous_ratio() const {
   const StructuralMode& mode = modes.front();
   if (readout == signals::Readout::rotation) return 2. * mode.damping_ratio;
   return mode.base_gain != 0. ? mode.base_rate / mode.base_gain : 0.;
+}
+
+std::vector<double> NominalModel::higher_joint_weights() const {
+  const ParameterPath* const silicone = path("silicone_modulus");
+  std::vector<double> weights;
+  for (std::size_t k = 1; k < modes.size(); ++k) {
+    const double w = modes[k].frequency_rad_s;
+    weights.push_back(silicone != nullptr ? std::max(0., silicone->frequency[k])
+                                          : std::abs(modes[k].base_gain) * w * w);
+  }
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.);
+  for (double& weight : weights) weight = sum > 0. ? weight / sum : 0.;
+  return weights;
 }
 
 std::size_t NominalModel::decay_samples(const double n_time_constants,

@@ -72,6 +72,9 @@ struct NominalModel {
   /// deviation. Records do not determine it. Values: 0.71 (docs/theory.md, T15) and 0.56
   /// (finite-element model of this program) for flow sensors, 1 for a rigid whisker.
   double joint_share = 0.7, joint_share_deviation = 0.15;
+  /// Part of the rest, 1 - joint_share, that the joint has in the elastic energy of the modes above
+  /// the first, and its standard deviation. Records of the simulation do not determine it.
+  double higher_joint_share = 0.5, higher_joint_share_deviation = 0.3;
   /// Factor on the joint's part of that mode's damping as it follows from the rates.
   double joint_loss_factor = 1.;
   DragCurve drag_curve{};
@@ -117,6 +120,11 @@ struct NominalModel {
   /// compliance, at that mode's frequency. A rotation readout does not show it; then the joint is
   /// assumed to have all the damping.
   double joint_viscous_ratio() const;
+
+  /// How that part is distributed over the modes above the first, sum 1: as the joint's energy in
+  /// them by the finite-element model, or else in proportion to base gain times squared frequency,
+  /// which holds where their effective heights are equal.
+  std::vector<double> higher_joint_weights() const;
 
   /// Duration of this many time constants of the first mode, in samples; 0 without a mode.
   std::size_t decay_samples(double n_time_constants, double sampling_rate_hz) const;

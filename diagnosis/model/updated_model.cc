@@ -40,6 +40,8 @@ static void to_json(json& out, const NominalModel& model) {
          {"joint_share", model.joint_share},
          {"joint_share_deviation", model.joint_share_deviation},
          {"joint_loss_factor", model.joint_loss_factor},
+         {"higher_joint_share", model.higher_joint_share},
+         {"higher_joint_share_deviation", model.higher_joint_share_deviation},
          {"base_misfit", model.base_misfit},
          {"wind_misfit", model.wind_misfit},
          {"drag_curve",
@@ -70,6 +72,15 @@ namespace {
 /// The second name is that of files of program version 1.
 bool is_known_schema(const std::string& schema) {
   return schema == updated_model_schema || schema == "vibrissa-mended-model-1";  // version 1
+}
+
+/// Earlier files have no entry for the modes above the first, which then did not move.
+void complete_earlier(nlohmann::json& document) {
+  if (!document.is_object()) return;
+  const auto nominal = document.find("nominal");
+  if (nominal == document.end() || !nominal->is_object()) return;
+  nominal->emplace("higher_joint_share", 0.);
+  nominal->emplace("higher_joint_share_deviation", NominalModel{}.higher_joint_share_deviation);
 }
 
 double positive(const JsonEntry& entry) {
@@ -123,18 +134,22 @@ signals::Readout read_readout(const JsonEntry& entry) {
 }
 
 NominalModel read_nominal(const JsonEntry& entry) {
-  NominalModel model{.readout = read_readout(entry["readout"]),
-                     .modes = entry["modes"].list(read_mode),
-                     .base_direct = entry["base_direct_n_m_per_m_s2"].number(),
-                     .wind_direct = entry["wind_direct_n_m_per_m2_s2"].number(),
-                     .has_base = entry["has_base"].boolean(),
-                     .has_wind = entry["has_wind"].boolean(),
-                     .joint_share = positive(entry["joint_share"]),
-                     .joint_share_deviation = positive(entry["joint_share_deviation"]),
-                     .joint_loss_factor = positive(entry["joint_loss_factor"]),
-                     .base_misfit = entry["base_misfit"].number(),
-                     .wind_misfit = entry["wind_misfit"].number()};
-  entry["joint_share"].require(model.joint_share <= 1., "must be at most 1");
+  NominalModel model{
+      .readout = read_readout(entry["readout"]),
+      .modes = entry["modes"].list(read_mode),
+      .base_direct = entry["base_direct_n_m_per_m_s2"].number(),
+      .wind_direct = entry["wind_direct_n_m_per_m2_s2"].number(),
+      .has_base = entry["has_base"].boolean(),
+      .has_wind = entry["has_wind"].boolean(),
+      .joint_share = positive(entry["joint_share"]),
+      .joint_share_deviation = positive(entry["joint_share_deviation"]),
+      .higher_joint_share = not_negative(entry["higher_joint_share"]),
+      .higher_joint_share_deviation = positive(entry["higher_joint_share_deviation"]),
+      .joint_loss_factor = positive(entry["joint_loss_factor"]),
+      .base_misfit = entry["base_misfit"].number(),
+      .wind_misfit = entry["wind_misfit"].number()};
+  for (const char* const share : {"joint_share", "higher_joint_share"})
+    entry[share].require(entry[share].number() <= 1., "must be at most 1");
   model.drag_curve = read_drag_curve(entry["drag_curve"]);
   model.paths = entry["exponents_by_parameter"].by_name(
       [&](const JsonEntry& path) { return read_path(path, model.modes.size()); });
@@ -186,6 +201,7 @@ KnownEffect read_effect(const JsonEntry& entry) {
 Chain UpdatedModel::chain() const {
   Chain chain{.structure = nominal,
               .joint_share = nominal.joint_share,
+              .higher_joint_share = nominal.higher_joint_share,
               .joint_loss_factor = nominal.joint_loss_factor};
   for (const KnownEffect& known : effects) {
     const Effect& effect = find_effect(known.id);
@@ -202,7 +218,8 @@ std::string updated_model_json(const UpdatedModel& model) {
 }
 
 UpdatedModel read_updated_model(const std::filesystem::path& file) {
-  const nlohmann::json document = signals::read_json(file);
+  nlohmann::json document = signals::read_json(file);
+  complete_earlier(document);
   const JsonEntry root(document, file.string(), nlohmann::json::json_pointer());
   root["schema"].require(is_known_schema(root["schema"].text()),
                          "must be \"" + updated_model_schema + "\"");

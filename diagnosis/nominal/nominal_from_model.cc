@@ -48,6 +48,12 @@ void set_paths(NominalModel& nominal, const signals::ReducedModel& model,
     if (sensitivity.parameter == "silicone_modulus") {
       nominal.joint_share = std::clamp(2. * sensitivity.frequency.at(numbers.front()), 0.3, 1.);
       nominal.joint_share_deviation = 0.02;
+      double higher = 0.;
+      for (std::size_t i = 1; i < numbers.size(); ++i)
+        higher += 2. * std::max(0., sensitivity.frequency.at(numbers[i]));
+      if (nominal.joint_share < 1.)
+        nominal.higher_joint_share = std::min(1., higher / (1. - nominal.joint_share));
+      nominal.higher_joint_share_deviation = 0.05;
     }
     ParameterPath& path = nominal.paths[sensitivity.parameter];
     path.static_base_moment = sensitivity.static_base_moment;

@@ -1,5 +1,6 @@
 #include "diagnosis/prediction/sweep_states.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -38,9 +38,8 @@ class DifferenceIntegrator {
   const Lanes& theta() const { return integrator_.theta(); }
   Lanes theta_rate() const { return integrator_.theta_rate(); }
   /// Additions from which the integration goes on, instead of rest.
-  void start(const Lanes& theta, const Lanes& theta_rate, const Lanes& y, const Lanes& torque,
-             const Lanes& external) {
-    integrator_.start(theta, theta_rate, y, torque, external);
+  void start(const JointIntegrator::State& state, const Lanes& torque, const Lanes& external) {
+    integrator_.start(state, torque, external);
     torque_ = torque_before_ = torque;
     external_ = external;
   }

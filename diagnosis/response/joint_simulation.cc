@@ -108,7 +108,7 @@ class SideBySide {
         dt_(1. / (rate_hz_ * static_cast<double>(factor_))),
         elastic_(elastic),
         fine_(fine_signals(*task.chain, elastic, factor_, n_fine_steps())),
-        integrator_(*task.chain, *task.joint, record_numbers(), dt_),
+        integrator_(*task.chain, task.joint->dynamic(), record_numbers(), dt_),
         moving_(task.chain->relative_wind),
         rotation_(elastic.front().record->readout == signals::Readout::rotation) {
     for (std::size_t lane = 0; lane < elastic.size(); ++lane) {

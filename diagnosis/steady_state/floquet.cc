@@ -76,27 +76,39 @@ class ChangedMotions {
     constexpr double share = 1e-3;
     const HarmonicBalance::Loads loads = balance_.loads(motion_);
     const JointModel& joint = balance_.joint();
-    const Eigen::VectorXd added = motion_.y - linear_;
-    Eigen::VectorXd theta = added;
+    Eigen::VectorXd first = motion_.y - linear_, theta = first;
+    std::vector<Eigen::VectorXd> above(joint.above.size(), first);
     for (std::size_t i = 0; i < balance_.basis().orders().size(); ++i) {
       const auto at = static_cast<Eigen::Index>(2 * i);
       const double order = static_cast<double>(balance_.basis().orders()[i]);
-      const Complex y(added(at), added(at + 1)), torque(loads.torque(at), loads.torque(at + 1));
-      const Complex moment =
-          joint.changed_stiffness_ratio(Complex(0., order * motion_.w_rad_s)) * y + torque;
-      const Complex turned = joint.share * y + (1. - joint.share) * moment;
-      theta(at) = turned.real();
-      theta(at + 1) = turned.imag();
+      const Complex s(0., order * motion_.w_rad_s), torque(loads.torque(at), loads.torque(at + 1));
+      const auto set = [&](Eigen::VectorXd& coordinates, const Complex value) {
+        coordinates(at) = value.real();
+        coordinates(at + 1) = value.imag();
+      };
+      Complex y(first(at), first(at + 1));
+      for (std::size_t k = 0; k < above.size(); ++k) {
+        const Complex higher = joint.above[k].response(s) * torque;
+        set(above[k], higher);
+        y -= higher;
+      }
+      set(first, y);
+      const Complex moment = joint.changed_stiffness_ratio(s) * y + joint.torque_share * torque;
+      set(theta, joint.share * y + (1. - joint.share) * moment);
     }
     const AtAngle from = part(theta, 0.);
-    Lanes deflection = from.value, rate = from.rate;
+    JointIntegrator::State state{
+        .theta = from.value, .theta_rate = from.rate, .y = part(first, 0.).value};
+    for (const Eigen::VectorXd& higher : above) {
+      const AtAngle now = part(higher, 0.);
+      state.above.push_back({now.value, now.rate});
+    }
     const double change = share * motion_.y.norm();
     for (Eigen::Index sign = 0; sign < 2; ++sign) {
-      deflection(1 + sign) += sign == 0 ? change : -change;
-      rate(3 + sign) += (sign == 0 ? change : -change) * motion_.w_rad_s;
+      state.theta(1 + sign) += sign == 0 ? change : -change;
+      state.theta_rate(3 + sign) += (sign == 0 ? change : -change) * motion_.w_rad_s;
     }
-    integrator_.start(deflection, rate, part(added, 0.).value, part(loads.torque, 0.).value,
-                      part(loads.external, 0.).value);
+    integrator_.start(state, part(loads.torque, 0.).value, part(loads.external, 0.).value);
   }
 
   void step(const double at) {

@@ -60,6 +60,7 @@ class ErrorOfChanges {
     if (std::ranges::count(applied, true) > 0) {
       chain.joint_share = fit_.x(index_of_joint_share);
       chain.joint_loss_factor = fit_.x(index_of_joint_loss);
+      chain.higher_joint_share = fit_.x(index_of_higher_joint_share);
     }
     for (std::size_t c = 0; c < changes_.size(); ++c) {
       if (!applied[c]) continue;

@@ -154,6 +154,9 @@ TEST_F(UpdatedModelFile, IsRefusedWithThePlaceOfWhatIsWrong) {
   EXPECT_THAT(message_of(replaced(good, "updated-model-1", "updated-model-9")),
               HasSubstr("vibrissa-updated-model-1"));
   EXPECT_EQ(message_of(replaced(good, "updated-model-1", "mended-model-1")), "");  // version 1
+  EXPECT_EQ(message_of(replaced(good, "\"higher_joint_share\"", "\"other\"")), "") << "earlier";
+  EXPECT_THAT(message_of(replaced(good, "higher_joint_share\": 0.5", "higher_joint_share\": 1.5")),
+              HasSubstr("higher_joint_share must be at most 1"));
   EXPECT_THAT(message_of(replaced(good, "220", "-220")), HasSubstr("first_mode_rad_s"));
   EXPECT_FALSE(is_updated_model("/no/such/file"));
 }
