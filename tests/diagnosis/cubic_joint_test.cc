@@ -42,6 +42,7 @@ struct Sensor {
     std::vector<std::pair<double, double>> lines;
     for (int i = 0; i < 150; ++i)
       lines.emplace_back(2. * std::numbers::pi * hz(random), phase(random));
+    std::normal_distribution<double> noise(0., 1e-6);  // 0.2 % of the moment's rms
     const auto base = [&](const double t) {
       double sum = 0.;
       for (const auto& [frequency, angle] : lines) sum += std::sin(frequency * t + angle);
@@ -53,7 +54,7 @@ struct Sensor {
       const double t = dt * static_cast<double>(i), a = base(t), middle = base(t + 0.5 * dt);
       if (i % n_steps == 0 && i >= n_before * n_steps) {
         acceleration.push_back(a);
-        read.push_back(moment(q, v));
+        read.push_back(moment(q, v) + noise(random));
       }
       const Eigen::Array2d k1 = slope(a, q, v), v2 = v + 0.5 * dt * k1,
                            k2 = slope(middle, q + 0.5 * dt * v, v2), v3 = v + 0.5 * dt * k2,
