@@ -107,6 +107,11 @@ def scaling_speed_up(numbers):
         yield _row(part, f"{n['one_s']:.3g}", f"{n['two_s']:.3g}", f"{n['speed_up']:.2f}")
 
 
+def linear_transient(numbers):
+    yield from _head("`vibrissa transient --strain small`, 21.8k unknowns", "processor time")
+    yield _row("one sample, base moment by both routes", f"{numbers['low_ms']:.1f} to {numbers['high_ms']:.1f} ms")
+
+
 def trial_life(numbers):
     def of(share):
         return f"{share['hits']}/{share['of']}" if share else "–"
