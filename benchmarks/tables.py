@@ -147,9 +147,12 @@ def ring_down(numbers):
 
 
 def public_records(numbers):
-    yield from _head("record", "order", "fit", "variance", "residual", left=1)
+    yield from _head("record", "order", "fit", "variance", "residual")
     for n in numbers:
         yield _row(n["record"], f"{n['order']}", f"{n['fit_percent']:.1f} %", f"{n['vaf_percent']:.2f} %", n["residual"])
+    yield ""
+    f16 = next(n for n in numbers if n["order"] == 16)
+    yield f"Modes of the F-16 at order 16: {', '.join(f'{hz:.2f}' for hz in f16['modes_hz'])} Hz."
 
 
 def output_only(numbers):
