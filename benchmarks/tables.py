@@ -147,7 +147,7 @@ def ring_down(numbers):
 
 
 def public_records(numbers):
-    yield from _head("record", "order", "fit", "variance", "residual")
+    yield from _head("record", "order", "fit", "variance", "residual (lags)")
     for n in numbers:
         yield _row(n["record"], f"{n['order']}", f"{n['fit_percent']:.1f} %", f"{n['vaf_percent']:.2f} %", n["residual"])
     yield ""
