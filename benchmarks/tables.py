@@ -117,7 +117,7 @@ def trial_life(numbers):
         return f"{share['hits']}/{share['of']}" if share else "–"
 
     def within(share):
-        return f"{of(share)} ({share['low']:.2f}–{share['high']:.2f})"
+        return f"{of(share)} ({share['low']:.2f}–{share['high']:.2f})" if share else "–"
 
     yield "|sensors|in the catalogue: right (95 % interval)|95 % set holds the truth|wrong name above 0.8|one effect, 3 limits: right|"
     yield "|---|---|---|---|---|"
