@@ -173,7 +173,7 @@ def sensor_package_spectra(numbers):
 def sensor_package(numbers):
     yield from _head("command", "verdict", "error on the last third", "updated", "noise alone", left=2)
     for command, n in numbers.items():
-        values = ", ".join(f"{p['effect']} {p['name']} = {p['value']:.2g} {p['unit']}" for p in n["parameters"])
+        values = ", ".join(f"{p['effect']} {p['name']} = {p['value']:.2g} {p['unit']}".removesuffix(" 1") for p in n["parameters"])
         yield _row(command, f"{n['verdict']} ({values})",
                    *(f"{n[part]:.2g} %" for part in ("before_percent", "after_percent", "noise_percent")))
 
