@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """`vibrissa convert` of a CSV of a million rows and three columns to .npy, beside numpy.loadtxt: processor time, and
-memory beyond that of the start as a multiple of the numbers.
+memory beyond that of the start as a multiple of the numbers, as JSON.
 
 Usage: benchmarks/reading.py [build/vibrissa]
 """
+import json
 import os
 import pathlib
 import random
@@ -40,6 +41,7 @@ def write(file, n_rows, jitter_s):
 
 def main():
     program = sys.argv[1] if len(sys.argv) > 1 else "build/vibrissa"
+    found = {}
     with tempfile.TemporaryDirectory(prefix="vibrissa_reading_") as scratch:
         folder = pathlib.Path(scratch)
         short, long, out = folder / "short.csv", folder / "long.csv", folder / "out.npy"
@@ -51,8 +53,9 @@ def main():
             numpy_start_s, _ = run(sys.executable, "-c", LOADTXT, short)
             numpy_s, _ = run(sys.executable, "-c", LOADTXT, long)
             seconds, peer = whole_s - start_s, numpy_s - numpy_start_s
-            print(f"{stamps} stamps: {seconds:.2f} s, numpy.loadtxt {peer:.2f} s: ratio {seconds / peer:.2f}; memory "
-                  f"{(whole_bytes - start_bytes) / (8 * N_ROWS * N_COLUMNS):.2f} times the numbers", flush=True)
+            found[stamps] = {"vibrissa_s": seconds, "loadtxt_s": peer, "ratio": seconds / peer,
+                             "memory": (whole_bytes - start_bytes) / (8 * N_ROWS * N_COLUMNS)}
+    print(json.dumps(found))
 
 
 if __name__ == "__main__":

@@ -68,6 +68,8 @@ TEST(ClockRelation, TwentySecondsTellAThousandthOfASampleAndATenthOfAPpm) {
   }
   EXPECT_LT(std::sqrt(offset), 1e-3);
   EXPECT_LT(std::sqrt(drift), 0.1);
+  RecordProperty("offset_samples", std::to_string(std::sqrt(offset)));
+  RecordProperty("drift_ppm", std::to_string(std::sqrt(drift)));
 }
 
 TEST(ClockRelation, OfAResponseHasItsDriftAndKeepsTheDelayOfTheSensor) {
