@@ -412,8 +412,10 @@ HypothesisFit fit_hypothesis(const Experiment& experiment, const Hypothesis& hyp
   } else {
     attempts.from(with_shifted_resonances(experiment, fit.fit_parameters, hypothesis, nominal));
   }
-  // A narrow resonance far from where it is measured tells a fit little.
-  if (moves_in_responses(experiment, hypothesis))
+  // A narrow resonance far from where it is measured tells a fit little. A start with effects has
+  // been moved there.
+  const bool is_moved = start != nullptr && !start->hypothesis.effects().empty();
+  if (!is_moved && moves_in_responses(experiment, hypothesis))
     if (const auto measured = at_measured_modes(experiment, fit.fit_parameters,
                                                 effect_on_resonance(hypothesis), nominal);
         !measured.empty())

@@ -25,7 +25,7 @@ JointModel JointModel::dynamic() const {
   JointModel model = *this;
   for (const HigherMode& mode : above) model.torque_share -= mode.share;
   model.share = std::min(share / model.torque_share, most_share);
-  model.loss = std::max(loss * share / model.share, least_loss);
+  model.loss = std::max(loss * model.torque_share, least_loss);
   return model;
 }
 
