@@ -195,6 +195,20 @@ TEST_F(ResponseDataset, WithUnknownWordsIsRefused) {
                  "Known: moment, rotation, deflection, velocity, acceleration");
 }
 
+TEST_F(ResponseDataset, FindsColumnsByTheNamesThatTheFileHas) {
+  std::string text = amplitudes(resonance());
+  text.replace(text.find("x_um"), 4, "v[m/s]");
+  folder_.file("a.csv", text);
+  for (const std::string name : {"v[m/s]", "v"}) {
+    const DatasetResponse response =
+        only(R"({"kind": "response", "file": "a.csv", "response_of": "velocity",
+      "values": "amplitude", "columns": {"magnitude": ")" +
+             name + R"(", "phase": "phase_deg"}, "drive": {"level": 0.98}})");
+    const double expected = 1e6 * level * std::abs(resonance()[5].value);  // as it is printed
+    EXPECT_NEAR(std::abs(response.value.at(5)), expected, 1e-5 * expected) << name;
+  }
+}
+
 TEST_F(ResponseDataset, IsRefusedByThoseWhoDoNotUseResponses) {
   folder_.file("a.csv", amplitudes(resonance()));
   read(entry("a.csv"));
