@@ -25,11 +25,12 @@ struct Device {
   std::size_t n = 10000;
   double jitter_periods = 0.;  // standard deviation
   double lost_share = 0.;
-  std::size_t packet = 1;  // samples that share one stamp
-  std::size_t burst = 1;   // samples stamped quickly one after the other when they are read
-  double drift = 0.;       // relative change of the rate over the record
-  double unit_s = 1e-6;    // of the stamps, which are whole numbers
-  double range = 0.;       // of the counter, in units; 0: it does not wrap
+  std::size_t packet = 1;   // samples that share one stamp
+  std::size_t burst = 1;    // samples stamped quickly one after the other when they are read
+  double drift = 0.;        // relative change of the rate over the record
+  double unit_s = 1e-6;     // of the stamps, which are whole numbers
+  double range = 0.;        // of the counter, in units; 0: it does not wrap
+  double burst_step = 0.1;  // between stamps of a burst, in periods
   unsigned seed = 1;
 };
 
@@ -58,9 +59,10 @@ Stamps stamps_of(const Device& device) {
     }
     if (begins || device.packet == 1) jitter = device.jitter_periods * normal(random);
     const std::size_t read_at = k / group * group + group - 1;
-    const double sample = device.packet > 1  ? double(read_at)
-                          : device.burst > 1 ? double(read_at) + 0.1 * double(k % group)
-                                             : double(k);
+    const double sample = device.packet > 1 ? double(read_at)
+                          : device.burst > 1
+                              ? double(read_at) + device.burst_step * double(k % group)
+                              : double(k);
     const double turned = sample * (1. + device.drift * (sample / double(device.n) - 1.) / 2.);
     double ticks = std::round((10. + (turned + jitter) * period_s) / device.unit_s);
     if (device.range > 0.) ticks = std::fmod(ticks, device.range);
@@ -196,6 +198,19 @@ TEST(Clock, TakesBurstsOfABufferAtTheirMeanRate) {
   EXPECT_LT(clock.rate_error_hz, 5e-3 * clock.sampling_rate_hz);
   EXPECT_EQ(clock.pieces.size(), 1u);
   EXPECT_THAT(clock.words, HasSubstr("bursts"));
+}
+
+// A buffer that is read whenever it is full: its stamps stay at a line, which tells the rate.
+TEST(Clock, TakesFullBuffersAtTheRateOfTheLineThroughTheirStamps) {
+  for (const std::size_t burst : {4u, 8u, 12u, 15u})
+    for (const double step : {0.02, 0.1})
+      for (const double rate_hz : {232.9, 487., 1185.6}) {
+        const Device device{.rate_hz = rate_hz, .burst = burst, .burst_step = step};
+        const Clock clock = clock_of(stamps_of(device), device.unit_s);
+        EXPECT_NEAR(clock.sampling_rate_hz, rate_hz, 3. * clock.rate_error_hz) << clock.words;
+        EXPECT_LT(clock.rate_error_hz, 2e-5 * rate_hz) << clock.words;
+        EXPECT_EQ(clock.n_lost, 0u) << clock.words;
+      }
 }
 
 TEST(Clock, TakesIntervalsInPlaceOfTimes) {
