@@ -196,10 +196,13 @@ TEST_F(ResponseDataset, WithUnknownWordsIsRefused) {
 }
 
 TEST_F(ResponseDataset, FindsColumnsByTheNamesThatTheFileHas) {
-  std::string text = amplitudes(resonance());
-  text.replace(text.find("x_um"), 4, "v[m/s]");
-  folder_.file("a.csv", text);
-  for (const std::string name : {"v[m/s]", "v"}) {
+  for (const auto& [in_file, name] : {std::pair<std::string, std::string>{"v[m/s]", "v[m/s]"},
+                                      {"v[m/s]", "v"},
+                                      {"v[raw]", "v[raw]"},
+                                      {"v*2", "v*2"}}) {
+    std::string text = amplitudes(resonance());
+    text.replace(text.find("x_um"), 4, in_file);
+    folder_.file("a.csv", text);
     const DatasetResponse response =
         only(R"({"kind": "response", "file": "a.csv", "response_of": "velocity",
       "values": "amplitude", "columns": {"magnitude": ")" +
