@@ -31,7 +31,8 @@ std::string band_of_record(const Identification& identification) {
                                    : "the band in which the moment follows the base acceleration";
 }
 std::string band_of_response(const signals::FrequencyResponse& response) {
-  return response.coherence.empty() ? "the lines of the response" : "the lines that it explains";
+  return response.coherence.empty() ? "the lines of the response"
+                                    : "the lines that the model explains";
 }
 
 /// Why this pair of poles cannot be a mode of the band; nothing when it can.
