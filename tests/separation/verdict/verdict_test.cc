@@ -158,6 +158,17 @@ TEST(Verdict, TakesThePeakBetweenTwoLinesForAFrequencyWithoutDamping) {
   EXPECT_THAT(verdict.sentence, StartsWith("Not usable as a model, only for the frequencies"));
 }
 
+// One record in a hundred is expected; segments that overlap are no independent ones.
+TEST(CoherentLines, AreInOneUnrelatedRecordOfAHundred) {
+  std::size_t n_records = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed)
+    n_records += !coherent_lines(make_record(test::white_noise(4096, 1., seed),
+                                             test::white_noise(4096, 1., 1000 + seed)))
+                      ->lines.empty();
+  EXPECT_LE(n_records, 10u);
+  EXPECT_NEAR(coherence_limit(1, 2.), 0.99, 1e-12) << "one line, a line through two points";
+}
+
 // An analyser's coherence falls where the drive ends; the lines there are noise.
 TEST(Verdict, GoesByTheLinesThatAModelWeightedByCoherenceExplains) {
   signals::FrequencyResponse response =
