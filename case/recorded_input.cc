@@ -8,10 +8,9 @@ namespace vibrissa::sensor_case {
 
 signals::Recording read_input(const RecordedInput& input, const std::string& channel) {
   signals::ReadOptions options;
-  options.columns = {signals::parse_column_choice(channel + "=" +
-                                                  (input.column.empty() ? channel : input.column))};
-  options.columns.front().scale *= input.scale;
-  options.columns.front().offset *= input.scale;
+  const std::string column = input.column.empty() ? channel : input.column;
+  const std::string factor = input.scale == 1. ? "" : "*" + signals::to_text(input.scale);
+  options.columns = {signals::parse_column_choice(channel + "=" + column + factor)};
   options.sampling_rate_hz = input.sampling_rate_hz;
   options.first_row = input.first_row;
   options.n_rows = input.n_rows;

@@ -6,6 +6,7 @@
 
 #include "diagnosis/model/words.h"
 #include "diagnosis/records/spectrum.h"
+#include "signals/base/significant_digits.h"
 #include "signals/record/channel_name.h"
 #include "signals/spectra/frequency_response.h"
 
@@ -120,6 +121,37 @@ void find_hum(std::span<const double> x, double rate_hz, ChannelFacts& facts) {
   }
 }
 
+/// Numbers that a counter of samples passes over; nothing where the channel counts none.
+std::optional<std::size_t> skipped_numbers(std::span<const double> x) {
+  std::size_t n_skipped = 0;
+  std::size_t n_single = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double step = x[i] - x[i - 1];
+    if (step < 1. || step > 1e9 || step != std::round(step)) return std::nullopt;
+    n_skipped += std::size_t(step) - 1;
+    if (step == 1.) ++n_single;
+  }
+  if (2 * n_single < x.size()) return std::nullopt;
+  return n_skipped;
+}
+
+/// A counter of samples tells lost ones, as a time does.
+Finding counter_finding(const ChannelFacts& facts, const double sampling_rate_hz) {
+  const bool is_whole = *facts.skipped == 0;
+  std::string text = facts.name + " counts the samples, and ";
+  text += is_whole ? "none is missing"
+                   : std::to_string(*facts.skipped) +
+                         (*facts.skipped == 1 ? " is missing" : " are missing") +
+                         ": take it as the time, as in --column 'time=" + facts.name + "*" +
+                         signals::rounded(1. / sampling_rate_hz, 8) + "'";
+  return {FindingKind::drift,
+          facts.name,
+          facts.skipped,
+          "",
+          text,
+          is_whole ? Severity::note : Severity::limits};
+}
+
 }  // namespace
 
 ChannelFacts channel_facts(const signals::Record& record, const std::string& name) {
@@ -132,17 +164,21 @@ ChannelFacts channel_facts(const signals::Record& record, const std::string& nam
   facts.rms = diagnosis::rms_about_mean(x);
   if (!std::isfinite(facts.rms) || *low == *high) return facts;
   facts.never_falls = std::ranges::is_sorted(x);
+  if (facts.never_falls) facts.skipped = skipped_numbers(x);
   if (!facts.never_falls) find_drift(x, record.sampling_rate_hz(), facts);
   facts.step = step_of(x, *high - *low);
   find_hum(x, record.sampling_rate_hz(), facts);
   return facts;
 }
 
-void find_channel_faults(const ChannelFacts& facts, std::vector<Finding>& findings) {
+void find_channel_faults(const ChannelFacts& facts, const double sampling_rate_hz,
+                         std::vector<Finding>& findings) {
   const auto with_unit = [&](double value) {
     return three_digits(value) + (facts.unit.empty() ? "" : " " + facts.unit);
   };
-  if (facts.never_falls)
+  if (facts.skipped)
+    findings.push_back(counter_finding(facts, sampling_rate_hz));
+  else if (facts.never_falls)
     findings.push_back({FindingKind::drift, facts.name, facts.highest - facts.lowest, facts.unit,
                         facts.name + " rises from " + with_unit(facts.lowest) + " to " +
                             with_unit(facts.highest) +

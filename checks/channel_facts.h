@@ -14,7 +14,9 @@ namespace vibrissa::checks {
 /// Proven by tests/checks/channel_facts_test.cc.
 ChannelFacts channel_facts(const signals::Record& record, const std::string& name);
 
-/// Findings about a channel: values that are not finite, drift, few steps, hum.
-void find_channel_faults(const ChannelFacts& facts, std::vector<Finding>& findings);
+/// Findings about a channel of this rate: values that are not finite, drift, few steps, hum; a time
+/// or a counter that is no channel, and the samples that a counter tells lost.
+void find_channel_faults(const ChannelFacts& facts, double sampling_rate_hz,
+                         std::vector<Finding>& findings);
 
 }  // namespace vibrissa::checks

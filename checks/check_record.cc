@@ -173,7 +173,7 @@ RecordReport check_record(const signals::DatasetRecord& entry) {
   check_length(record, report.findings);
   for (const std::string& name : record.channel_names()) {
     report.channels.push_back(channel_facts(record, name));
-    find_channel_faults(report.channels.back(), report.findings);
+    find_channel_faults(report.channels.back(), record.sampling_rate_hz(), report.findings);
   }
   if (std::ranges::none_of(report.findings, [](const Finding& finding) {
         return finding.kind == FindingKind::not_finite;

@@ -40,8 +40,9 @@ struct ChannelFacts {
   std::optional<double> drift_per_s{};                    // where it is told from noise
   double drift_share = 0.;                                // of the variance
   bool never_falls = false;                               // as a time or a counter
-  std::optional<double> step{};   // of the converter, where all values lie on a grid
-  std::optional<double> noise{};  // per sample; an upper bound where the drive hides it
+  std::optional<std::size_t> skipped{};  // numbers that a counter of samples passes over
+  std::optional<double> step{};          // of the converter, where all values lie on a grid
+  std::optional<double> noise{};         // per sample; an upper bound where the drive hides it
   std::vector<HumLine> hum{};
 };
 

@@ -1,6 +1,7 @@
 #include "checks/report_text.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "checks/numbered_reasons.h"
 #include "diagnosis/model/words.h"
@@ -48,7 +49,8 @@ std::string response_text(const ResponseFacts& response) {
     text += "; " + diagnosis::percent(response.coherent_share->value) +
             " of the moment's variance follows the base";
   if (response.delay_s)
-    text += "; the moment is " + three_digits(1e3 * response.delay_s->value) + " ms late";
+    text += "; the moment is " + three_digits(1e3 * std::abs(response.delay_s->value)) +
+            (response.delay_s->value < 0. ? " ms early" : " ms late");
   return wrapped(text);
 }
 

@@ -258,11 +258,19 @@ signals::Recording RecordOptions::read_said(const std::string& file,
   return recording;
 }
 
-signals::Recording RecordOptions::read_pieces(const std::string& file) const {
-  signals::Recording recording = read_said(file, options_of_each());
+namespace {
+
+void warn_of_magnitudes(const std::string& file, const signals::Recording& recording) {
   for (const std::string& remark :
        signals::implausible_magnitudes(recording.pieces[recording.longest()]))
     std::cerr << "warning: " << file << ": " << remark << std::endl;
+}
+
+}  // namespace
+
+signals::Recording RecordOptions::read_pieces(const std::string& file) const {
+  signals::Recording recording = read_said(file, options_of_each());
+  warn_of_magnitudes(file, recording);
   return recording;
 }
 
@@ -271,75 +279,17 @@ signals::Record RecordOptions::read(const std::string& file) const {
   return take_longest(file, recording);
 }
 
-namespace {
-
-/// A column for base_moment as it is, in its own unit.
-struct UncalibratedMoment {
-  signals::ColumnChoice choice;
-  std::string unit;
-};
-
-std::string unit_in_file(const std::string& column, const signals::formats::RecordTable& table) {
-  for (std::size_t i = 0; i < table.columns().size(); ++i) {
-    const signals::NamedUnit parts = signals::split_unit(table.columns()[i]);
-    if (table.columns()[i] != column && parts.name != column) continue;
-    return table.units()[i].empty() ? parts.unit : table.units()[i];
-  }
-  return {};
-}
-
-bool is_moment(const std::string& unit) {
-  try {
-    signals::convert_unit(unit, signals::unit_of_channel(signals::channel::base_moment));
-    return true;
-  } catch (const signals::UnitError&) {
-    return false;
-  }
-}
-
-/// What --column says of base_moment where it states no factor and the unit, of the text or else of
-/// the file, is that of no moment; else nothing.
-std::optional<UncalibratedMoment> uncalibrated_moment(const std::string& text,
-                                                      const std::filesystem::path& file,
-                                                      const signals::formats::TextOptions& layout) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || text.find('*', equals) != std::string::npos) return {};
-  const std::string channel(signals::trimmed(std::string_view(text).substr(0, equals)));
-  if (signals::full_channel_name(channel) != signals::channel::base_moment) return {};
-  const std::string column(signals::trimmed(std::string_view(text).substr(equals + 1)));
-  std::string name = column, unit;
-  const std::size_t open = column.rfind('[');
-  if (open != std::string::npos && column.ends_with(']')) {
-    name = signals::trimmed(std::string_view(column).substr(0, open));
-    unit = column.substr(open + 1, column.size() - open - 2);
-  } else {
-    unit = unit_in_file(name, *signals::formats::open_table(file, layout));
-  }
-  if (unit.empty() || is_moment(unit)) return {};
-  return UncalibratedMoment{{.channel = signals::channel::base_moment,
-                             .column = name,
-                             .column_with_unit = name + "[" + unit + "]",
-                             .has_unit = true},
-                            unit};
-}
-
-}  // namespace
-
 signals::Record RecordOptions::read_in_own_unit(const std::string& file, std::string& unit) const {
   unit = signals::unit_of_channel(signals::channel::base_moment);
   if (join) return read(file);
-  RecordOptions others = *this;
-  std::optional<UncalibratedMoment> moment;
-  for (const std::string& text : columns) {
-    moment = uncalibrated_moment(text, file, text_options(*this));
-    if (moment) std::erase(others.columns, text);
-    if (moment) break;
-  }
-  if (!moment) return read(file);
-  signals::ReadOptions options = others.options_of_each();
-  options.columns.push_back(moment->choice);
-  unit = moment->unit;
+  signals::ReadOptions options = options_of_each();
+  options.keeps_unit_of = signals::channel::base_moment;
   signals::Recording recording = read_said(file, options);
+  if (recording.kept_unit.empty()) {
+    warn_of_magnitudes(file, recording);
+    return take_longest(file, recording);
+  }
+  unit = recording.kept_unit;
   std::cerr << file << ": base_moment stays in " << unit
             << ", for it has no calibration: amplitudes are in " << unit
             << "; frequencies and damping ratios need none" << std::endl;

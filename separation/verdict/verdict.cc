@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -29,9 +30,10 @@ std::string band_of_record(const Identification& identification) {
   return identification.n_hits > 0 ? "the band that the hit excites"
                                    : "the band in which the moment follows the base acceleration";
 }
-/// Below it noise and other sources give more of a line than the base does.
-constexpr double least_coherence = 0.5;
-const std::string band_of_response = "the lines of the response";
+std::string band_of_response(const signals::FrequencyResponse& response) {
+  return response.coherence.empty() ? "the lines of the response"
+                                    : "the lines that the model explains";
+}
 
 /// Why this pair of poles cannot be a mode of the band; nothing when it can.
 std::optional<std::string> reason_of_place(const ModeEstimate& mode, const Band& band,
@@ -138,26 +140,41 @@ Estimate amplitude_peak(const signals::FrequencyResponse& response, const double
   return {amplitude_peak_hz(response, at_hz), line_spacing_hz(response, at_hz) / std::sqrt(12.)};
 }
 
-/// The band of its lines, without the ends where the response does not follow the base.
-Band band_of_lines(const signals::FrequencyResponse& response) {
-  Band band{response.frequency_hz.front(), response.frequency_hz.back()};
-  const auto is_coherent = [](const double coherence) { return coherence > least_coherence; };
-  const auto& c = response.coherence;
-  const auto first = std::ranges::find_if(c, is_coherent);
-  if (first == c.end()) return band;
-  const auto last = std::find_if(c.rbegin(), c.rend(), is_coherent).base() - 1;
-  return {response.frequency_hz[std::size_t(first - c.begin())],
-          response.frequency_hz[std::size_t(last - c.begin())]};
+/// Whether the model explains more of the lines about this one than it leaves. Of so many lines of
+/// noise a mode, four parameters, explains 4 of 18 real values.
+bool is_explained(const std::vector<std::complex<double>>& measured,
+                  const std::vector<std::complex<double>>& modelled, const std::size_t line) {
+  constexpr std::size_t reach = 4;
+  double whole = 0., left = 0.;
+  const std::size_t end = std::min(line + reach + 1, measured.size());
+  for (std::size_t i = line < reach ? 0 : line - reach; i < end; ++i) {
+    if (!std::isfinite(std::abs(measured[i]))) continue;
+    whole += std::norm(measured[i]);
+    left += std::norm(measured[i] - modelled[i]);
+  }
+  return left < 0.5 * whole;
+}
+
+/// The band of its lines. Where their coherence is known, without the ends that the model, in which
+/// lines of low coherence count for less, does not explain. The coherence alone does not tell the
+/// band: after n averages the noise of a line is (1 - g2) / (g2 n) of its power, and no file states
+/// n.
+Band band_of_lines(const signals::FrequencyResponse& response, const Bvrm& model) {
+  const auto& f = response.frequency_hz;
+  if (response.coherence.empty()) return {f.front(), f.back()};
+  const auto modelled = separation::response(model, f);
+  std::size_t first = 0, last = f.size() - 1;
+  while (first < last && !is_explained(response.value, modelled, first)) ++first;
+  while (last > first && !is_explained(response.value, modelled, last)) --last;
+  if (first == last) return {f.front(), f.back()};
+  return {f[first], f[last]};
 }
 
 /// The coherence of an analyser, which weights the lines.
 std::string coherence_sentence(const signals::FrequencyResponse& response) {
-  const auto& c = response.coherence;
-  if (c.empty()) return {};
-  const auto n_low = std::ranges::count_if(c, [](double x) { return x <= least_coherence; });
-  return " Coherence of the file: median " + rounded(signals::median(c), 3) + "; at most " +
-         rounded(least_coherence, 2) + " at " + std::to_string(n_low) + " of " +
-         std::to_string(c.size()) + " lines, which count for less.";
+  if (response.coherence.empty()) return {};
+  return " Coherence of the file: median " + rounded(signals::median(response.coherence), 3) +
+         "; a line counts the less, the lower it is.";
 }
 
 /// Takes the peaks whose frequency is told from those that are not determined.
@@ -167,8 +184,8 @@ void set_frequencies_apart(const FittedBvrm& fit, const signals::FrequencyRespon
   for (UndeterminedMode& entry : verdict.undetermined) {
     const ModeEstimate& mode = fit.modes[entry.mode];
     const Estimate& f = mode.frequency_hz;
-    const bool is_narrow =
-        !reason_of_place(mode, verdict.band, band_of_response) && !is_resolved(mode, response);
+    const bool is_narrow = !reason_of_place(mode, verdict.band, band_of_response(response)) &&
+                           !is_resolved(mode, response);
     if (is_narrow && phase_rises(response, f.value))
       entry.peak_hz = amplitude_peak(response, f.value);
     const bool is_told =
@@ -240,11 +257,11 @@ Verdict judge(const Identification& identification, const signals::Record& fitte
 Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& measured) {
   const auto response = identified.conjugated ? conjugate_of(measured) : measured;
   Verdict verdict;
-  verdict.band = band_of_lines(response);
+  verdict.band = band_of_lines(response, identified.fit.model);
   const bool exact = identified.held_out_fit_percent > 100. * (1. - exact_share);
   const FittedBvrm& fit = identified.fit;
   sort_modes(
-      fit, band_of_response,
+      fit, band_of_response(response),
       [&](std::size_t k) -> std::optional<std::string> {
         if (exact) return std::nullopt;
         return reason_of_lines(fit, k, response);

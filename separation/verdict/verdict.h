@@ -45,11 +45,11 @@ struct Verdict {
 /// tests/separation/verdict/verdict_test.cc.
 Verdict judge(const Identification& identification, const signals::Record& fitted);
 
-/// The same for a frequency response, whose band is that of its lines, those where the response
-/// follows the base more than not (coherence above 0.5) when their coherence is known; it is said.
-/// A resonance with less than two lines within its half-power width 2 zeta f has no damping that
-/// the lines tell, unless the model is exact; its frequency is told where the noise moves it by
-/// less than the lines are apart. A peak whose phase rises (phase_rises()) is no answer to the
+/// The same for a frequency response, whose band is that of its lines; when their coherence is
+/// known, it is said, and the band is that of the lines that the model explains more than it
+/// leaves. A resonance with less than two lines within its half-power width 2 zeta f has no damping
+/// that the lines tell, unless the model is exact; its frequency is told where the noise moves it
+/// by less than the lines are apart. A peak whose phase rises (phase_rises()) is no answer to the
 /// base; it has the frequency of its amplitude.
 Verdict judge(const IdentifiedResponse& identified, const signals::FrequencyResponse& measured);
 

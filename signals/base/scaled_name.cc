@@ -1,5 +1,6 @@
 #include "signals/base/scaled_name.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -54,46 +55,102 @@ bool can_scale(const double factor) {
   return std::isfinite(factor) && factor != 0.;
 }
 
-// Takes the factors off the end of the text, the last one first.
-std::vector<Factor> take_factors(std::string& text) {
-  std::vector<Factor> factors;
-  for (;;) {
-    const std::size_t star = last_star(text);
-    if (star == std::string::npos) return factors;
-    const auto factor = factor_of(text.substr(star + 1));
-    if (!factor && !factors.empty()) return factors;  // a star in the column's own name
-    if (!factor || !can_scale(factor->value))
-      throw UserError("the scale '" +
-                      std::string(trimmed(std::string_view(text).substr(star + 1))) +
-                      "' must be a finite number other than 0");
-    factors.push_back(*factor);
-    text.erase(star);
-  }
+// Takes the last factor off the end of the text; nothing where the text has no more of them.
+std::optional<Factor> take_factor(std::string& text, const bool is_last) {
+  const std::size_t star = last_star(text);
+  if (star == std::string::npos) return {};
+  const auto factor = factor_of(text.substr(star + 1));
+  if (!factor && !is_last) return {};  // a star in the column's own name
+  if (!factor || !can_scale(factor->value))
+    throw UserError("the scale '" + std::string(trimmed(std::string_view(text).substr(star + 1))) +
+                    "' must be a finite number other than 0");
+  text.erase(star);
+  return factor;
+}
+
+void convert(const std::string& units, const std::string& needed_unit, ScaledName& name) {
+  const UnitConversion conversion = convert_unit(units, needed_unit);
+  name.scale *= conversion.scale;
+  name.offset = conversion.offset;
+  name.has_unit = true;
+}
+
+std::string product_of_units(const std::optional<std::string>& first,
+                             const std::vector<Factor>& factors) {
+  std::string units = first ? "(" + *first + ")" : "";
+  for (const Factor& factor : factors)
+    if (factor.unit) units.append(units.empty() ? "" : ".").append("(" + *factor.unit + ")");
+  return units;
+}
+
+// The name with its factors, before units are converted.
+ScaledName unconverted(const std::string& rest, const Quantity& quantity,
+                       const std::vector<Factor>& factors) {
+  ScaledName found{
+      .name = quantity.text, .unit = quantity.unit.value_or(""), .has_factor = !factors.empty()};
+  if (quantity.unit) found.name_with_unit = trimmed(rest);
+  for (const Factor& factor : factors) found.scale *= factor.value;
+  return found;
+}
+
+void check_scale(const ScaledName& name) {
+  if (!can_scale(name.scale))
+    throw UserError("the product of the factors is " + to_text(name.scale) +
+                    "; it must be a finite number other than 0");
 }
 
 }  // namespace
 
 ScaledName parse_scaled_name(const std::string& text, const std::string& needed_unit) {
   std::string rest = text;
-  const std::vector<Factor> factors = take_factors(rest);
+  std::vector<Factor> factors;
+  while (const auto factor = take_factor(rest, factors.empty())) factors.push_back(*factor);
   const Quantity quantity = quantity_of(rest);
-  ScaledName found{.name = quantity.text};
-  if (quantity.unit) found.name_with_unit = trimmed(rest);
-  std::string units = quantity.unit ? "(" + *quantity.unit + ")" : "";
-  for (const Factor& factor : factors) {
-    found.scale *= factor.value;
-    if (factor.unit) units.append(units.empty() ? "" : ".").append("(" + *factor.unit + ")");
-  }
-  if (!units.empty()) {
-    const UnitConversion conversion = convert_unit(units, needed_unit);
-    found.scale *= conversion.scale;
-    found.offset = conversion.offset;
-    found.has_unit = true;
-  }
-  if (!can_scale(found.scale))
-    throw UserError("the product of the factors is " + to_text(found.scale) +
-                    "; it must be a finite number other than 0");
+  ScaledName found = unconverted(rest, quantity, factors);
+  const std::string units = product_of_units(quantity.unit, factors);
+  if (!units.empty()) convert(units, needed_unit, found);
+  check_scale(found);
   return found;
+}
+
+ScaledName split_scaled_name(const std::string& text) {
+  std::string rest = text;
+  for (std::size_t star = last_star(rest);
+       star != std::string::npos && factor_of(rest.substr(star + 1)); star = last_star(rest))
+    rest.erase(star);
+  ScaledName found = unconverted(rest, quantity_of(rest), {});
+  found.has_factor = rest.size() < text.size();
+  return found;
+}
+
+std::optional<ScaledName> name_as_it_stands(const std::string& text, const std::string& needed_unit,
+                                            const std::vector<std::string>& names) {
+  std::string rest(trimmed(text));
+  std::vector<Factor> factors;
+  while (std::ranges::find(names, rest) == names.end()) {
+    const std::size_t star = last_star(rest);
+    const auto factor = star == std::string::npos ? std::nullopt : factor_of(rest.substr(star + 1));
+    if (!factor) return {};
+    factors.push_back(*factor);
+    rest = std::string(trimmed(std::string_view(rest).substr(0, star)));
+  }
+  const Quantity quantity = quantity_of(rest);
+  ScaledName found = unconverted(rest, quantity, factors);
+  found.name = rest;
+  const auto converts = [&](const std::string& units) {
+    try {
+      if (!units.empty()) convert(units, needed_unit, found);
+      return true;
+    } catch (const UnitError&) {
+      return false;
+    }
+  };
+  if (!converts(product_of_units(quantity.unit, factors))) {
+    found.name_with_unit.clear();
+    found.unit.clear();
+    if (!converts(product_of_units({}, factors))) return {};
+  }
+  return can_scale(found.scale) ? std::optional(found) : std::nullopt;
 }
 
 }  // namespace vibrissa::signals

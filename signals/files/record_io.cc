@@ -91,7 +91,9 @@ Recording read_recording(formats::RecordTable& table, const std::string& name,
                          const ReadOptions& options) {
   check(options);
   if (!table.rate_groups().empty()) return read_several_rates(table, name, options);
-  for (const ColumnChoice& choice : options.columns) table.take_rows_of(choice.column);
+  for (const ColumnChoice& choice : options.columns)
+    for (const std::string& name : {choice.column, choice.column_with_unit, choice.text})
+      table.take_rows_of(name);
   Sources sources = find_sources(table, options);
   const std::size_t n_rows = number_of_rows(table, options);
   std::optional<Clock> clock = clock_beside_rate(table, name, sources, options, n_rows);
@@ -99,6 +101,8 @@ Recording read_recording(formats::RecordTable& table, const std::string& name,
   recording.pieces = read_rows(table, name, sources, options, n_rows, clock);
   for (Record& piece : recording.pieces) remove_means(options, piece);
   recording.epoch_s = clock->epoch_s;
+  for (const Source& source : sources.channels)
+    if (source.keeps_unit) recording.kept_unit = source.unit;
   const std::string layout = table.layout_text();
   recording.words = (layout.empty() ? "" : layout + "; ") + clock->words + "; " +
                     sizes_of(recording, *clock) + "; " + to_string(sources, table);

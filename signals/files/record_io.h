@@ -31,6 +31,9 @@ struct ReadOptions {
   bool takes_all_columns = false;
   /// Of a dataset: entries of the kind response are read, too; otherwise they are refused.
   bool takes_responses = false;
+  /// A channel whose chosen column may stay in its own unit, where this measures another quantity
+  /// and the choice has no factor; otherwise this is refused.
+  std::string keeps_unit_of = {};
 };
 
 /// How a file was read, in the words of Recording.
@@ -48,6 +51,7 @@ struct Recording {
   std::string words;
   /// Time since 1970 of time 0, where the file has dates [s]; 0: it has none.
   double epoch_s = 0.;
+  std::string kept_unit = {};   // of ReadOptions::keeps_unit_of; empty: it was converted
   std::size_t longest() const;  // index of the piece with the most samples
 };
 

@@ -50,7 +50,7 @@ class SourceFinder {
  public:
   explicit SourceFinder(const RecordTable& file) : file_(file), columns_(file_columns(file)) {}
 
-  Sources chosen(const std::vector<ColumnChoice>& choices, bool skips_missing) const;
+  Sources chosen(const ReadOptions& options) const;
   std::size_t find_column(const ColumnChoice& choice) const;
   void add_channels_by_name(Sources& sources) const;
   void add_time_by_name(Sources& sources, bool needs_time, bool has_rate) const;
@@ -59,6 +59,7 @@ class SourceFinder {
  private:
   std::size_t column_of(const ColumnChoice& choice) const;
   Source source_of(const ColumnChoice& choice) const;
+  std::optional<Source> uncalibrated(const ColumnChoice& choice) const;
   Source by_name(const std::string& channel, std::size_t column) const;
   UnitConversion conversion(std::size_t column, const std::string& channel) const;
   Source time_source(std::size_t column, Sources& sources) const;
@@ -67,14 +68,15 @@ class SourceFinder {
   std::vector<FileColumn> columns_;
 };
 
-// By the name in the file, by name and unit, or by the name without its unit; the number of columns
-// where there is none.
+// By the text as it stands, by the name in the file, by name and unit, or by the name without its
+// unit; the number of columns where there is none.
 std::size_t SourceFinder::find_column(const ColumnChoice& choice) const {
   const auto place = [&](const auto& is_it) {
     return std::size_t(std::find_if(columns_.begin(), columns_.end(), is_it) - columns_.begin());
   };
   const std::size_t n = columns_.size();
-  std::size_t i = place([&](const FileColumn& column) { return column.name == choice.column; });
+  std::size_t i = place([&](const FileColumn& column) { return column.name == choice.text; });
+  if (i == n) i = place([&](const FileColumn& column) { return column.name == choice.column; });
   const std::string with_unit = without_spaces(choice.column_with_unit);
   if (i == n && !with_unit.empty())
     i = place([&](const auto& column) { return without_spaces(column.name) == with_unit; });
@@ -112,7 +114,7 @@ UnitConversion SourceFinder::conversion(const std::size_t column,
 // the unit of the file does.
 Source SourceFinder::source_of(const ColumnChoice& choice) const {
   Source source{choice.channel, column_of(choice), choice.scale, choice.offset,
-                split_unit(choice.column_with_unit).unit};
+                choice.has_unit ? choice.unit : ""};
   const FileColumn& column = columns_[source.column];
   std::string unit = column.unit;
   if (unit.empty() && choice.channel == time_channel) unit = unit_of_time_name(column.name);
@@ -130,11 +132,33 @@ Source SourceFinder::source_of(const ColumnChoice& choice) const {
   return source;
 }
 
-Sources SourceFinder::chosen(const std::vector<ColumnChoice>& choices,
-                             const bool skips_missing) const {
+// A column without a factor whose unit, as the choice or else the file states it, measures another
+// quantity than the channel.
+std::optional<Source> SourceFinder::uncalibrated(const ColumnChoice& wanted) const {
+  const std::size_t i = find_column(wanted);
+  if (i == columns_.size() || wanted.has_factor) return {};
+  const FileColumn& column = columns_[i];
+  const std::string unit =
+      wanted.unit.empty() || column.name == wanted.text ? column.unit : wanted.unit;
+  if (unit.empty()) return {};
+  try {
+    convert_unit(unit, unit_of_channel(wanted.channel));
+  } catch (const UnitError&) {
+    return Source{.channel = wanted.channel, .column = i, .unit = unit, .keeps_unit = true};
+  }
+  return {};
+}
+
+Sources SourceFinder::chosen(const ReadOptions& options) const {
   Sources sources;
-  for (const ColumnChoice& choice : choices) {
-    if (skips_missing && find_column(choice) == columns_.size()) continue;
+  for (const ColumnChoice& wanted : options.columns) {
+    if (options.skips_missing_columns && find_column(wanted) == columns_.size()) continue;
+    if (wanted.channel == options.keeps_unit_of)
+      if (const auto source = uncalibrated(wanted)) {
+        sources.channels.push_back(*source);
+        continue;
+      }
+    const ColumnChoice choice = choice_in_file(wanted, file_.columns());
     assert(!choice.channel.empty() && std::isfinite(choice.scale) && choice.scale != 0.);
     const auto same = [&](const Source& other) { return other.channel == choice.channel; };
     if (sources.time && choice.channel == time_channel)
@@ -292,7 +316,7 @@ void ignore_unit_of_dates(const formats::RecordTable& file, Sources& sources) {
 
 Sources find_sources(const formats::RecordTable& file, const ReadOptions& options) {
   const SourceFinder finder(file);
-  Sources sources = finder.chosen(options.columns, options.skips_missing_columns);
+  Sources sources = finder.chosen(options);
   finder.add_channels_by_name(sources);
   const bool has_exact_clock = file.clock() && !file.clock_is_nominal();
   finder.add_time_by_name(sources, !has_exact_clock, options.sampling_rate_hz.has_value());

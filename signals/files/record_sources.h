@@ -15,7 +15,8 @@ struct Source {
   std::size_t column;
   double scale = 1.;
   double offset = 0.;
-  std::string unit = {};  // that the file states and the scale converts
+  std::string unit = {};    // that the file states and the scale converts
+  bool keeps_unit = false;  // the values are in it, for it measures another quantity
 };
 
 struct Sources {

@@ -40,8 +40,11 @@ ResponseUnit unit_of_values(const bool is_given, const std::string& stated,
   return response_unit(stated, wanted, choice.may_keep_unit, file.string());
 }
 
-ScaledName scaled_name(const std::string& text, const ResponseChoice& choice) {
+/// The names are those that the file has.
+ScaledName scaled_name(const std::string& text, const ResponseChoice& choice,
+                       const std::vector<std::string>& names) {
   try {
+    if (const auto name = name_as_it_stands(text, wanted_unit(choice), names)) return *name;
     return parse_scaled_name(text, wanted_unit(choice));
   } catch (const UnitError& error) {
     const std::string quantity = choice.output_unit == "N m" ? "moment" : choice.output_unit;
@@ -92,6 +95,7 @@ class Columns {
     return beside.empty() && has_brackets ? split_unit(name(column)).unit : beside;
   }
   std::size_t size() const { return table_.columns().size(); }
+  const std::vector<std::string>& names() const { return table_.columns(); }
   const std::string& name(const std::size_t column) const { return table_.columns()[column]; }
   Values values(const std::size_t column) const {
     const std::array<std::size_t, 1> wanted{column};
@@ -192,14 +196,15 @@ std::optional<std::pair<std::size_t, std::string>> column_of(
     const auto found = columns_called(columns, usual);
     return found.empty() ? std::nullopt : std::optional(found.front());
   }
-  const auto column = columns.find(chosen);
+  const auto column = columns.find_value(chosen);
   if (!column) columns.refuse("no column '" + chosen + "'");
-  return std::pair(*column, plain_name(chosen).unit);
+  return std::pair(*column, plain_name(columns.name(*column)).unit);
 }
 
 std::optional<Stated> by_magnitude(const Columns& columns, const ResponseChoice& choice) {
-  const ScaledName chosen =
-      choice.magnitude.empty() ? ScaledName{} : scaled_name(choice.magnitude, choice);
+  const ScaledName chosen = choice.magnitude.empty()
+                                ? ScaledName{}
+                                : scaled_name(choice.magnitude, choice, columns.names());
   const auto magnitude = column_of(columns, chosen.name, {"magnitude", "amplitude", "gain"});
   const auto phases = column_of(columns, choice.phase, {"phase"});
   if (!magnitude || !phases) return {};
@@ -269,10 +274,11 @@ Values coherence_of(const Columns& columns) {
   return values;
 }
 
-FileResponse from_table(const std::filesystem::path& file, const ScaledName& name,
+FileResponse from_table(const std::filesystem::path& file, const std::string& as,
                         const ResponseChoice& choice) {
   const auto table = open_table(file);
   const Columns columns(*table);
+  const ScaledName name = scaled_name(as, choice, complex_names(columns));
   Stated found = responses(columns, name.name, choice);
   const ResponseUnit unit =
       unit_of_values(name.has_unit || found.unit_is_given, found.unit, choice, file);
@@ -371,9 +377,12 @@ std::vector<double> beside(const std::vector<Uff58Function>& functions, const st
   return {};
 }
 
-FileResponse from_universal_file(const std::filesystem::path& file, const ScaledName& name,
+FileResponse from_universal_file(const std::filesystem::path& file, const std::string& as,
                                  const ResponseChoice& choice) {
   const std::vector<Uff58Function> functions = read_uff58(file);
+  std::vector<std::string> first_lines;
+  for (const Uff58Function& function : functions) first_lines.push_back(function.id_lines[0]);
+  const ScaledName name = scaled_name(as, choice, first_lines);
   const std::size_t i = chosen(functions, name.name, file.string());
   const Uff58Function& function = functions[i];
   const ResponseUnit unit = unit_of_values(name.has_unit, unit_of(function), choice, file);
@@ -454,10 +463,9 @@ FileResponse read_response(const std::filesystem::path& file, const ResponseChoi
   const std::string as = is_conjugated
                              ? choice.as.substr(start.size(), choice.as.size() - start.size() - 1)
                              : choice.as;
-  const ScaledName name = scaled_name(as, choice);
   FileResponse response = format_of(file).has(universal_extension)
-                              ? from_universal_file(file, name, choice)
-                              : from_table(file, name, choice);
+                              ? from_universal_file(file, as, choice)
+                              : from_table(file, as, choice);
   if (choice.may_fall && falls(response.frequency_hz, file.string())) reverse(response);
   check_frequencies(response.frequency_hz, file.string());
   FileResponse lines{rising_lines(response), response.unit, response.words};
@@ -473,17 +481,22 @@ FileResponse read_response(const std::filesystem::path& file, const ResponseChoi
 std::vector<double> read_response_column(const std::filesystem::path& file,
                                          const std::string& column, const std::string& unit,
                                          const ResponseChoice& choice) {
-  const ScaledName name = parse_scaled_name(column, unit);
   if (format_of(file).has(universal_extension))
     throw UserError(file.string() + ": a Universal File has no column '" + column +
                     "'; give the number itself");
   const auto table = open_table(file);
   const Columns columns(*table);
-  const auto found = columns.find(name.name);
+  const auto as_it_stands = name_as_it_stands(column, unit, columns.names());
+  const ScaledName name = as_it_stands ? *as_it_stands : parse_scaled_name(column, unit);
+  const auto found = columns.find_value(name.name);
   if (!found) columns.refuse("no column '" + name.name + "'");
   FrequencyResponse lines{frequencies(columns), {}, {}, {}};
+  const std::string stated = columns.unit(*found);
+  const UnitConversion to_unit = name.has_unit || name.has_factor || stated.empty()
+                                     ? UnitConversion{name.scale, name.offset}
+                                     : convert_unit(stated, unit);
   for (const double value : columns.values(*found))
-    lines.value.emplace_back(name.scale * value + name.offset);
+    lines.value.emplace_back(to_unit.scale * value + to_unit.offset);
   if (choice.may_fall && falls(lines.frequency_hz, file.string())) reverse(lines);
   std::vector<double> out;
   for (const auto& value : rising_lines(lines).value) out.push_back(value.real());

@@ -116,9 +116,11 @@ struct Lines {
 
 constexpr std::size_t most_certain = 20;  // a longer loss is not counted exactly
 
+constexpr std::size_t n_blocks = 30;  // in which correlation is looked for
+
 // Standard deviation of the sum of correlated residuals over that of independent ones, squared.
 double correlation_factor(const Events& events, const Lines& lines) {
-  const std::size_t n_blocks = 30, length = events.times_s.size() / n_blocks;
+  const std::size_t length = events.times_s.size() / n_blocks;
   if (length < 2) return 1.;
   double power = 0., of_means = 0.;
   for (std::size_t b = 0; b < n_blocks; ++b) {
@@ -131,6 +133,13 @@ double correlation_factor(const Events& events, const Lines& lines) {
     of_means += sum * sum / double(length);
   }
   return power > 0. ? std::max(1., of_means / power * double(length)) : 1.;
+}
+
+// Whether the residuals keep their value over a large part of a block, as a sum of independent
+// steps does; those of a buffer that is read when it is full do not.
+bool is_random_walk(const Events& events, const Lines& lines) {
+  constexpr double large_part = 0.1;
+  return correlation_factor(events, lines) > large_part * double(events.times_s.size() / n_blocks);
 }
 
 Lines fitted_lines(const Events& events, const std::vector<Loss>& losses, const double rounding_s) {
@@ -173,8 +182,8 @@ Lines fitted_lines(const Events& events, const std::vector<Loss>& losses, const 
   return lines;
 }
 
-// Steps of bursts are uneven, so only their sum tells the period: the line from the first to the
-// last event.
+// Where the steps of bursts add up as a random walk, only their sum tells the period: the line from
+// the first to the last event.
 Lines mean_line(const Events& events, Lines lines) {
   const double span_s = events.times_s.back() - events.times_s.front();
   const double n = events.sample(events.times_s.size() - 1) - events.sample(0);
@@ -203,8 +212,9 @@ bool wander(const Events& events, const Lines& lines) {
   return at_long > grows * power_at(1) && at_long > std::pow(matters_periods * lines.period_s, 2);
 }
 
-// Whether nearly all steps have one of three lengths, most of them the shortest.
-bool come_in_bursts(const std::span<const double> times_s, const double rounding_s) {
+// The shortest step [s], where nearly all steps have one of three lengths, most of them this one.
+std::optional<double> step_of_bursts(const std::span<const double> times_s,
+                                     const double rounding_s) {
   std::vector<double> steps;
   steps.reserve(times_s.size());
   for (std::size_t i = 1; i < times_s.size(); ++i) steps.push_back(times_s[i] - times_s[i - 1]);
@@ -217,7 +227,8 @@ bool come_in_bursts(const std::span<const double> times_s, const double rounding
     for (next = i + 1; next < steps.size() && steps[next] - steps[i] <= 4. * rounding_s;) ++next;
     if (n_lengths++ == 0) n_short = next;
   }
-  return n_lengths > 1 && n_lengths <= most_lengths && 2 * n_short > steps.size();
+  if (n_lengths < 2 || n_lengths > most_lengths || 2 * n_short <= steps.size()) return {};
+  return steps[n_short / 2];
 }
 
 void set_pieces(const Events& events, const std::vector<Loss>& losses, const Lines& lines,
@@ -266,10 +277,15 @@ std::optional<Clock> regress_stamps(const std::span<const double> times_s,
     deviation_s = local_jitter(events, period_s);
   }
   const bool is_often_lost = double(losses.size()) > most_lost * double(events.times_s.size());
-  const bool is_burst = is_often_lost && come_in_bursts(times_s, rounding_s);
+  // A device that only loses samples has its period as its shortest step.
+  const std::optional<double> step_s = step_of_bursts(events.times_s, rounding_s);
+  constexpr double hidden = 0.5;
+  const bool is_burst =
+      step_s && (is_often_lost || (!losses.empty() && *step_s < hidden * lines.period_s));
   if (is_burst) {
     losses.clear();
-    lines = mean_line(events, fitted_lines(events, losses, rounding_s));
+    lines = fitted_lines(events, losses, rounding_s);
+    if (is_random_walk(events, lines)) lines = mean_line(events, lines);
   } else if (is_often_lost || wander(events, lines)) {
     return {};
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "tests/signals/white_noise.h"
 
@@ -38,6 +39,22 @@ TEST(ChannelFacts, OfAColumnWithoutUnitHaveNone) {
   record.set_channel("moment_mN_m", std::vector<double>(1000, 1.));
   EXPECT_EQ(channel_facts(record, "ax").unit, "");
   EXPECT_NE(channel_facts(record, "moment_mN_m").unit, "");
+}
+
+TEST(ChannelFacts, TellLostSamplesFromACounter) {
+  std::vector<double> count(200);
+  std::iota(count.begin(), count.end(), 1.);
+  const auto sentence_of = [](const std::vector<double>& x) {
+    std::vector<Finding> findings;
+    find_channel_faults(facts_of(x), 2000., findings);
+    return findings.at(0).sentence;
+  };
+  EXPECT_THAT(sentence_of(count), testing::HasSubstr("counts the samples, and none is missing"));
+  for (std::size_t i = 50; i < count.size(); ++i) count[i] += i < 90 ? 2. : 5.;
+  EXPECT_THAT(sentence_of(count),
+              testing::AllOf(testing::HasSubstr("5 are missing"), testing::HasSubstr("*5e-04'")));
+  for (double& x : count) x *= 1e-3;
+  EXPECT_THAT(sentence_of(count), testing::HasSubstr("never falls")) << "a time";
 }
 
 TEST(ChannelFacts, AreThoseOfAKnownSignal) {

@@ -47,11 +47,12 @@ TEST(NonlinearBvrm, IsReadBackAsItWasWritten) {
   std::filesystem::remove(file);
 }
 
-// A motion so small that all but the slope of the friction vanishes.
+// A motion so small that all but the slope of the friction and a linear spring vanishes.
 TEST(NonlinearBvrm, IsLinearAtSmallAmplitude) {
   for (const LawReadout readout : {LawReadout::moment, LawReadout::deflection}) {
     NonlinearBvrm model = joint_of_three_terms();
     model.readout = readout;
+    model.law.push_back({.kind = LawKind::monomial, .coefficient = 5e3, .deflection_power = 1});
     test::Signal input = test::white_noise(2000, 1e-6, 1);
     const test::Signal expected =
         simulate(at_small_amplitude(model), input, 500., Hold::first_order);

@@ -163,6 +163,33 @@ TEST(RingDown, LongOfHundredAndTwentySensors) {
   RecordProperty("laws", n.laws);
 }
 
+// Of two laws with equal criterion, half of their squared distance adds to the variance.
+TEST(RingDown, StatesWhatAnotherLawWouldSay) {
+  const Released sensor{.hz = 30., .damping = 0.02, .noise = 0.004};
+  const std::vector<double> moment = sensor.record(1., Released::duration_s, 5);
+  DecayMoments pieces{moment};
+  GrownLaw grown = grow_law(sensor.hz, sensor.rate_hz, pieces);
+  const auto points = [&] { return points_of(grown, 0, Released::duration_s, sensor.noise, 5); };
+  grown.others.clear();
+  const std::vector<DecayPoint> alone = points();
+  FittedDecay other = grown.fit;
+  for (Eigen::Index i = 0; i < other.parameters.size(); ++i)
+    other.parameters[i] += 5. * std::sqrt(other.covariance(i, i));
+  grown.others = {other};
+  const std::vector<DecayPoint> both = points();
+  ASSERT_EQ(both.size(), alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    const DecayPoint moved =
+        points_of(FittedCurve{other, 0, Released::duration_s}, {std::log(alone[i].amplitude_n_m)})
+            .at(0);
+    const double step = moved.damping_ratio.value - alone[i].damping_ratio.value;
+    ASSERT_GT(std::abs(step), 2. * alone[i].damping_ratio.standard_deviation);
+    const double expected =
+        std::hypot(alone[i].damping_ratio.standard_deviation, step / std::sqrt(2.));
+    EXPECT_NEAR(both[i].damping_ratio.standard_deviation, expected, 0.01 * expected);
+  }
+}
+
 TEST(RingDown, TellsASpringThatStiffens) {
   const Released sensor{.cubic = 0.2, .noise = 0.002};
   const RingDown found = identify_ring_down(

@@ -29,6 +29,13 @@ TEST(HitBlocks, FindsEachHitAndTellsItsBlockApart) {
   EXPECT_EQ(blocks[1].end, 10000u);
 }
 
+TEST(HitBlocks, PartsInTheMiddleWhereTheFirstHitComesLate) {
+  const auto blocks = hit_blocks(struck(8000, {3000, 5000}));
+  ASSERT_EQ(blocks.size(), 2u);
+  EXPECT_EQ(blocks[0].end, 4000u);
+  EXPECT_EQ(blocks[1].first, 4000u);
+}
+
 TEST(HitBlocks, KeepsThePulseAndDropsWhatIsBetween) {
   const test::Signal x = struck(4096, {500});
   const auto pulses = pulses_of(x);
@@ -40,6 +47,10 @@ TEST(HitBlocks, KeepsThePulseAndDropsWhatIsBetween) {
 TEST(HitBlocks, CallsNoOtherDriveAHit) {
   EXPECT_THAT(hits_of(test::white_noise(4096, 1., 2)), IsEmpty());
   EXPECT_THAT(hits_of(test::Lines(1., 60., 30, 3).sample(4096, test::rate_hz)), IsEmpty());
+  test::Signal mostly_hit = struck(4096, {500});
+  const test::Signal steady = test::white_noise(4096, 0.05, 4);
+  for (std::size_t i = 0; i < steady.size(); ++i) mostly_hit[i] += steady[i];
+  EXPECT_THAT(hits_of(mostly_hit), IsEmpty()) << "the drive goes on at a fifth of its power";
   EXPECT_THAT(hits_of(test::Signal(4096, 1.)), IsEmpty());
   EXPECT_THAT(hits_of(test::Signal(10, 1.)), IsEmpty());
 }

@@ -158,19 +158,53 @@ TEST(Verdict, TakesThePeakBetweenTwoLinesForAFrequencyWithoutDamping) {
   EXPECT_THAT(verdict.sentence, StartsWith("Not usable as a model, only for the frequencies"));
 }
 
-// An analyser's coherence falls where the drive ends.
-TEST(Verdict, GoesByTheCoherenceOfAResponse) {
+// One record in a hundred is expected; segments that overlap are no independent ones.
+TEST(CoherentLines, AreInOneUnrelatedRecordOfAHundred) {
+  std::size_t n_records = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed)
+    n_records += !coherent_lines(make_record(test::white_noise(4096, 1., seed),
+                                             test::white_noise(4096, 1., 1000 + seed)))
+                      ->lines.empty();
+  EXPECT_LE(n_records, 10u);
+  EXPECT_NEAR(coherence_limit(1, 2.), 0.99, 1e-12) << "one line, a line through two points";
+}
+
+// An analyser's coherence falls where the drive ends; the lines there are noise.
+TEST(Verdict, GoesByTheLinesThatAModelWeightedByCoherenceExplains) {
   signals::FrequencyResponse response =
       at_lines_of_an_analyser({.modes = {make_modal_term(212., 0.02, 30.)}});
-  for (const double f : response.frequency_hz) response.coherence.push_back(f < 250. ? 0.99 : 0.1);
+  std::mt19937_64 random(10);
+  std::normal_distribution<double> normal;
+  for (std::size_t i = 0; i < response.value.size(); ++i) {
+    const bool is_driven = response.frequency_hz[i] < 250.;
+    response.coherence.push_back(is_driven ? 0.99 : 0.1);
+    const double noise = is_driven ? 0.07 : 2.1;  // sqrt((1 - g2) / (2 g2)) of the value
+    response.value[i] +=
+        noise * std::abs(response.value[i]) * std::complex(normal(random), normal(random));
+  }
   IdentifiedResponse found;
   found.fit = known_fit({make_modal_term(212., 0.02, 30.), make_modal_term(290., 0.02, 1.)}, 0.01);
   const Verdict verdict = judge(found, response);
-  EXPECT_NEAR(verdict.band.high_hz, 250., 0.4);
+  EXPECT_NEAR(verdict.band.high_hz, 250., 2.);
   EXPECT_THAT(verdict.determined, ElementsAre(0u));
-  EXPECT_THAT(verdict.sentence, HasSubstr("median 0.99; at most 0.5 at 160 of 640 lines"));
+  EXPECT_THAT(verdict.sentence, HasSubstr("Coherence of the file: median 0.99"));
   response.coherence.clear();
   EXPECT_THAT(judge(found, response).determined, ElementsAre(0u, 1u));
+}
+
+// After many averages lines of low coherence are known well.
+TEST(Verdict, TakesAPeakThatIsClearAtLowCoherence) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  signals::FrequencyResponse response =
+      at_lines_of_an_analyser({.modes = {make_modal_term(212.1, 8e-4, 30.)}});
+  for (auto& value : response.value) {
+    value += 2. * std::complex(normal(random), normal(random));
+    response.coherence.push_back(response.coherence.size() < 20 ? 0.55 : 0.33);
+  }
+  const Verdict verdict = judge(identify_response(response, {.order = 2}), response);
+  ASSERT_EQ(verdict.frequency_only.size(), 1u);
+  EXPECT_GT(verdict.band.high_hz, 213.);
 }
 
 TEST(Verdict, NamesTheBandOfAHitAndTheLinesOfAResponse) {

@@ -195,6 +195,23 @@ TEST_F(ResponseDataset, WithUnknownWordsIsRefused) {
                  "Known: moment, rotation, deflection, velocity, acceleration");
 }
 
+TEST_F(ResponseDataset, FindsColumnsByTheNamesThatTheFileHas) {
+  for (const auto& [in_file, name] : {std::pair<std::string, std::string>{"v[m/s]", "v[m/s]"},
+                                      {"v[m/s]", "v"},
+                                      {"v[raw]", "v[raw]"},
+                                      {"v*2", "v*2"}}) {
+    std::string text = amplitudes(resonance());
+    text.replace(text.find("x_um"), 4, in_file);
+    folder_.file("a.csv", text);
+    const DatasetResponse response =
+        only(R"({"kind": "response", "file": "a.csv", "response_of": "velocity",
+      "values": "amplitude", "columns": {"magnitude": ")" +
+             name + R"(", "phase": "phase_deg"}, "drive": {"level": 0.98}})");
+    const double expected = 1e6 * level * std::abs(resonance()[5].value);  // as it is printed
+    EXPECT_NEAR(std::abs(response.value.at(5)), expected, 1e-5 * expected) << name;
+  }
+}
+
 TEST_F(ResponseDataset, IsRefusedByThoseWhoDoNotUseResponses) {
   folder_.file("a.csv", amplitudes(resonance()));
   read(entry("a.csv"));

@@ -25,11 +25,12 @@ struct Device {
   std::size_t n = 10000;
   double jitter_periods = 0.;  // standard deviation
   double lost_share = 0.;
-  std::size_t packet = 1;  // samples that share one stamp
-  std::size_t burst = 1;   // samples stamped quickly one after the other when they are read
-  double drift = 0.;       // relative change of the rate over the record
-  double unit_s = 1e-6;    // of the stamps, which are whole numbers
-  double range = 0.;       // of the counter, in units; 0: it does not wrap
+  std::size_t packet = 1;   // samples that share one stamp
+  std::size_t burst = 1;    // samples stamped quickly one after the other when they are read
+  double drift = 0.;        // relative change of the rate over the record
+  double unit_s = 1e-6;     // of the stamps, which are whole numbers
+  double range = 0.;        // of the counter, in units; 0: it does not wrap
+  double burst_step = 0.1;  // between stamps of a burst, in periods
   unsigned seed = 1;
 };
 
@@ -58,9 +59,10 @@ Stamps stamps_of(const Device& device) {
     }
     if (begins || device.packet == 1) jitter = device.jitter_periods * normal(random);
     const std::size_t read_at = k / group * group + group - 1;
-    const double sample = device.packet > 1  ? double(read_at)
-                          : device.burst > 1 ? double(read_at) + 0.1 * double(k % group)
-                                             : double(k);
+    const double sample = device.packet > 1 ? double(read_at)
+                          : device.burst > 1
+                              ? double(read_at) + device.burst_step * double(k % group)
+                              : double(k);
     const double turned = sample * (1. + device.drift * (sample / double(device.n) - 1.) / 2.);
     double ticks = std::round((10. + (turned + jitter) * period_s) / device.unit_s);
     if (device.range > 0.) ticks = std::fmod(ticks, device.range);
@@ -196,6 +198,45 @@ TEST(Clock, TakesBurstsOfABufferAtTheirMeanRate) {
   EXPECT_LT(clock.rate_error_hz, 5e-3 * clock.sampling_rate_hz);
   EXPECT_EQ(clock.pieces.size(), 1u);
   EXPECT_THAT(clock.words, HasSubstr("bursts"));
+}
+
+// A buffer that is read whenever it is full: its stamps stay at a line, which tells the rate.
+TEST(Clock, TakesFullBuffersAtTheRateOfTheLineThroughTheirStamps) {
+  for (std::size_t burst = 4; burst <= 16; ++burst)
+    for (const double step : {0.02, 0.1})
+      for (const double rate_hz : {232.9, 487., 1185.6}) {
+        const Device device{.rate_hz = rate_hz, .burst = burst, .burst_step = step};
+        const Clock clock = clock_of(stamps_of(device), device.unit_s);
+        EXPECT_NEAR(clock.sampling_rate_hz, rate_hz, 3. * clock.rate_error_hz) << clock.words;
+        EXPECT_LT(clock.rate_error_hz, 2e-5 * rate_hz) << clock.words;
+        EXPECT_EQ(clock.n_lost, 0u) << clock.words;
+      }
+}
+
+// A buffer whose delay wanders over a tenth of the record: a line through its stamps follows the
+// delay, and its error would be stated a third of what it is.
+TEST(Clock, StatesTheErrorOfBurstsWhoseDelayWanders) {
+  constexpr double period_s = 297.5e-6, delay_s = 2e-3;
+  constexpr std::size_t n = 6000, n_draws = 40;
+  TimeDigits digits;
+  digits.see("12.830844");
+  std::mt19937_64 random(1);
+  std::normal_distribution<> normal;
+  const double kept = std::exp(-1. / (0.1 * double(n)));
+  std::size_t n_outside = 0;
+  for (std::size_t draw = 0; draw < n_draws; ++draw) {
+    double late_s = delay_s * normal(random);
+    std::vector<double> times{12.8 + late_s};
+    for (std::size_t i = 1; i < n; ++i) {
+      late_s = kept * late_s + delay_s * std::sqrt(1. - kept * kept) * normal(random);
+      const double due_s = 12.8 + double(i) * period_s + late_s;
+      times.push_back(times.back() + (due_s > times.back() + 4e-4 ? 596e-6 : 198e-6));
+    }
+    const Clock clock = find_clock({.times_s = times, .digits = digits, .file = "r.csv"});
+    EXPECT_THAT(clock.words, HasSubstr("bursts"));
+    n_outside += std::abs(clock.sampling_rate_hz - 1. / period_s) > 3. * clock.rate_error_hz;
+  }
+  EXPECT_LE(n_outside, 3u) << "one in a hundred is expected";
 }
 
 TEST(Clock, TakesIntervalsInPlaceOfTimes) {
