@@ -42,9 +42,9 @@ class Reduction {
     }
   }
 
-  /// Does a fit predict records that no fit has seen better than one with fewer effects?
-  bool predicts_better(const std::size_t whole, const std::size_t fewer) {
-    return &scored_ != &fitted_ && error_power(fewer) - error_power(whole) > any_error();
+  /// Does a fit predict records that no fit has seen better than another one?
+  bool predicts_better(const std::size_t fit, const std::size_t than) {
+    return &scored_ != &fitted_ && error_power(than) - error_power(fit) > any_error();
   }
 
   /// The calibration parameters that close a part of the gap and are not dispensable (nominal, all
@@ -192,7 +192,8 @@ class Reduction {
       if (found == known_.end()) continue;
       const double noise = is_predictable(*effect) ? 0. : noise_power(fit, *effect),
                    need = need_of(fit, found->second, noise);
-      if (need >= least || closes_in_company(fit, *effect)) continue;
+      if (need >= least) continue;
+      if (closes_in_company(fit, *effect) && !predicts_better(found->second, fit)) continue;
       least = need;
       best = found->second;
     }

@@ -92,6 +92,33 @@ TEST_F(NamedAnswers, HoldTheCalibrationsThatMoved) {
   EXPECT_EQ(named({of({})}).front().name, "stiffness");
 }
 
+TEST_F(NamedAnswers, LeaveOutAnEffectWithoutWhichUnseenRecordsArePredictedBetter) {
+  test::OneModeRig rig = test::noisy_rig();
+  rig.stiffness = 0.8;
+  measure(rig);
+  SearchResult result;
+  for (const Hypothesis& hypothesis : {of({"softening_history"}), of({})}) {
+    result.candidates.push_back({.name = hypothesis.name(),
+                                 .fit = result.fits.size(),
+                                 .calibrations = {},
+                                 .probability = result.fits.empty() ? 0.99 : 0.01});
+    result.fits.push_back(fit_hypothesis(fit_records_, hypothesis));
+  }
+  HypothesisFit& softened = result.fits.front();
+  const auto set = [&](const std::string& id, const std::string& name, const double value) {
+    for (std::size_t i = 0; i < softened.fit_parameters.size(); ++i) {
+      const FitParameter& parameter = softened.fit_parameters[i];
+      if (parameter.effect == &find_effect(id) && parameter.description.name == name)
+        softened.x(static_cast<Eigen::Index>(i)) = std::log(value);
+    }
+  };
+  set("softening_history", "softening", 0.08);
+  set("softening_history", "level", 0.02);
+  set("stiffness", "ratio", 0.84);
+  name_answers(result, fit_records_, fit_as_measured_, held_out_);
+  EXPECT_EQ(result.candidates.front().name, "stiffness");
+}
+
 TEST_F(NamedAnswers, KnowNoUnknownCauseWhereRecalibrationLeavesNothing) {
   measure(test::noisy_rig());
   EXPECT_EQ(named({Hypothesis::discrepancy(), of({})}).front().name, "none");
