@@ -44,7 +44,7 @@ class Reduction {
 
   /// Does a fit predict records that no fit has seen better than another one?
   bool predicts_better(const std::size_t fit, const std::size_t than) {
-    return &scored_ != &fitted_ && error_power(than) - error_power(fit) > any_error();
+    return gain_on_unseen(fit, than) > any_error();
   }
 
   /// The calibration parameters that close a part of the gap and are not dispensable (nominal, all
@@ -110,6 +110,10 @@ class Reduction {
   }
 
  private:
+  /// Error power of another fit that this one does not leave in records that no fit has seen.
+  double gain_on_unseen(const std::size_t fit, const std::size_t than) {
+    return &scored_ == &fitted_ ? 0. : error_power(than) - error_power(fit);
+  }
   /// Mean square error relative to the measured moment, in the scored records.
   double error_power(std::size_t fit) { return error_power(fit, scored_); }
   double error_power(std::size_t fit, const Experiment& records) {
@@ -193,7 +197,9 @@ class Reduction {
       const double noise = is_predictable(*effect) ? 0. : noise_power(fit, *effect),
                    need = need_of(fit, found->second, noise);
       if (need >= least) continue;
-      if (closes_in_company(fit, *effect) && !predicts_better(found->second, fit)) continue;
+      if (closes_in_company(fit, *effect) &&
+          gain_on_unseen(found->second, fit) <= std::pow(experiment_.simulation_accuracy, 2))
+        continue;
       least = need;
       best = found->second;
     }
