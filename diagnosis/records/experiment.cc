@@ -265,6 +265,36 @@ Scales scales_of(const Experiment& experiment) {
   return scales;
 }
 
+/// Why a record cannot be compared with the simulation.
+std::string why_not_comparable(const NominalModel& nominal, const DatasetRecord& entry) {
+  const std::size_t n = entry.record.n_samples(), fewest = fewest_samples(nominal, entry);
+  if (!is_simulated(entry.setup)) return "its setup cannot be simulated";
+  if (n < fewest)
+    return "it has " + std::to_string(n) + " samples and needs " + std::to_string(fewest) +
+           ", because the first mode of the simulation decays slowly";
+  if (entry.excitation.base && !entry.record.has(channel::base_acceleration))
+    return "base_acceleration_m_s2 is not measured";
+  if (entry.excitation.base && !nominal.has_base) return "the simulation tells no base response";
+  if (entry.excitation.wind && !entry.record.has(channel::wind_speed))
+    return "wind_speed_m_s is not measured";
+  if (entry.excitation.wind && !nominal.has_wind) return "the simulation tells no wind response";
+  return "neither base nor wind moves";
+}
+
+[[noreturn]] void refuse_all(const NominalModel& nominal, const signals::Dataset& dataset) {
+  constexpr std::size_t n_listed = 3;
+  std::string text = "no record can be compared with the simulation";
+  std::size_t n = 0;
+  for (const DatasetRecord& entry : dataset.records) {
+    if (entry.split != signals::Split::fit || n == n_listed) continue;
+    ++n;
+    text += (n == 1 ? ": " : "; ") + entry.name + ": " + why_not_comparable(nominal, entry);
+  }
+  throw signals::UserError(text +
+                           ". Give a fit record that is long enough and whose excitation is "
+                           "measured and simulated");
+}
+
 }  // namespace
 
 std::size_t fewest_samples(const NominalModel& nominal, const DatasetRecord& entry) {
@@ -356,9 +386,7 @@ Experiment prepare_experiment(const UpdatedModel& simulation, const signals::Dat
   }
   add_responses(experiment, dataset, split);
   if (!experiment.has_base && !experiment.has_wind && split == signals::Split::fit)
-    throw signals::UserError(
-        "no record can be compared with the simulation: give a fit record that is long enough and "
-        "whose excitation is measured and simulated");
+    refuse_all(nominal, dataset);
   experiment.scales = scales_of(experiment);
   if (experiment.moment_noise <= 0.)
     experiment.moment_noise = 1e-3 * experiment.scales.moment_rms_n_m;

@@ -175,5 +175,29 @@ TEST(PrepareExperiment, LeavesOutRecordsThatAreTooShort) {
   EXPECT_EQ(fewest_samples(nominal, dataset.records[1]), 0u);
 }
 
+TEST(PrepareExperiment, SaysWhyNoRecordCanBeCompared) {
+  const NominalModel nominal = test::nominal_of(test::OneModeRig{}, false);
+  const signals::Dataset all = test::rig_dataset(test::noisy_rig());
+  signals::Dataset dataset;
+  const auto refusal = [&](const NominalModel& simulation) -> std::string {
+    try {
+      prepare_experiment(simulation, dataset, Split::fit, InputNoise::reduced);
+    } catch (const signals::UserError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  dataset.records = {all.records[1]};
+  ASSERT_TRUE(dataset.records[0].excitation.base);
+  EXPECT_EQ(refusal(nominal), "");
+  NominalModel without = nominal;
+  without.has_base = false;
+  EXPECT_THAT(refusal(without), testing::HasSubstr("the simulation tells no base response"));
+  dataset.records[0].period_samples = 0;
+  const std::size_t fewest = fewest_samples(nominal, dataset.records[0]);
+  dataset.records[0].record = dataset.records[0].record.slice(0, fewest - 1);
+  EXPECT_THAT(refusal(nominal), testing::HasSubstr("samples and needs " + std::to_string(fewest)));
+}
+
 }  // namespace
 }  // namespace vibrissa::diagnosis
