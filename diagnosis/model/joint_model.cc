@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 #include <unsupported/Eigen/MatrixFunctions>
 
 namespace vibrissa::diagnosis {
@@ -22,6 +23,7 @@ JointModel::JointModel(const StructuralMode& mode, const double joint_share,
 }
 
 JointModel JointModel::dynamic() const {
+  assert(torque_share == 1. && "already dynamic");
   JointModel model = *this;
   for (const HigherMode& mode : above) model.torque_share -= mode.share;
   model.share = std::min(share / model.torque_share, most_share);

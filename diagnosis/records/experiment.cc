@@ -265,10 +265,11 @@ Scales scales_of(const Experiment& experiment) {
   return scales;
 }
 
-/// Why a record cannot be compared with the simulation.
-std::string why_not_comparable(const NominalModel& nominal, const DatasetRecord& entry) {
-  const std::size_t n = entry.record.n_samples(), fewest = fewest_samples(nominal, entry);
+/// Why a record cannot be compared with the simulation; nothing where it can.
+std::optional<std::string> why_not_comparable(const NominalModel& nominal,
+                                              const DatasetRecord& entry) {
   if (!is_simulated(entry.setup)) return "its setup cannot be simulated";
+  const std::size_t n = entry.record.n_samples(), fewest = fewest_samples(nominal, entry);
   if (n < fewest)
     return "it has " + std::to_string(n) + " samples and needs " + std::to_string(fewest) +
            ", because the first mode of the simulation decays slowly";
@@ -278,7 +279,7 @@ std::string why_not_comparable(const NominalModel& nominal, const DatasetRecord&
   if (entry.excitation.wind && !entry.record.has(channel::wind_speed))
     return "wind_speed_m_s is not measured";
   if (entry.excitation.wind && !nominal.has_wind) return "the simulation tells no wind response";
-  return "neither base nor wind moves";
+  return std::nullopt;
 }
 
 [[noreturn]] void refuse_all(const NominalModel& nominal, const signals::Dataset& dataset) {
@@ -288,7 +289,8 @@ std::string why_not_comparable(const NominalModel& nominal, const DatasetRecord&
   for (const DatasetRecord& entry : dataset.records) {
     if (entry.split != signals::Split::fit || n == n_listed) continue;
     ++n;
-    text += (n == 1 ? ": " : "; ") + entry.name + ": " + why_not_comparable(nominal, entry);
+    text += (n == 1 ? ": " : "; ") + entry.name + ": " +
+            why_not_comparable(nominal, entry).value_or("neither base nor wind moves");
   }
   throw signals::UserError(text +
                            ". Give a fit record that is long enough and whose excitation is "
@@ -307,11 +309,7 @@ bool is_simulated(const signals::BenchSetup& setup) {
 }
 
 bool is_comparable(const NominalModel& nominal, const DatasetRecord& entry) {
-  if (!is_simulated(entry.setup) || entry.record.n_samples() < fewest_samples(nominal, entry))
-    return false;
-  const bool base_known = nominal.has_base && entry.record.has(channel::base_acceleration);
-  const bool wind_known = nominal.has_wind && entry.record.has(channel::wind_speed);
-  return (!entry.excitation.base || base_known) && (!entry.excitation.wind || wind_known);
+  return !why_not_comparable(nominal, entry);
 }
 
 std::size_t PreparedRecord::block_length() const {
